@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A solid ellipsoid in space.
+///
+/// Frame and conventions, here and everywhere in geometry: a right-handed Cartesian frame; lengths
+/// in any one unit; semi-axes in any order; the orientation is a quaternion (w, x, y, z) that is
+/// not zero and *not necessarily normalised: it means the rotation R(q/|q|) exactly*, so that the
+/// solid is determined by the stored doubles and every yes/no question about it has one answer.
+/// R turns body coordinates into space coordinates.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <stdexcept>
+
+#include <tangency/geometry/floating_point.hpp>
+
+namespace tangency {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+/// What is wrong with the numbers of a would-be ellipsoid: the first offending field by its name
+/// in the file formats ("x" "y" "z" "r1" "r2" "r3" "qw" "qx" "qy" "qz"), its value, and the rule.
+struct EllipsoidFault {
+  const char* field;
+  double value;
+  const char* rule;
+};
+
+/// Thrown by the constructor of Ellipsoid; what() reads "r2 = -1: a semi-axis must be ...".
+class InvalidEllipsoid : public std::invalid_argument {
+ public:
+  explicit InvalidEllipsoid(const EllipsoidFault& fault);
+  const EllipsoidFault& fault() const noexcept { return fault_; }
+
+ private:
+  EllipsoidFault fault_;
+};
+
+/// A solid ellipsoid { c + R diag(a) y : |y| <= 1 }.
+///
+/// (1) contains(centre()) is true.
+/// (2) support(s n) = |s| support(n).
+/// (3) support(n) = n . support_point(n), for every n other than 0.
+/// (4) A turn by a half about a body axis, the quaternion's sign or power-of-two length, and a
+///     permutation of semi-axes with the matching turn leave the solid as it is.
+class Ellipsoid {
+ public:
+  /// @param centre       finite
+  /// @param semi_axes    finite and > 0, in any order
+  /// @param orientation  finite, not zero, of any length
+  /// @throws InvalidEllipsoid  naming the first field that breaks its rule
+  Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
+            const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
+
+  /// The same checks as the constructor's, without an exception: nothing where it would succeed.
+  static std::optional<EllipsoidFault> find_fault(const Vec3& centre, const Vec3& semi_axes,
+                                                  const Eigen::Quaterniond& orientation) noexcept;
+
+  const Vec3& centre() const noexcept { return centre_; }
+  const Vec3& semi_axes() const noexcept { return semi_axes_; }
+  /// As given to the constructor.
+  const Eigen::Quaterniond& orientation() const noexcept { return orientation_; }
+  /// R(q/|q|), each entry within 8 u of its true value (u = 2^-53).
+  const Mat3& rotation() const noexcept { return rotation_; }
+  double largest_semi_axis() const noexcept { return semi_axes_.maxCoeff(); }
+  double smallest_semi_axis() const noexcept { return semi_axes_.minCoeff(); }
+
+  /// The same solid elsewhere, sharing the work of the constructor.
+  /// @param centre  finite (asserted)
+  Ellipsoid moved_to(const Vec3& centre) const noexcept;
+
+  /// Support function h(n) = max over points p of the solid of n . (p - centre()); n of any length.
+  double support(const Vec3& n) const noexcept;
+
+  /// The point where that maximum is reached, relative to the centre. Requires n != 0.
+  Vec3 support_point(const Vec3& n) const noexcept;
+
+  /// Value of the level function |diag(1/a) R' (p - c)|^2: below 1 inside, above 1 outside, up to
+  /// rounding.
+  double level(const Vec3& point) const noexcept;
+
+  /// Is the point in the closed solid (up to rounding of level())?
+  bool contains(const Vec3& point) const noexcept { return level(point) <= 1.0; }
+
+  /// The smallest axis-aligned box around the solid, up to rounding.
+  Eigen::AlignedBox3d bounding_box() const noexcept;
+
+ private:
+  Vec3 centre_;
+  Vec3 semi_axes_;
+  Eigen::Quaterniond orientation_;
+  Mat3 rotation_;
+};
+
+/// R(q/|q|) for a finite quaternion of any length but 0, each entry within 8 u.
+Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept;
+
+}  // namespace tangency
