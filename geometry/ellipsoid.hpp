@@ -14,7 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include <tangency/geometry/floating_point.hpp>
+#include <tangency/geometry/symmetric3.hpp>
 
 namespace tangency {
 
@@ -65,6 +65,16 @@ class Ellipsoid {
   const Eigen::Quaterniond& orientation() const noexcept { return orientation_; }
   /// R(q/|q|), each entry within 8 u of its true value (u = 2^-53).
   const Mat3& rotation() const noexcept { return rotation_; }
+  /// M = R diag(a^2) R', which is (x - c)' M^-1 (x - c) <= 1 as a solid, rounded. Like adjugate and
+  /// determinant it overflows or underflows unless moderate().
+  const Symmetric3& shape() const noexcept { return shape_; }
+  /// J = adj M = R diag(a2^2 a3^2, a3^2 a1^2, a1^2 a2^2) R', rounded.
+  const Symmetric3& shape_adjugate() const noexcept { return shape_adjugate_; }
+  /// det M = (a1 a2 a3)^2, rounded.
+  double shape_determinant() const noexcept { return shape_determinant_; }
+  /// Are all semi-axes within [2^-60, 2^60], so that products of up to ten of them and squares of
+  /// distances as moderate neither overflow nor underflow?
+  bool moderate() const noexcept { return moderate_; }
   double largest_semi_axis() const noexcept { return semi_axes_.maxCoeff(); }
   double smallest_semi_axis() const noexcept { return semi_axes_.minCoeff(); }
 
@@ -93,6 +103,10 @@ class Ellipsoid {
   Vec3 semi_axes_;
   Eigen::Quaterniond orientation_;
   Mat3 rotation_;
+  Symmetric3 shape_;
+  Symmetric3 shape_adjugate_;
+  double shape_determinant_;
+  bool moderate_;
 };
 
 /// R(q/|q|) for a finite quaternion of any length but 0, each entry within 8 u.

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/ellipsoid.hpp>
+
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace tangency {
+namespace {
+
+std::string describe(const EllipsoidFault& fault) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, fault.value).ptr;
+  return std::string(fault.field) + " = " + std::string(digits, end) + ": " + fault.rule;
+}
+
+/// R diag(e) R'
+Symmetric3 with_eigenvalues(const Mat3& r, const Vec3& e) {
+  const auto entry = [&](int i, int j) {
+    return r(i, 0) * e[0] * r(j, 0) + r(i, 1) * e[1] * r(j, 1) + r(i, 2) * e[2] * r(j, 2);
+  };
+  return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(2, 0), entry(0, 1)};
+}
+
+constexpr double kModerateLargest = 0x1p60;    // Ellipsoid::moderate(): chosen so that a^10 d^2, the
+constexpr double kModerateSmallest = 0x1p-60;  // largest product formed, stays below 2^1023
+
+}  // namespace
+
+InvalidEllipsoid::InvalidEllipsoid(const EllipsoidFault& fault)
+    : std::invalid_argument(describe(fault)), fault_(fault) {}
+
+std::optional<EllipsoidFault> Ellipsoid::find_fault(
+    const Vec3& centre, const Vec3& semi_axes, const Eigen::Quaterniond& orientation) noexcept {
+  static constexpr const char* kCentre[] = {"x", "y", "z"};
+  static constexpr const char* kAxes[] = {"r1", "r2", "r3"};
+  static constexpr const char* kOrientation[] = {"qw", "qx", "qy", "qz"};
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(centre[i])) {
+      return EllipsoidFault{kCentre[i], centre[i], "a centre must be finite"};
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(semi_axes[i]) || !(semi_axes[i] > 0.0)) {
+      return EllipsoidFault{kAxes[i], semi_axes[i], "a semi-axis must be finite and > 0"};
+    }
+  }
+  const double q[] = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
+  constexpr const char* rule = "an orientation must be finite and not all 0";
+  for (int i = 0; i < 4; ++i) {
+    if (!std::isfinite(q[i])) return EllipsoidFault{kOrientation[i], q[i], rule};
+  }
+  if (q[0] == 0.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0) {
+    return EllipsoidFault{"qw", q[0], rule};
+  }
+  return std::nullopt;
+}
+
+Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
+  // A power of two brings the largest component to [1, 2), so that squares stay in range.
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  const int exponent = std::ilogb(largest);
+  const double w = std::scalbn(q.w(), -exponent), x = std::scalbn(q.x(), -exponent);
+  const double y = std::scalbn(q.y(), -exponent), z = std::scalbn(q.z(), -exponent);
+  const double s = 2.0 / (w * w + x * x + y * y + z * z);
+  return (Mat3() << 1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (z * x + w * y),  //
+          s * (x * y + w * z), 1.0 - s * (z * z + x * x), s * (y * z - w * x),            //
+          s * (z * x - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y))
+      .finished();
+}
+
+Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
+                     const Eigen::Quaterniond& orientation)
+    : centre_(centre), semi_axes_(semi_axes), orientation_(orientation) {
+  if (const auto fault = find_fault(centre, semi_axes, orientation)) throw InvalidEllipsoid(*fault);
+  rotation_ = rotation_of(orientation);
+  const Vec3 a2 = semi_axes.cwiseAbs2();
+  shape_ = with_eigenvalues(rotation_, a2);
+  shape_adjugate_ =
+      with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
+  shape_determinant_ = a2[0] * a2[1] * a2[2];
+  moderate_ = semi_axes.maxCoeff() <= kModerateLargest && semi_axes.minCoeff() >= kModerateSmallest;
+}
+
+Ellipsoid Ellipsoid::moved_to(const Vec3& centre) const noexcept {
+  assert(centre.allFinite());
+  Ellipsoid moved = *this;
+  moved.centre_ = centre;
+  return moved;
+}
+
+double Ellipsoid::support(const Vec3& n) const noexcept {
+  return semi_axes_.cwiseProduct(rotation_.transpose() * n).stableNorm();
+}
+
+Vec3 Ellipsoid::support_point(const Vec3& n) const noexcept {
+  assert(n != Vec3::Zero());
+  const Vec3 y = semi_axes_.cwiseProduct(rotation_.transpose() * n).stableNormalized();
+  return rotation_ * semi_axes_.cwiseProduct(y);
+}
+
+double Ellipsoid::level(const Vec3& point) const noexcept {
+  return (rotation_.transpose() * (point - centre_)).cwiseQuotient(semi_axes_).squaredNorm();
+}
+
+Eigen::AlignedBox3d Ellipsoid::bounding_box() const noexcept {
+  const Mat3 factor = rotation_ * semi_axes_.asDiagonal();
+  const Vec3 half(factor.row(0).stableNorm(), factor.row(1).stableNorm(),
+                  factor.row(2).stableNorm());
+  return {centre_ - half, centre_ + half};
+}
+
+}  // namespace tangency

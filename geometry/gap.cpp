@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/gap.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <tangency/geometry/methods/gap_factored.hpp>
+#include <tangency/geometry/methods/gap_newton.hpp>
+
+namespace tangency {
+namespace {
+
+using methods::FactoredPair;
+using methods::GapAt;
+using methods::Stationary;
+
+constexpr double kUnitRoundoff = 0x1p-53;
+constexpr double kRounding = 16.0 * kUnitRoundoff;  // twice the error of a value, per size of pair
+constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
+
+double size_of(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+  return d.norm() + a.largest_semi_axis() + b.largest_semi_axis();
+}
+
+/// The least radius of curvature of a body's surface.
+double least_radius(const Ellipsoid& body) {
+  const double smallest = body.smallest_semi_axis();
+  return smallest * (smallest / body.largest_semi_axis());
+}
+
+bool is_sphere(const Ellipsoid& body) {
+  const Vec3& a = body.semi_axes();
+  return a[0] == a[1] && a[1] == a[2];
+}
+
+/// Value and points at a normal. A stationary normal with gap > -rho is the global answer: a ball of
+/// radius rho rolls inside A + (-B), so that no other normal reaches as far (docs/guide.md).
+Gap stationary_answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) {
+  const GapAt at = methods::gap_at(a, b, d, normal);
+  const double rho = least_radius(a) + least_radius(b);
+  const bool light = at.gap - kRounding * size_of(a, b, d) > -rho;
+  return {at.gap, normal, at.arm_a, at.arm_b, light ? GapStatus::ok : GapStatus::local};
+}
+
+/// Two spheres: n along d; A's first body axis where the centres coincide.
+Gap sphere_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+  const Vec3 n = d == Vec3::Zero() ? Vec3(a.rotation().col(0)) : Vec3(d.stableNormalized());
+  const double ra = a.semi_axes()[0], rb = b.semi_axes()[0];
+  return {d.stableNorm() - ra - rb, n, ra * n, -rb * n, GapStatus::ok};
+}
+
+/// The best of the ascents from the Perram-Wertheim normal and from the six axes.
+Gap search(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+  const FactoredPair pair(a, b, d);
+  Gap best{-std::numeric_limits<double>::infinity(), a.rotation().col(0), {}, {},
+           GapStatus::not_converged};
+  // A later start replaces an earlier one by more than rounding only: ties go to the first.
+  const auto consider = [&](const Vec3& start) {
+    const Stationary found = pair.climb(start);
+    if (!found.accepted) return;
+    const Gap answer = stationary_answer(a, b, d, found.normal);
+    if (answer.gap > best.gap + kRounding * pair.size()) best = answer;
+  };
+  if (d != Vec3::Zero()) consider(pair.perram_wertheim_normal());
+  for (int i = 0; i < 6 && best.status != GapStatus::ok; ++i) consider(pair.axis(i));
+  return best;
+}
+
+/// The pair in units of 2^exponent. A semi-axis below 2^-1022 of the largest length is made as long
+/// as that, which is less than any rounding.
+Ellipsoid scaled(const Ellipsoid& body, int exponent) {
+  const Vec3 axes = body.semi_axes().unaryExpr([&](double axis) {
+    return std::max(std::scalbn(axis, -exponent), std::numeric_limits<double>::min());
+  });
+  return {Vec3::Zero(), axes, body.orientation()};
+}
+
+/// Calls `solve` with the pair itself or, where its size could overflow or underflow on the way, with
+/// the pair in units of a power of two.
+template <class Solve>
+Gap in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Solve& solve) {
+  const double largest =
+      std::max({d.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
+  if (largest <= kLargest && largest >= kSmallest) return solve(a, b, d);
+  const int exponent = std::ilogb(largest);
+  const auto unscale = [&](double x) { return std::scalbn(x, exponent); };
+  const Vec3 scaled_d = d.unaryExpr([&](double x) { return std::scalbn(x, -exponent); });
+  Gap gap = solve(scaled(a, exponent), scaled(b, exponent), scaled_d);
+  gap.gap = unscale(gap.gap);
+  gap.arm_a = gap.arm_a.unaryExpr(unscale);
+  gap.arm_b = gap.arm_b.unaryExpr(unscale);
+  return gap;
+}
+
+}  // namespace
+
+Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
+  assert(separation.allFinite());
+  return in_range(a, b, separation, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d) {
+    if (is_sphere(pa) && is_sphere(pb)) return sphere_gap(pa, pb, d);
+    if (pa.moderate() && pb.moderate() && d.cwiseAbs().maxCoeff() >= kSmallest) {
+      const Stationary found = methods::newton(pa, pb, d);
+      if (found.accepted) {
+        const Gap gap = stationary_answer(pa, pb, d, found.normal);
+        if (gap.status == GapStatus::ok) return gap;
+      }
+    }
+    return search(pa, pb, d);
+  });
+}
+
+Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return signed_gap(a, b, b.centre() - a.centre());
+}
+
+Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
+               const Vec3& previous_normal) noexcept {
+  assert(separation.allFinite() && previous_normal != Vec3::Zero());
+  const Vec3 start = previous_normal.stableNormalized();
+  return in_range(a, b, separation, [&](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d) {
+    if (is_sphere(pa) && is_sphere(pb)) return sphere_gap(pa, pb, d);
+    if (pa.moderate() && pb.moderate()) {
+      const Stationary found = methods::newton_from(pa, pb, d, start);
+      if (found.accepted) return stationary_answer(pa, pb, d, found.normal);
+    }
+    const Stationary found = FactoredPair(pa, pb, d).climb(start);
+    Gap gap = stationary_answer(pa, pb, d, found.normal);
+    if (!found.accepted) gap.status = GapStatus::not_converged;
+    return gap;
+  });
+}
+
+bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return signed_gap(a, b).gap < 0.0;
+}
+
+}  // namespace tangency

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Comma-separated tables, read and written as a stream in constant memory.
+///
+/// A table is UTF-8 text (a byte-order mark is tolerated): a header line that names the columns, in
+/// any order, then a line a row. Blank lines and lines whose first character is `#` are skipped;
+/// spaces and tabs around cells and CRLF line ends are allowed; cells are never quoted. A line is
+/// shorter than `longest_line` bytes.
+///
+/// (1) Numbers are written so that they read back to the same double.
+/// (2) A number is read correctly rounded, from decimal or from a hex float.
+/// (3) Whatever is refused is refused with one Error that names file, line, column, value and rule.
+///
+/// Reading is cut in two for threads: Reader::read hands out blocks of whole lines, one caller at a
+/// time; a RowCursor a thread then splits and parses the rows of a block. One thread alone uses
+/// for_each_row().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tangency::csv {
+
+/// What standard input is called in messages.
+inline constexpr std::string_view standard_input_name = "<stdin>";
+
+/// The most bytes that a line may have; chosen: a thousand columns fit many times over.
+inline constexpr std::size_t longest_line = std::size_t{1} << 20;
+
+/// What was refused, where, and what is allowed. Empty and 0 mean "does not apply".
+struct Fault {
+  std::string file{};
+  std::size_t line = 0;  ///< from 1
+  std::string column{};
+  std::string value{};  ///< as it stands in the file
+  std::string rule{};
+};
+
+/// Refused input or a failed read or write. what() is one line, `pairs.csv:17: a.r2 = -1: a
+/// semi-axis must be finite and > 0`, in which control characters show as `?` and a long value is
+/// cut short.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(Fault fault);
+  const Fault& fault() const noexcept { return fault_; }
+
+ private:
+  Fault fault_;
+};
+
+/// Reads a whole cell without spaces around it: [sign] digits with point and exponent, or a hex
+/// float such as 0x1.8p+3. Returns nothing on success, else the rule that was broken: empty, not a
+/// number, not finite, or beyond the range of double at either end.
+std::optional<std::string_view> parse_number(std::string_view cell, double& value) noexcept;
+
+/// A column of a header, by its place in the file.
+enum class Column : std::size_t {};
+
+/// The names of the columns of one file.
+class Header {
+ public:
+  /// @throws Error  a column named twice, or a name in quotes
+  Header(std::string file, std::size_t line, std::string_view text);
+
+  const std::string& file() const noexcept { return file_; }
+  std::size_t line() const noexcept { return line_; }
+  std::size_t size() const noexcept { return names_.size(); }
+  const std::string& name(Column column) const { return names_[static_cast<std::size_t>(column)]; }
+  std::optional<Column> find(std::string_view name) const noexcept;
+  /// @throws Error  naming the column that is missing
+  Column require(std::string_view name) const;
+
+ private:
+  std::string file_;
+  std::size_t line_;
+  std::vector<std::string> names_;
+};
+
+/// Whole lines of a file, and where they stand in it. Reused from one read to the next.
+struct Block {
+  std::vector<char> storage;
+  std::size_t size = 0;
+  std::size_t first_line = 1;    ///< number of its first line, from 1
+  std::size_t first_row = 0;     ///< number of its first data row, from 0
+  std::uint64_t end_offset = 0;  ///< bytes of the file up to its end
+  std::string_view text() const noexcept { return {storage.data(), size}; }
+};
+
+/// A file that is being read, or standard input. Blocks come as soon as they hold one whole line,
+/// so that a program that writes rows to a pipe and waits for answers gets them.
+class Reader {
+ public:
+  /// Opens the file, `-` or nothing for standard input, and reads its header.
+  /// @throws Error  the file cannot be opened, is a directory, has no header, or a bad one
+  explicit Reader(const std::string& path);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  const Header& header() const noexcept { return *header_; }
+  /// Size of a regular file, in bytes.
+  std::optional<std::uint64_t> total_bytes() const noexcept { return total_bytes_; }
+
+  /// The next lines. False at the end of the file, and after cancel(). Not for two threads at once.
+  /// @throws Error  a failed read or a line that is too long
+  bool read(Block& block);
+
+  /// Ends a read() that waits for a slow pipe, and all later ones. From any thread.
+  void cancel() noexcept;
+
+ private:
+  void open(const std::string& path);
+  void read_header();
+  bool fill(Block& block);
+  std::size_t read_some(char* to, std::size_t size);
+  [[noreturn]] void fail(std::string rule, std::size_t line = 0) const;
+
+  std::string name_;
+  int input_ = -1;
+  int cancelled_ = -1;  // an eventfd: readable after cancel()
+  std::optional<std::uint64_t> total_bytes_;
+  std::vector<char> carry_;  // read, but not yet part of a block
+  std::uint64_t offset_ = 0;
+  std::size_t next_line_ = 1;
+  std::size_t next_row_ = 0;
+  std::optional<Header> header_;
+};
+
+/// Walks over the rows of a block.
+class RowCursor {
+ public:
+  explicit RowCursor(const Header& header);
+
+  /// Stands before the first row of the block, which must outlive the walk.
+  void enter(const Block& block) noexcept;
+  /// Goes to the next row; false after the last.
+  /// @throws Error  a row with fewer or more cells than the header; next() then goes on after it
+  bool next();
+
+  std::size_t index() const noexcept { return index_; }  ///< of the data row, from 0 in the file
+  std::size_t line() const noexcept { return line_; }    ///< from 1 in the file
+  /// The cell without the spaces around it; valid as long as the block.
+  std::string_view text(Column column) const noexcept;
+  /// @throws Error  a cell that parse_number() refuses
+  double number(Column column) const;
+  /// An error that names this row, the column and its value.
+  Error error(Column column, std::string_view rule) const;
+
+ private:
+  const Header* header_;
+  std::vector<std::string_view> cells_;
+  std::string_view rest_;
+  std::size_t next_line_ = 1;
+  std::size_t next_index_ = 0;
+  std::size_t line_ = 0;
+  std::size_t index_ = 0;
+};
+
+/// Calls function(const RowCursor&) for every row that is left, in order.
+template <class Function>
+void for_each_row(Reader& reader, Function&& function) {
+  Block block;
+  RowCursor row(reader.header());
+  while (reader.read(block)) {
+    row.enter(block);
+    while (row.next()) function(row);
+  }
+}
+
+/// Rows as text, collected in memory until they are taken to an OutputFile.
+class RowText {
+ public:
+  void header(std::span<const std::string_view> names);
+  /// One cell. Text holds no comma, quote, line end or leading `#` (asserted).
+  void text(std::string_view cell);
+  void number(double value);  ///< finite (asserted)
+  void integer(std::uint64_t value);
+  void empty(std::size_t count = 1);
+  void end_row();
+
+  std::string_view view() const noexcept { return buffer_; }
+  std::size_t size() const noexcept { return buffer_.size(); }
+  void clear() noexcept { truncate(0); }
+  /// Takes back everything after the first `size` bytes, which end a row.
+  void truncate(std::size_t size) noexcept;
+
+ private:
+  void separate();
+
+  std::string buffer_;
+  bool at_row_start_ = true;
+};
+
+}  // namespace tangency::csv
