@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+double multiply_add(double a, double b, double c) { return a * b + c; }
