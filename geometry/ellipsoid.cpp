@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipsoid.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
 #include <string>
+
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
 namespace {
@@ -42,7 +45,8 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
     }
   }
   for (int i = 0; i < 3; ++i) {
-    if (!std::isfinite(semi_axes[i]) || !(semi_axes[i] > 0.0)) {
+    // By bits: under DAZ a subnormal semi-axis would compare equal to 0.
+    if (!std::isfinite(semi_axes[i]) || std::signbit(semi_axes[i]) || is_zero(semi_axes[i])) {
       return EllipsoidFault{kAxes[i], semi_axes[i], "a semi-axis must be finite and > 0"};
     }
   }
@@ -51,7 +55,7 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
   for (int i = 0; i < 4; ++i) {
     if (!std::isfinite(q[i])) return EllipsoidFault{kOrientation[i], q[i], rule};
   }
-  if (q[0] == 0.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0) {
+  if (is_zero(q[0]) && is_zero(q[1]) && is_zero(q[2]) && is_zero(q[3])) {
     return EllipsoidFault{"qw", q[0], rule};
   }
   return std::nullopt;
@@ -59,14 +63,15 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
 
 Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
   // A power of two brings the largest component to [1, 2), so that squares stay in range.
-  const double largest = q.coeffs().cwiseAbs().maxCoeff();
-  const int exponent = std::ilogb(largest);
-  const double w = std::scalbn(q.w(), -exponent), x = std::scalbn(q.x(), -exponent);
-  const double y = std::scalbn(q.y(), -exponent), z = std::scalbn(q.z(), -exponent);
-  const double s = 2.0 / (w * w + x * x + y * y + z * z);
-  return (Mat3() << 1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (z * x + w * y),  //
-          s * (x * y + w * z), 1.0 - s * (z * z + x * x), s * (y * z - w * x),            //
-          s * (z * x - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y))
+  const int exponent = std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()),
+                                 exponent_of(q.z())});
+  const double w = scaled_by_power(q.w(), -exponent), x = scaled_by_power(q.x(), -exponent);
+  const double y = scaled_by_power(q.y(), -exponent), z = scaled_by_power(q.z(), -exponent);
+  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z;
+  const double s = 1.0 / (ww + xx + yy + zz), t = 2.0 * s;
+  return (Mat3() << s * (ww + xx - yy - zz), t * (x * y - w * z), t * (z * x + w * y),  //
+          t * (x * y + w * z), s * (ww - xx + yy - zz), t * (y * z - w * x),            //
+          t * (z * x - w * y), t * (y * z + w * x), s * (ww - xx - yy + zz))
       .finished();
 }
 

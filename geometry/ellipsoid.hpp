@@ -63,7 +63,8 @@ class Ellipsoid {
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
   const Eigen::Quaterniond& orientation() const noexcept { return orientation_; }
-  /// R(q/|q|), each entry within 8 u of its true value (u = 2^-53).
+  /// R(q/|q|), each entry within 12 u of its true value (u = 2^-53; 24 u in a directed rounding
+  /// mode): docs/derivations/relation-filter.md.
   const Mat3& rotation() const noexcept { return rotation_; }
   /// M = R diag(a^2) R', which is (x - c)' M^-1 (x - c) <= 1 as a solid, rounded. Like adjugate and
   /// determinant it overflows or underflows unless moderate().
@@ -109,7 +110,7 @@ class Ellipsoid {
   bool moderate_;
 };
 
-/// R(q/|q|) for a finite quaternion of any length but 0, each entry within 8 u.
+/// R(q/|q|) for a finite quaternion of any length but 0, each entry as Ellipsoid::rotation().
 Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept;
 
 }  // namespace tangency

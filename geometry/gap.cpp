@@ -8,6 +8,7 @@
 
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
+#include <tangency/geometry/methods/scaled_pair.hpp>
 
 namespace tangency {
 namespace {
@@ -68,51 +69,49 @@ Gap search(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
   return best;
 }
 
-/// The pair in units of 2^exponent. A semi-axis below 2^-1022 of the largest length is made as long
-/// as that, which is less than any rounding.
-Ellipsoid scaled(const Ellipsoid& body, int exponent) {
-  const Vec3 axes = body.semi_axes().unaryExpr([&](double axis) {
-    return std::max(std::scalbn(axis, -exponent), std::numeric_limits<double>::min());
-  });
-  return {Vec3::Zero(), axes, body.orientation()};
-}
-
 /// Calls `solve` with the pair itself or, where its size could overflow or underflow on the way, with
 /// the pair in units of a power of two.
 template <class Solve>
-Gap in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Solve& solve) {
-  const double largest =
-      std::max({d.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
-  if (largest <= kLargest && largest >= kSmallest) return solve(a, b, d);
-  const int exponent = std::ilogb(largest);
-  const auto unscale = [&](double x) { return std::scalbn(x, exponent); };
-  const Vec3 scaled_d = d.unaryExpr([&](double x) { return std::scalbn(x, -exponent); });
-  Gap gap = solve(scaled(a, exponent), scaled(b, exponent), scaled_d);
+Gap in_unit_of(const methods::ScaledPair& pair, const Solve& solve) {
+  const auto unscale = [&](double x) { return std::scalbn(x, pair.exponent); };
+  Gap gap = solve(pair.a, pair.b, pair.d);
   gap.gap = unscale(gap.gap);
   gap.arm_a = gap.arm_a.unaryExpr(unscale);
   gap.arm_b = gap.arm_b.unaryExpr(unscale);
   return gap;
 }
 
+template <class Solve>
+Gap in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Solve& solve) {
+  const double largest =
+      std::max({d.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
+  if (largest <= kLargest && largest >= kSmallest) return solve(a, b, d);
+  return in_unit_of(methods::scaled_pair(a, b, d), solve);
+}
+
+Gap search_globally(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+  if (is_sphere(a) && is_sphere(b)) return sphere_gap(a, b, d);
+  if (a.moderate() && b.moderate() && d.cwiseAbs().maxCoeff() >= kSmallest) {
+    const Stationary found = methods::newton(a, b, d);
+    if (found.accepted) {
+      const Gap gap = stationary_answer(a, b, d, found.normal);
+      if (gap.status == GapStatus::ok) return gap;
+    }
+  }
+  return search(a, b, d);
+}
+
 }  // namespace
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
   assert(separation.allFinite());
-  return in_range(a, b, separation, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d) {
-    if (is_sphere(pa) && is_sphere(pb)) return sphere_gap(pa, pb, d);
-    if (pa.moderate() && pb.moderate() && d.cwiseAbs().maxCoeff() >= kSmallest) {
-      const Stationary found = methods::newton(pa, pb, d);
-      if (found.accepted) {
-        const Gap gap = stationary_answer(pa, pb, d, found.normal);
-        if (gap.status == GapStatus::ok) return gap;
-      }
-    }
-    return search(pa, pb, d);
-  });
+  return in_range(a, b, separation, search_globally);
 }
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return signed_gap(a, b, b.centre() - a.centre());
+  const Vec3 d = b.centre() - a.centre();
+  if (d.allFinite()) return in_range(a, b, d, search_globally);
+  return in_unit_of(methods::scaled_pair(a, b), search_globally);
 }
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
@@ -130,10 +129,6 @@ Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
     if (!found.accepted) gap.status = GapStatus::not_converged;
     return gap;
   });
-}
-
-bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return signed_gap(a, b).gap < 0.0;
 }
 
 }  // namespace tangency

@@ -60,7 +60,4 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) n
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;
 
-/// Do the interiors meet: gap < 0? Right wherever |gap| exceeds the error of signed_gap().
-bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept;
-
 }  // namespace tangency

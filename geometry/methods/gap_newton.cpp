@@ -46,7 +46,7 @@ Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
 
 Stationary newton(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
   const PerramWertheimForm form(a, b, d);
-  const double l = form.maximise(form.first_guess(), kPerramWertheimSteps);
+  const double l = form.maximise(kPerramWertheimSteps);
   return newton_from(a, b, d, form.normal_direction(l).normalized());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The Perram-Wertheim form of a pair: whence the searches for the gap start.
+/// The Perram-Wertheim form of a pair: what the yes/no filter decides with, and whence the searches
+/// for the gap start.
 ///
 /// With M_A, M_B the shape matrices, J their adjugates, X the mixed adjugate and l = s/(1-s),
 ///     D(l) = det(M_A + l M_B),  N(l) = d' adj(M_A + l M_B) d,  F(l) = l N / ((1 + l) D).
@@ -8,30 +9,89 @@
 /// v = (M_A + l M_B)^-1 d, both level functions agree at c_A + M_A v, where the normals oppose.
 #pragma once
 
+#include <limits>
+
 #include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::methods {
 
-/// D and N of a pair of moderate() bodies as polynomials in l, by their coefficients.
-/// Requires d != 0, so that n_[0] and n_[2] are > 0.
-class PerramWertheimForm {
+/// D and N at one l, and what Euler's operator l d/dl makes of them once and twice.
+struct PerramWertheimAt {
+  double l;
+  double det, det1, det2;
+  double num, num1, num2;
+};
+
+/// The search for the maximiser of F on l > 0: Newton's method on log l, kept within a bracket.
+class PerramWertheimSearch {
  public:
-  PerramWertheimForm(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
-
-  /// A first guess at the maximiser of F: where the outer coefficients balance.
-  double first_guess() const noexcept;
-
-  /// Safeguarded Newton steps on log l towards the maximiser of F, at most `steps`; stops early
-  /// where the last step changed l by less than a hundredth.
-  double maximise(double l, int steps) const noexcept;
-
-  /// A multiple > 0 of (M_A + l M_B)^-1 d: the direction of the normal at l.
-  Vec3 normal_direction(double l) const noexcept;
+  /// The next l. Requires F at the last one (or at the first guess).
+  double next(const PerramWertheimAt& at) noexcept {
+    // First and second derivative of log F with respect to log l.
+    const double s = 1.0 / (1.0 + at.l), p = at.num1 / at.num, q = at.det1 / at.det;
+    const double slope = s + p - q;
+    const double curvature =
+        (at.num2 / at.num - p * p) - (at.det2 / at.det - q * q) - at.l * s * s;
+    (slope > 0.0 ? low_ : high_) = at.l;
+    // exp(x) by (1 + x/2) / (1 - x/2), |x| <= 1.8, a factor of up to 19: no more is needed of a step.
+    constexpr double kLongest = 0.9;
+    double half = slope > 0.0 ? kLongest : -kLongest;
+    if (-2.0 * kLongest * curvature > (slope < 0.0 ? -slope : slope)) {
+      half = -0.5 * slope / curvature;
+    }
+    const double l = at.l * ((1.0 + half) / (1.0 - half));
+    return low_ < l && l < high_ ? l : between(at.l, slope);
+  }
 
  private:
+  /// Halfway, on a logarithmic scale, to the end of the bracket that the slope points to.
+  double between(double l, double slope) const noexcept;
+
+  double low_ = 0.0;
+  double high_ = std::numeric_limits<double>::infinity();
+};
+
+/// D and N of a pair of moderate() bodies as polynomials in l, by their coefficients.
+class PerramWertheimForm {
+ public:
+  PerramWertheimForm(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
+      : a_(a),
+        b_(b),
+        d_(d),
+        mixed_(mixed_adjugate(a.shape(), b.shape())),
+        det_{a.shape_determinant(), trace_of_product(a.shape_adjugate(), b.shape()),
+             trace_of_product(b.shape_adjugate(), a.shape()), b.shape_determinant()},
+        num_{a.shape_adjugate().form(d), mixed_.form(d), b.shape_adjugate().form(d)} {}
+
+  /// A first guess at the maximiser of F: where the outer coefficients balance; at coinciding
+  /// centres, where F vanishes, that of det alone.
+  double first_guess() const noexcept;
+
+  PerramWertheimAt at(double l) const noexcept {
+    const double d1 = l * det_[1], d2 = l * l * det_[2], d3 = l * l * l * det_[3];
+    const double n1 = l * num_[1], n2 = l * l * num_[2];
+    return {l,
+            det_[0] + d1 + (d2 + d3),
+            d1 + (2.0 * d2 + 3.0 * d3),
+            d1 + (4.0 * d2 + 9.0 * d3),
+            num_[0] + n1 + n2,
+            n1 + 2.0 * n2,
+            n1 + 4.0 * n2};
+  }
+
+  /// Newton steps towards the maximiser of F from the first guess, at most `steps`; stops early
+  /// where the last step changed l by less than a hundredth.
+  double maximise(int steps) const noexcept;
+
+  /// A multiple > 0 of (M_A + l M_B)^-1 d, the direction of the normal at l, namely det(l) times it.
+  Vec3 normal_direction(double l) const noexcept {
+    return a_.shape_adjugate() * d_ + l * (mixed_ * d_ + l * (b_.shape_adjugate() * d_));
+  }
+
+ private:
+  const Ellipsoid& a_;
+  const Ellipsoid& b_;
   Vec3 d_;
-  const Symmetric3& adjugate_a_;
-  const Symmetric3& adjugate_b_;
   Symmetric3 mixed_;
   double det_[4];
   double num_[3];

@@ -13,19 +13,19 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace tangency::csv {
 namespace {
 
 // Chosen: large enough that a read costs nothing beside its parsing, small enough for a cache.
-constexpr std::size_t block_bytes = std::size_t{1} << 18;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
 
 // Chosen: a number written in full has at most 24 characters; more is cut short in messages.
-constexpr std::size_t longest_quoted_value = 60;
+constexpr std::size_t kLongestQuotedValue = 60;
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -51,12 +51,12 @@ bool is_data(std::string_view line) noexcept {
 }
 
 std::string printable(std::string_view text) {
-  std::string shown(text.substr(0, longest_quoted_value));
+  std::string shown(text.substr(0, kLongestQuotedValue));
   for (char& c : shown) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7F) c = '?';
   }
-  if (text.size() > longest_quoted_value) shown += "...";
+  if (text.size() > kLongestQuotedValue) shown += "...";
   return shown;
 }
 
@@ -76,7 +76,8 @@ std::string message(const Fault& fault) {
 Error::Error(Fault fault) : std::runtime_error(message(fault)), fault_(std::move(fault)) {}
 
 std::optional<std::string_view> parse_number(std::string_view cell, double& value) noexcept {
-  constexpr std::string_view not_a_number = "a cell must hold a number, in decimal or as a hex float";
+  constexpr std::string_view kNotANumber =
+      "a cell must hold a number, in decimal or as a hex float";
   std::string_view digits = cell;
   const bool negative = !digits.empty() && digits.front() == '-';
   if (negative || (!digits.empty() && digits.front() == '+')) digits.remove_prefix(1);
@@ -86,11 +87,11 @@ std::optional<std::string_view> parse_number(std::string_view cell, double& valu
     digits.remove_prefix(2);
   }
   // from_chars would take a second sign here.
-  if (digits.empty() || digits.front() == '-') return not_a_number;
+  if (digits.empty() || digits.front() == '-') return kNotANumber;
   double magnitude = 0;
   const char* const end = digits.data() + digits.size();
   const auto [stop, problem] = std::from_chars(digits.data(), end, magnitude, format);
-  if (problem == std::errc::invalid_argument || stop != end) return not_a_number;
+  if (problem == std::errc::invalid_argument || stop != end) return kNotANumber;
   if (problem == std::errc::result_out_of_range) {
     return "a number must be 0 or between 4.9e-324 and 1.8e308 in size, the range of a double";
   }
@@ -106,12 +107,16 @@ Header::Header(std::string file, std::size_t line, std::string_view text)
   for (std::size_t i = 0; i < columns; ++i) {
     const std::string_view name = trimmed(take_until(text, ','));
     if (name.find('"') != std::string_view::npos) {
-      throw Error({.file = file_, .line = line_, .value = std::string(name),
+      throw Error({.file = file_,
+                   .line = line_,
+                   .value = std::string(name),
                    .rule = "names and numbers are written without quotes"});
     }
     // A column without a name is an unknown column: some programs write their row labels so.
     if (!name.empty() && find(name)) {
-      throw Error({.file = file_, .line = line_, .column = std::string(name),
+      throw Error({.file = file_,
+                   .line = line_,
+                   .column = std::string(name),
                    .rule = "a column must be named only once"});
     }
     names_.emplace_back(name);
@@ -126,95 +131,86 @@ std::optional<Column> Header::find(std::string_view name) const noexcept {
 
 Column Header::require(std::string_view name) const {
   if (const auto column = find(name)) return *column;
-  throw Error({.file = file_, .line = line_, .column = std::string(name),
+  throw Error({.file = file_,
+               .line = line_,
+               .column = std::string(name),
                .rule = "this column is missing"});
 }
 
 Reader::Reader(const std::string& path) {
   open(path);
-  try {
-    read_header();
-  } catch (...) {
-    if (input_ != STDIN_FILENO) ::close(input_);
-    ::close(cancelled_);
-    throw;
-  }
-}
-
-Reader::~Reader() {
-  if (input_ != STDIN_FILENO) ::close(input_);
-  ::close(cancelled_);
+  read_header();
 }
 
 void Reader::fail(std::string rule, std::size_t line) const {
   throw Error({.file = name_, .line = line, .rule = std::move(rule)});
 }
 
+void Reader::fail_reading(int problem) const {
+  fail("cannot be read: " + std::generic_category().message(problem));
+}
+
 void Reader::open(const std::string& path) {
-  const bool from_file = !path.empty() && path != "-";
-  name_ = from_file ? path : std::string(standard_input_name);
-  input_ = from_file ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-  struct stat status{};
-  if (input_ < 0 || ::fstat(input_, &status) != 0) {
-    fail(std::string("cannot be read: ") + std::strerror(errno));
+  const bool is_file = !path.empty() && path != "-";
+  name_ = is_file ? path : std::string(kStandardInputName);
+  input_ = Descriptor(is_file ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO);
+  struct stat status {};
+  if (!input_.is_open() || ::fstat(input_.get(), &status) != 0) fail_reading(errno);
+  if (S_ISREG(status.st_mode)) {
+    total_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  } else {
+    wake_ = Descriptor(::eventfd(0, EFD_CLOEXEC));
+    if (!wake_.is_open()) fail_reading(errno);
   }
-  if (S_ISDIR(status.st_mode)) {
-    if (from_file) ::close(input_);
-    fail("cannot be read: it is a directory");
-  }
-  if (S_ISREG(status.st_mode)) total_bytes_ = static_cast<std::uint64_t>(status.st_size);
-  cancelled_ = ::eventfd(0, EFD_CLOEXEC);
 }
 
 void Reader::cancel() noexcept {
+  cancelled_ = true;
   const std::uint64_t one = 1;
-  [[maybe_unused]] const auto written = ::write(cancelled_, &one, sizeof one);
+  [[maybe_unused]] const auto written = ::write(wake_.get(), &one, sizeof one);
 }
 
 std::size_t Reader::read_some(char* to, std::size_t size) {
-  for (;;) {
-    if (!total_bytes_) {
-      std::array<pollfd, 2> waiting{{{input_, POLLIN, 0}, {cancelled_, POLLIN, 0}}};
-      if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) {
-        fail(std::string("cannot be read: ") + std::strerror(errno));
-      }
-      if (waiting[1].revents != 0) return 0;
-      if (waiting[0].revents == 0) continue;
+  while (!cancelled_) {
+    if (wake_.is_open()) {
+      std::array<pollfd, 2> events{{{input_.get(), POLLIN, 0}, {wake_.get(), POLLIN, 0}}};
+      if (::poll(events.data(), events.size(), -1) < 0 && errno != EINTR) fail_reading(errno);
+      if (events[0].revents == 0) continue;
     }
-    const ssize_t got = ::read(input_, to, size);
+    const ssize_t got = ::read(input_.get(), to, size);
     if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR && errno != EAGAIN) {
-      fail(std::string("cannot be read: ") + std::strerror(errno));
-    }
+    if (errno != EINTR && errno != EAGAIN) fail_reading(errno);
   }
+  return 0;
 }
 
 bool Reader::fill(Block& block) {
-  if (block.storage.size() < carry_.size() + block_bytes) {
-    block.storage.resize(carry_.size() + block_bytes);
-  }
-  std::copy(carry_.begin(), carry_.end(), block.storage.begin());
-  std::size_t filled = std::exchange(carry_, {}).size();
-  std::size_t whole = block.text().npos;
-  auto last_line_end = [&](std::size_t from) {
-    const auto end = std::string_view(&block.storage[from], filled - from).rfind('\n');
-    return end == std::string_view::npos ? end : from + end + 1;
+  std::vector<char>& storage = block.storage;
+  std::size_t filled = carry_.size();
+  if (storage.size() < filled + kBlockBytes) storage.resize(filled + kBlockBytes);
+  std::copy(carry_.begin(), carry_.end(), storage.begin());
+  const auto whole_lines_from = [&](std::size_t from) -> std::size_t {
+    const std::size_t end = std::string_view(&storage[from], filled - from).rfind('\n');
+    return end == std::string_view::npos ? 0 : from + end + 1;
   };
-  whole = last_line_end(0);
-  while (whole == std::string_view::npos) {
-    if (filled >= longest_line) {
-      fail("a line must be shorter than " + std::to_string(longest_line) + " bytes", next_line_);
+  std::size_t whole = whole_lines_from(0);
+  while (whole == 0) {
+    if (filled >= kLongestLine) {
+      fail("a line must be shorter than " + std::to_string(kLongestLine) + " bytes", next_line_);
     }
-    if (block.storage.size() - filled < block_bytes) block.storage.resize(filled + block_bytes);
-    const std::size_t got = read_some(&block.storage[filled], block_bytes);
+    if (storage.size() < filled + kBlockBytes) storage.resize(filled + kBlockBytes);
+    const std::size_t got = read_some(&storage[filled], kBlockBytes);
     filled += got;
-    whole = got == 0 ? filled : last_line_end(filled - got);
+    whole = whole_lines_from(filled - got);
+    if (got == 0) break;
   }
-  carry_.assign(&block.storage[whole], &block.storage[filled]);
+  if (whole == 0) whole = filled;  // the end of the file: its last line may lack a line end
+  carry_.assign(storage.begin() + static_cast<std::ptrdiff_t>(whole),
+                storage.begin() + static_cast<std::ptrdiff_t>(filled));
   block.size = whole;
   offset_ += whole;
   block.end_offset = offset_;
-  return whole > 0;
+  return whole > 0 && !cancelled_;
 }
 
 bool Reader::read(Block& block) {
@@ -234,8 +230,8 @@ void Reader::read_header() {
     if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF")) {
       fail("the text must be UTF-8; this looks like UTF-16");
     }
-    if (next_line_ == 1 && rest.starts_with(byte_order_mark)) {
-      rest.remove_prefix(byte_order_mark.size());
+    if (next_line_ == 1 && rest.starts_with(kByteOrderMark)) {
+      rest.remove_prefix(kByteOrderMark.size());
     }
     for (; !header_ && !rest.empty(); ++next_line_) {
       const std::string_view line = take_until(rest, '\n');
@@ -271,7 +267,8 @@ bool RowCursor::next() {
   const bool short_row = cells_.size() > 1 && cells_[cells_.size() - 2].end() == whole.end();
   if (!short_row && row.find(',') == std::string_view::npos) return true;
   const auto count = std::count(whole.begin(), whole.end(), ',') + 1;
-  throw Error({.file = header_->file(), .line = line_,
+  throw Error({.file = header_->file(),
+               .line = line_,
                .value = std::to_string(count) + (count == 1 ? " cell" : " cells"),
                .rule = "a row must have as many cells as the header has columns, " +
                        std::to_string(cells_.size())});
@@ -289,7 +286,9 @@ double RowCursor::number(Column column) const {
 
 Error RowCursor::error(Column column, std::string_view rule) const {
   const std::string_view value = text(column);
-  return Error({.file = header_->file(), .line = line_, .column = header_->name(column),
+  return Error({.file = header_->file(),
+                .line = line_,
+                .column = header_->name(column),
                 .value = std::string(value.empty() ? "(empty)" : value),
                 .rule = std::string(rule)});
 }

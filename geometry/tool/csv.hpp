@@ -5,7 +5,7 @@
 /// A table is UTF-8 text (a byte-order mark is tolerated): a header line that names the columns, in
 /// any order, then a line a row. Blank lines and lines whose first character is `#` are skipped;
 /// spaces and tabs around cells and CRLF line ends are allowed; cells are never quoted. A line is
-/// shorter than `longest_line` bytes.
+/// shorter than `kLongestLine` bytes.
 ///
 /// (1) Numbers are written so that they read back to the same double.
 /// (2) A number is read correctly rounded, from decimal or from a hex float.
@@ -16,6 +16,7 @@
 /// for_each_row().
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -25,13 +26,15 @@
 #include <string_view>
 #include <vector>
 
+#include <tangency/geometry/tool/descriptor.hpp>
+
 namespace tangency::csv {
 
 /// What standard input is called in messages.
-inline constexpr std::string_view standard_input_name = "<stdin>";
+inline constexpr std::string_view kStandardInputName = "<stdin>";
 
 /// The most bytes that a line may have; chosen: a thousand columns fit many times over.
-inline constexpr std::size_t longest_line = std::size_t{1} << 20;
+inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 /// What was refused, where, and what is allowed. Empty and 0 mean "does not apply".
 struct Fault {
@@ -99,9 +102,6 @@ class Reader {
   /// Opens the file, `-` or nothing for standard input, and reads its header.
   /// @throws Error  the file cannot be opened, is a directory, has no header, or a bad one
   explicit Reader(const std::string& path);
-  ~Reader();
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   const Header& header() const noexcept { return *header_; }
   /// Size of a regular file, in bytes.
@@ -120,10 +120,12 @@ class Reader {
   bool fill(Block& block);
   std::size_t read_some(char* to, std::size_t size);
   [[noreturn]] void fail(std::string rule, std::size_t line = 0) const;
+  [[noreturn]] void fail_reading(int problem) const;
 
   std::string name_;
-  int input_ = -1;
-  int cancelled_ = -1;  // an eventfd: readable after cancel()
+  Descriptor input_;
+  Descriptor wake_;  // an eventfd, readable after cancel()
+  std::atomic<bool> cancelled_ = false;
   std::optional<std::uint64_t> total_bytes_;
   std::vector<char> carry_;  // read, but not yet part of a block
   std::uint64_t offset_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
 namespace tangency {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Hostile pairs for the yes/no and the relation question: exact touches, their neighbours in the
+// grid of doubles, zero discriminants, nests, equal sets and extremes. Wherever the construction
+// settles the exact relation of the stored doubles, the pair carries it; no solver is asked.
+//
+// The stream depends on the seed and the index alone. Draws of integers are the same on every
+// platform; logarithmic ones follow libm, and manufactured gaps the width of long double.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/relation.hpp>
+
+namespace tangency::verify {
+
+struct AdversarialPair {
+  RawEllipsoid a, b;
+  std::string_view family;
+  std::optional<ExactRelation> relation;  // where known by construction
+};
+
+// The families, in the order in which they take turns.
+std::span<const std::string_view> adversarial_family_names();
+
+// Calls `use` with `count` pairs, the families taking turns and either body coming first. The first
+// pairs of a longer stream are those of a shorter one.
+void for_each_adversarial_pair(std::uint64_t seed, std::size_t count,
+                               const std::function<void(const AdversarialPair&)>& use);
+
+}  // namespace tangency::verify

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Overlap against displacement for four kinds of contact and three motions, as computed by
+/// follow_gap and as expected. Writes CSV to standard output, one row a displacement:
+///   contact, motion, displacement, overlap, expected, published, status
+/// Lengths in short semi-axes, angles in radians; a negative overlap is a distance.
+/// `expected` and `published`: families/displacement.hpp.
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <string>
+#include <tangency/bench/families/displacement.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <vector>
+
+namespace {
+
+using namespace tangency;
+using families::Motion;
+
+constexpr double short_over_long = 0.7;  // the thesis' spheroids
+constexpr double initial_overlap = 0.02;
+constexpr int steps = 40;  // either way
+
+/// The largest motion either way, chosen so that overlap, loss of contact and the departure from
+/// the expansion all show: in short semi-axes, in radians for the rotation.
+double range_of(Motion motion) { return motion == Motion::normal ? 0.03 : 0.3; }
+
+struct Sample {
+  double displacement, overlap;
+  GapStatus status;
+};
+
+/// The contact followed from the start to `end`, without the start.
+std::vector<Sample> follow(const families::DisplacementContact& contact, Motion motion,
+                           double end) {
+  std::vector<Sample> samples;
+  Vec3 normal = contact.normal;
+  for (int i = 1; i <= steps; ++i) {
+    const double displacement = end * i / steps;
+    const Ellipsoid b = displaced(contact, motion, displacement);
+    const Gap gap = follow_gap(contact.a, b, b.centre() - contact.a.centre(), normal);
+    samples.push_back({displacement, -gap.gap, gap.status});
+    normal = gap.normal;
+  }
+  return samples;
+}
+
+std::vector<Sample> profile(const families::DisplacementContact& contact, Motion motion) {
+  const double range = range_of(motion);
+  const std::vector<Sample> backwards = follow(contact, motion, -range);
+  std::vector<Sample> all(backwards.rbegin(), backwards.rend());
+  const Gap start =
+      follow_gap(contact.a, contact.b, contact.b.centre() - contact.a.centre(), contact.normal);
+  all.push_back({0.0, -start.gap, start.status});
+  const std::vector<Sample> forwards = follow(contact, motion, range);
+  all.insert(all.end(), forwards.begin(), forwards.end());
+  return all;
+}
+
+std::string_view name_of(GapStatus status) {
+  switch (status) {
+    case GapStatus::ok:
+      return "ok";
+    case GapStatus::local:
+      return "local";
+    case GapStatus::not_converged:
+      break;
+  }
+  return "not_converged";
+}
+
+/// Reads back to the same double.
+std::string text_of(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+}  // namespace
+
+int main() {
+  bool followed = true;
+  std::cout << "contact,motion,displacement,overlap,expected,published,status\n";
+  for (const auto& contact : families::displacement_contacts(short_over_long, initial_overlap)) {
+    for (const Motion motion : families::motions) {
+      const families::OverlapExpansion expansion = expected_overlap(contact, motion);
+      for (const Sample& sample : profile(contact, motion)) {
+        const double s = sample.displacement;
+        const double expected =
+            contact.overlap + s * (expansion.slope + 0.5 * expansion.curvature * s);
+        std::cout << contact.name << ',' << to_string(motion) << ',' << text_of(s) << ','
+                  << text_of(sample.overlap) << ',' << text_of(expected) << ','
+                  << text_of(published_overlap(contact, motion, s)) << ',' << name_of(sample.status)
+                  << '\n';
+        followed = followed && sample.status != GapStatus::not_converged;
+      }
+    }
+  }
+  std::cout.flush();
+  return followed && std::cout ? 0 : 1;
+}

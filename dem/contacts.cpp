@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include <tangency/dem/contacts.hpp>
+#include <tangency/geometry/gap.hpp>
+
+namespace tangency::dem {
+namespace {
+
+constexpr std::ptrdiff_t none = -1;
+
+/// Below so many pairs, or particles, a loop is over before a second thread has woken up.
+constexpr std::size_t worth_sharing = 400;
+
+/// The gap of a pair, or nothing where it is known to be > 0 without finding it: the bounding
+/// spheres do not meet, or the plane across the stored normal still parts the bodies (for any unit
+/// n, n.d - h_a - h_b is at most the gap). Leaves the stored normal as a start for next time.
+std::optional<Gap> gap_unless_apart(const Ellipsoid& a, const Ellipsoid& b, Contact& contact) {
+  const double reach = a.largest_semi_axis() + b.largest_semi_axis();
+  if (contact.branch.squaredNorm() >= reach * reach) {
+    contact.normal.setZero();
+    return std::nullopt;
+  }
+  const Vec3& n = contact.normal;
+  if (n.isZero(0.0)) return signed_gap(a, b, contact.branch);
+  if (n.dot(contact.branch) - a.support(n) - b.support(n) > 0.0) return std::nullopt;
+  const Gap followed = follow_gap(a, b, contact.branch, n);
+  if (followed.status != GapStatus::not_converged) return followed;
+  return signed_gap(a, b, contact.branch);
+}
+
+/// Velocity of b relative to a at the contact point, the cell's strain included [Ouadfel, eq. 3.1, 3.35].
+Vec3 relative_velocity(const Particles& particles, const Cell& cell, const Pair& pair,
+                       const Contact& contact) {
+  const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+  const Vec3 arm_b = contact.arm - contact.branch;
+  return particles.velocity[b] + particles.angular_velocity[b].cross(arm_b) -
+         particles.velocity[a] - particles.angular_velocity[a].cross(contact.arm) +
+         cell.rate.cwiseProduct(contact.branch);
+}
+
+void separate(Contact& contact) {
+  contact.overlap = contact.normal_force = 0.0;
+  contact.force.setZero();
+  contact.shear.setZero();
+}
+
+}  // namespace
+
+double ContactLaws::largest_stiffness() const {
+  double largest = 0.0;
+  for (const ContactLaw& one : law)
+    largest = std::max({largest, one.normal_stiffness, one.shear_stiffness});
+  return largest;
+}
+
+void Contacts::update(const Particles& particles, const Cell& cell, const NeighbourList& list,
+                      const ContactLaws& laws, double dt) {
+  const std::size_t count = particles.size();
+  bodies_.resize(count, Ellipsoid(Vec3::Zero(), Vec3::Ones()));
+#pragma omp parallel for schedule(static) if (count >= worth_sharing)
+  for (std::size_t i = 0; i < count; ++i)
+    bodies_[i] = Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
+
+  const std::vector<Pair>& pairs = list.pairs();
+  std::atomic<std::ptrdiff_t> failed{none};
+#pragma omp parallel for schedule(dynamic, 64) if (pairs.size() >= worth_sharing)
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Pair& pair = pairs[k];
+    Contact& contact = records_[k];
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    contact.branch = branch_vector(pair, particles, cell);
+    const std::optional<Gap> gap = gap_unless_apart(bodies_[a], bodies_[b], contact);
+    if (gap && gap->status == GapStatus::not_converged) failed = static_cast<std::ptrdiff_t>(k);
+    if (!gap || gap->gap >= 0.0) {
+      if (gap) contact.normal = gap->normal;
+      separate(contact);
+      continue;
+    }
+    const ContactLaw& law = laws.between(particles.type[a], particles.type[b]);
+    const Vec3 previous_normal = contact.touches() ? contact.normal : gap->normal;
+    contact.normal = gap->normal;
+    contact.overlap = -gap->gap;
+    contact.arm = 0.5 * (gap->arm_a + contact.branch + gap->arm_b);
+    contact.normal_stiffness = law.normal_stiffness;
+    contact.normal_force = law.normal_force(contact.overlap);
+    contact.force = contact.normal_force * contact.normal;
+    if (law.bears_shear()) {
+      const Vec3 displacement = dt * relative_velocity(particles, cell, pair, contact);
+      contact.shear = law.shear_force(contact.shear, previous_normal, contact.normal,
+                                      displacement, contact.normal_force);
+      contact.force += contact.shear;
+    } else {
+      contact.shear.setZero();
+    }
+  }
+  if (const std::ptrdiff_t k = failed; k != none) {
+    const Pair& pair = pairs[static_cast<std::size_t>(k)];
+    throw ContactNotFound("no gap was found for particles " + std::to_string(pair.a) + " and " +
+                          std::to_string(pair.b));
+  }
+  add_up(list, count);
+}
+
+void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now) {
+  std::vector<Contact> kept(now.size());
+  auto old = before.begin();
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    old = std::lower_bound(old, before.end(), now[k]);
+    if (old != before.end() && *old == now[k])
+      kept[k] = records_[static_cast<std::size_t>(old - before.begin())];
+  }
+  records_ = std::move(kept);
+}
+
+void Contacts::restore(std::vector<Contact> records, const Particles& particles,
+                       const NeighbourList& list) {
+  records_ = std::move(records);
+  add_up(list, particles.size());
+}
+
+void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
+  resultants_.force.resize(particles);
+  resultants_.moment.resize(particles);
+#pragma omp parallel for schedule(static) if (particles >= worth_sharing)
+  for (std::size_t i = 0; i < particles; ++i) {
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
+      const Contact& contact = records_[at->index];
+      if (!contact.touches()) continue;
+      if (at->as_b) {
+        force += contact.force;
+        moment += (contact.arm - contact.branch).cross(contact.force);
+      } else {
+        force -= contact.force;
+        moment -= contact.arm.cross(contact.force);
+      }
+    }
+    resultants_.force[i] = force;
+    resultants_.moment[i] = moment;
+  }
+}
+
+}  // namespace tangency::dem

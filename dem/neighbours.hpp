@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which pairs of particles may touch before the list is next renewed.
+///
+/// The list holds every pair of images whose bounding spheres come within `skin` of each other,
+/// each pair once, in an order that depends on nothing but the positions:
+///
+/// (1) Every pair whose bounding spheres meet is listed as long as is_current() is true.
+/// (2) No pair is listed twice; a particle may meet itself through the periodic boundary.
+/// (3) A cell of any size is served, one smaller than a particle included.
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include <tangency/dem/cell.hpp>
+#include <tangency/dem/particles.hpp>
+
+namespace tangency::dem {
+
+/// Particle `a` and the image of particle `b`; a <= b, and for a == b the image is positive in
+/// lexicographic order.
+struct Pair {
+  std::int32_t a, b;
+  Image image;
+
+  auto operator<=>(const Pair&) const = default;
+};
+
+/// From a's centre to the centre of b's image.
+inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Cell& cell) {
+  return particles.position[static_cast<std::size_t>(pair.b)] + cell.translation(pair.image) -
+         particles.position[static_cast<std::size_t>(pair.a)];
+}
+
+class NeighbourList {
+ public:
+  /// Lists the pairs whose bounding spheres come within `skin` (> 0, length).
+  void build(const Particles& particles, const Cell& cell, double skin);
+
+  /// Does (1) still hold? Looks at how far particles moved relative to the cell, how much the
+  /// cell shrank and how much particles grew since build().
+  bool is_current(const Particles& particles, const Cell& cell) const;
+
+  /// In ascending order.
+  const std::vector<Pair>& pairs() const { return pairs_; }
+
+  /// A particle's part in pair `index`: as its a or as its b.
+  struct Incidence {
+    std::uint32_t index;
+    bool as_b;
+  };
+  /// The pairs of particle i, in ascending order.
+  const Incidence* begin_of(std::size_t i) const { return incidences_.data() + first_[i]; }
+  const Incidence* end_of(std::size_t i) const { return incidences_.data() + first_[i + 1]; }
+
+  /// What build() saw; with pairs() all there is to save. Reduced positions are position over
+  /// cell length.
+  struct Reference {
+    Vec3 cell_length = Vec3::Zero();
+    double skin = 0.0;
+    double largest_radius = 0.0;
+    std::vector<Vec3> reduced_position;
+  };
+  const Reference& reference() const { return reference_; }
+  /// Puts back a saved list.
+  void restore(Reference reference, std::vector<Pair> pairs);
+
+ private:
+  void index_incidences(std::size_t particles);
+
+  Reference reference_;
+  std::vector<Pair> pairs_;
+  std::vector<Incidence> incidences_;
+  std::vector<std::size_t> first_;
+};
+
+}  // namespace tangency::dem

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tangency/dem/observe.hpp>
+
+namespace tangency::dem {
+namespace {
+
+/// Touching pairs of each particle. A pair of a particle with its own image counts twice: both
+/// its ends are on the particle.
+std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& contacts,
+                                         const NeighbourList& list) {
+  std::vector<std::int64_t> counts(particles, 0);
+  for (std::size_t i = 0; i < particles; ++i)
+    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at)
+      counts[i] += contacts.records()[at->index].touches() ? 1 : 0;
+  return counts;
+}
+
+double standard_deviation(const std::vector<std::int64_t>& counts, double mean) {
+  double sum = 0.0;
+  for (const std::int64_t count : counts) {
+    const double off = static_cast<double>(count) - mean;
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(counts.size()));
+}
+
+}  // namespace
+
+Stress stress_of(const Contacts& contacts, const Cell& cell) {
+  Mat3 sum = Mat3::Zero();
+  double stiffness = 0.0;
+  for (const Contact& contact : contacts.records()) {
+    if (!contact.touches()) continue;
+    sum += contact.force * contact.branch.transpose();
+    const double along = contact.normal.dot(contact.branch);
+    stiffness += contact.normal_stiffness * along * along;
+  }
+  const double volume = cell.volume();
+  return {0.5 / volume * (sum + sum.transpose()), stiffness / (3.0 * volume)};
+}
+
+double friction_angle_deg(const Mat3& stress) {
+  const Vec3 principal =
+      Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+  const double sum = principal[2] + principal[0];
+  if (!(sum > 0.0)) return 0.0;
+  const double sine = std::min(1.0, (principal[2] - principal[0]) / sum);
+  return std::asin(sine) * 180.0 / std::numbers::pi;
+}
+
+Balance balance_of(const Particles& particles, const Contacts& contacts,
+                   const NeighbourList& list) {
+  Balance balance;
+  double contact_sum = 0.0;
+  std::int64_t touching = 0;
+  for (const Contact& contact : contacts.records()) {
+    if (!contact.touches()) continue;
+    contact_sum += contact.force.norm();
+    ++touching;
+  }
+  const auto counts = contact_counts(particles.size(), contacts, list);
+  double sum = 0.0;
+  std::int64_t with_contacts = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    balance.rattlers += counts[i] < 2 ? 1 : 0;
+    if (counts[i] == 0) continue;
+    const double force = contacts.resultants().force[i].norm();
+    const double moment =
+        contacts.resultants().moment[i].norm() / particles.semi_axes[i].maxCoeff();
+    balance.largest_unbalanced_ratio = std::max(balance.largest_unbalanced_ratio, force);
+    balance.largest_unbalanced_moment_ratio =
+        std::max(balance.largest_unbalanced_moment_ratio, moment);
+    sum += force;
+    ++with_contacts;
+  }
+  if (touching == 0) return balance;
+  balance.mean_contact_force = contact_sum / static_cast<double>(touching);
+  balance.inertial_fraction =
+      sum / static_cast<double>(with_contacts) / balance.mean_contact_force;
+  balance.largest_unbalanced_ratio /= balance.mean_contact_force;
+  balance.largest_unbalanced_moment_ratio /= balance.mean_contact_force;
+  return balance;
+}
+
+Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
+                    const NeighbourList& list) {
+  Observation seen{};
+  const Vec3 strain = cell.logarithmic_strain();
+  seen.axial_strain = -strain[2];
+  seen.volumetric_strain = strain.sum();
+  seen.stress = stress_of(contacts, cell);
+  for (const Contact& contact : contacts.records()) {
+    if (!contact.touches()) continue;
+    ++seen.contacts;
+    seen.mean_normal_force += contact.normal_force;
+    seen.mean_overlap += contact.overlap;
+  }
+  if (seen.contacts > 0) {
+    seen.mean_normal_force /= static_cast<double>(seen.contacts);
+    seen.mean_overlap /= static_cast<double>(seen.contacts);
+  }
+  seen.coordination_number =
+      2.0 * static_cast<double>(seen.contacts) / static_cast<double>(particles.size());
+  seen.coordination_std = standard_deviation(contact_counts(particles.size(), contacts, list),
+                                             seen.coordination_number);
+  double solid = 0.0;
+  for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes);
+  seen.porosity = 1.0 - solid / cell.volume();
+  seen.balance = balance_of(particles, contacts, list);
+  seen.kinetic_energy = kinetic_energy(particles);
+  return seen;
+}
+
+std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
+                                  const Observation& seen) {
+  const Mat3& s = seen.stress.tensor;
+  return {{"cycle", cycle},
+          {"time", time},
+          {"stage", stage},
+          {"axial_strain", seen.axial_strain},
+          {"volumetric_strain", seen.volumetric_strain},
+          {"mean_stress", seen.stress.mean()},
+          {"s_xx", s(0, 0)},
+          {"s_yy", s(1, 1)},
+          {"s_zz", s(2, 2)},
+          {"s_xy", s(0, 1)},
+          {"s_yz", s(1, 2)},
+          {"s_zx", s(2, 0)},
+          {"friction_angle_deg", friction_angle_deg(s)},
+          {"coordination_number", seen.coordination_number},
+          {"coordination_std", seen.coordination_std},
+          {"porosity", seen.porosity},
+          {"contacts", seen.contacts},
+          {"mean_normal_force", seen.mean_normal_force},
+          {"mean_overlap", seen.mean_overlap},
+          {"inertial_fraction", seen.balance.inertial_fraction},
+          {"kinetic_energy", seen.kinetic_energy}};
+}
+
+}  // namespace tangency::dem

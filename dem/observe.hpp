@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What is measured on an assembly. Looks on and changes nothing.
+///
+/// Signs, as in scenes, histories and reports: compression is positive in stress and in axial
+/// strain, volumetric strain is positive in dilation. The axial direction is z. Strains are
+/// logarithmic and count from the cell at the start of the current stage. Only touching pairs are
+/// contacts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <tangency/dem/contacts.hpp>
+
+namespace tangency::dem {
+
+/// Stress of the assembly, (1/V) sum over contacts of force (x) branch vector, made symmetric;
+/// compression positive, force/area.
+struct Stress {
+  Mat3 tensor = Mat3::Zero();
+  /// The rise of mean stress per isotropic linear strain if particles only followed the cell,
+  /// (1/3V) sum K_n (n . branch)^2: an upper bound of the true one, and what a servo needs.
+  double affine_stiffness = 0.0;
+
+  double mean() const { return tensor.trace() / 3.0; }
+};
+Stress stress_of(const Contacts& contacts, const Cell& cell);
+
+/// asin((s1 - s3) / (s1 + s3)) of the principal stresses, in degrees; 0 without stress.
+double friction_angle_deg(const Mat3& stress);
+
+/// How far the particles are from equilibrium. A particle is out of balance by the resultant of
+/// its contact forces; ratios are to the mean length of a contact force, 0 without contacts.
+struct Balance {
+  double mean_contact_force = 0.0;
+  /// Mean resultant of the particles that have contacts, over the mean contact force.
+  double inertial_fraction = 0.0;
+  /// Largest resultant of any particle that has contacts, over the mean contact force.
+  double largest_unbalanced_ratio = 0.0;
+  /// Largest moment about the centre over the particle's largest semi-axis, alike.
+  double largest_unbalanced_moment_ratio = 0.0;
+  /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton 2000].
+  std::int64_t rattlers = 0;
+};
+Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list);
+
+/// One row of a history: everything but cycle, time and stage.
+struct Observation {
+  double axial_strain, volumetric_strain;
+  Stress stress;
+  double coordination_number;  ///< 2 contacts / particles, rattlers included
+  double coordination_std;     ///< standard deviation of a particle's number of contacts
+  double porosity;             ///< 1 - (sum of particle volumes) / cell volume
+  std::int64_t contacts;
+  double mean_normal_force, mean_overlap;
+  Balance balance;
+  double kinetic_energy;
+};
+Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
+                    const NeighbourList& list);
+
+/// A named value of a history row or of a summary.
+struct Field {
+  std::string name;
+  std::variant<std::int64_t, double, std::string> value;
+};
+
+/// A row's columns in the order of history.csv.
+std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
+                                  const Observation& seen);
+
+}  // namespace tangency::dem

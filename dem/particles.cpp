@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include <tangency/dem/particles.hpp>
+
+namespace tangency::dem {
+
+Vec3 Shape::semi_axes() const {
+  const double b = mean_radius * std::cbrt(flatness / elongation);
+  return {b * elongation, b, b / flatness};
+}
+
+double volume_of(const Vec3& semi_axes) {
+  return 4.0 / 3.0 * std::numbers::pi * semi_axes.prod();
+}
+
+Vec3 principal_inertia(double mass, const Vec3& semi_axes) {
+  const Vec3 squares = semi_axes.cwiseAbs2();
+  return mass / 5.0 * (Vec3::Constant(squares.sum()) - squares);
+}
+
+void Particles::add(const Vec3& centre, const Eigen::Quaterniond& axes, const Vec3& radii,
+                    double density, std::int32_t type_index) {
+  position.push_back(centre);
+  velocity.push_back(Vec3::Zero());
+  angular_velocity.push_back(Vec3::Zero());
+  orientation.push_back(axes.normalized());
+  semi_axes.push_back(radii);
+  mass.push_back(density * volume_of(radii));
+  type.push_back(type_index);
+}
+
+double kinetic_energy(const Particles& particles) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3 spin = particles.orientation[i].conjugate() * particles.angular_velocity[i];
+    const Vec3 inertia = principal_inertia(particles.mass[i], particles.semi_axes[i]);
+    twice += particles.mass[i] * particles.velocity[i].squaredNorm() +
+             inertia.dot(spin.cwiseAbs2());
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace tangency::dem

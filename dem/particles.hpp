@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The particles of an assembly: solid ellipsoids of uniform density.
+///
+/// Units are any consistent set; the scenes and files say SI. Frame: that of geometry/ellipsoid.hpp.
+/// A particle's velocity is the *fluctuation*: what it moves in addition to the homogeneous
+/// strain of the cell. Velocities belong to the half step before the positions (leapfrog).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <tangency/geometry/ellipsoid.hpp>
+
+namespace tangency::dem {
+
+/// The shape of a particle by the thesis' three parameters [Ouadfel, eq. 3.37-3.39].
+struct Shape {
+  double mean_radius;  ///< geometric mean of the semi-axes, > 0, length
+  double elongation;   ///< a / b >= 1
+  double flatness;     ///< b / c >= 1
+
+  /// Semi-axes a >= b >= c with a b c = mean_radius^3.
+  Vec3 semi_axes() const;
+};
+
+/// Arrays of one length, one entry a particle; a particle is its index for the whole run.
+/// Positions are not wrapped into the cell: an image is chosen where two particles meet.
+struct Particles {
+  std::vector<Vec3> position;                   ///< centre, length
+  std::vector<Vec3> velocity;                   ///< relative to the affine motion, length/time
+  std::vector<Vec3> angular_velocity;           ///< in space coordinates, 1/time
+  std::vector<Eigen::Quaterniond> orientation;  ///< unit; body to space
+  std::vector<Vec3> semi_axes;                  ///< length
+  std::vector<double> mass;
+  std::vector<std::int32_t> type;  ///< index into the scene's particle types
+
+  std::size_t size() const { return position.size(); }
+  /// Appends a particle at rest.
+  void add(const Vec3& centre, const Eigen::Quaterniond& axes, const Vec3& radii, double density,
+           std::int32_t type_index);
+};
+
+/// Volume of an ellipsoid: 4/3 pi a b c.
+double volume_of(const Vec3& semi_axes);
+
+/// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel, eq. 3.19].
+Vec3 principal_inertia(double mass, const Vec3& semi_axes);
+
+/// Resultants of the contact forces on each particle, about its centre, in space coordinates.
+struct Resultants {
+  std::vector<Vec3> force, moment;
+};
+
+/// Translational and rotational energy of the fluctuating velocities.
+double kinetic_energy(const Particles& particles);
+
+}  // namespace tangency::dem

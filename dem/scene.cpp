@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_keys.hpp>
+
+namespace tangency::dem {
+namespace {
+
+/// The tables of a scene.
+constexpr std::string_view sections = "cell particles contact stage output";
+
+/// A name in a scene: also part of a key's path, so without '-', '.' and blanks.
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+/// A value on one line, as TOML writes it.
+std::string text_of(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  std::ostringstream out;
+  if (const auto* array = node.as_array()) {
+    if (array->is_array_of_tables()) return "a list of tables";
+    out << *array;
+  } else {
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_value<decltype(value)>) out << value;
+    });
+  }
+  std::string text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// What every message starts with.
+class Source {
+ public:
+  explicit Source(std::string name) : name_(std::move(name)) {}
+
+  [[noreturn]] void fail(const toml::source_region& at, const std::string& message) const {
+    throw SceneError(name_ + ":" + std::to_string(at.begin.line) + ": " + message);
+  }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw SceneError(name_ + ": " + message);
+  }
+
+ private:
+  std::string name_;
+};
+
+bool fits(const Key& key, const toml::node& node) {
+  const auto number_fits = [&](const toml::node& one) {
+    if (!one.is_number()) return false;
+    const double value = *one.value<double>();
+    return std::isfinite(value) && key.range.holds(value);
+  };
+  switch (key.type) {
+    case KeyType::integer:
+      return node.is_integer() && number_fits(node);
+    case KeyType::real:
+      return number_fits(node);
+    case KeyType::real3: {
+      const auto* array = node.as_array();
+      return array && array->size() == 3 &&
+             std::all_of(array->begin(), array->end(), number_fits);
+    }
+    case KeyType::text: {
+      if (!node.is_string()) return false;
+      const std::string& text = node.ref<std::string>();
+      return key.choices.empty() ? is_name(text) : is_among(text, key.choices);
+    }
+  }
+  return false;
+}
+
+/// One table of a scene, checked against the keys of its section. Values are taken by name.
+class Section {
+ public:
+  /// @param path     what messages call the table: "particles.p"; "" for the top level
+  /// @param section  of scene_keys()
+  /// @param kind     of a stage, else ""
+  /// @param base     looked in for keys that the table lacks: [contact] for [contact.a-b]
+  Section(const Source& source, const toml::table& table, std::string path,
+          std::string_view section, std::string_view kind = {}, const toml::table* base = nullptr)
+      : source_(source),
+        table_(table),
+        path_(std::move(path)),
+        section_(section),
+        kind_(kind),
+        base_(base) {
+    for (const auto& [name, node] : table_) check(name, node);
+    for (const Key& key : scene_keys())
+      if (applies(key) && key.required() && !find(key.name))
+        source_.fail(table_.source(), label(key.name) + " is missing: " + allowed_values(key));
+  }
+
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+
+  double real(std::string_view name) const {
+    const toml::node* node = find(name);
+    return node ? *node->value<double>() : std::stod(std::string(fallback(name)));
+  }
+  std::optional<double> optional_real(std::string_view name) const {
+    return has(name) ? std::optional(real(name)) : std::nullopt;
+  }
+  std::int64_t integer(std::string_view name) const {
+    const toml::node* node = find(name);
+    return node ? *node->value<std::int64_t>() : std::stoll(std::string(fallback(name)));
+  }
+  std::string text(std::string_view name, std::string_view otherwise) const {
+    const toml::node* node = find(name);
+    return node ? node->ref<std::string>() : std::string(otherwise);
+  }
+  std::optional<Vec3> optional_real3(std::string_view name) const {
+    const toml::array* array = table_.get_as<toml::array>(name);
+    if (!array) return std::nullopt;
+    Vec3 v = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      v[static_cast<int>(k)] = array->get(k)->value<double>().value_or(0.0);
+    return v;
+  }
+
+ private:
+  bool applies(const Key& key) const {
+    return key.section == section_ && (kind_.empty() || is_among(kind_, key.kinds));
+  }
+
+  std::string label(std::string_view name) const {
+    return path_.empty() ? std::string(name) : path_ + "." + std::string(name);
+  }
+
+  void check(const toml::key& name, const toml::node& node) const {
+    if (section_.empty() && is_among(name.str(), sections)) return;
+    if (section_ == "contact" && node.is_table()) return;  // a pair
+    std::string names;
+    for (const Key& key : scene_keys()) {
+      if (!applies(key)) continue;
+      if (key.name == name.str()) {
+        if (fits(key, node)) return;
+        source_.fail(node.source(),
+                     label(key.name) + " = " + text_of(node) + ": " + allowed_values(key));
+      }
+      names += (names.empty() ? "" : ", ") + std::string(key.name);
+    }
+    if (section_.empty())
+      for (const char c : " " + std::string(sections)) names += c == ' ' ? ", " : std::string(1, c);
+    source_.fail(name.source(), label(name.str()) + ": no such key" +
+                                    (kind_.empty() ? "" : " in a stage of this kind") +
+                                    "; allowed are " + names);
+  }
+
+  const toml::node* find(std::string_view name) const {
+    const toml::node* node = table_.get(name);
+    return node || !base_ ? node : base_->get(name);
+  }
+
+  std::string_view fallback(std::string_view name) const {
+    const auto keys = scene_keys();
+    return std::find_if(keys.begin(), keys.end(),
+                        [&](const Key& key) { return applies(key) && key.name == name; })
+        ->fallback;
+  }
+
+  const Source& source_;
+  const toml::table& table_;
+  std::string path_;
+  std::string section_, kind_;
+  const toml::table* base_;
+};
+
+class Reader {
+ public:
+  Reader(const toml::table& root, const Source& source) : root_(root), source_(source) {}
+
+  Scene read() {
+    const Section top(source_, root_, "", "");
+    read_cell();
+    read_particles();
+    read_contacts();
+    read_stages();
+    const Section output(source_, table("output", false), "output", "output");
+    scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
+                     output.integer("checkpoint_interval")};
+    return std::move(scene_);
+  }
+
+ private:
+  /// A section's table; an empty one where it may be left out.
+  const toml::table& table(std::string_view name, bool required) const {
+    static const toml::table empty;
+    const toml::node* node = root_.get(name);
+    if (!node && required)
+      source_.fail("[" + std::string(name) + "] is missing: a table of this name");
+    if (!node) return empty;
+    if (!node->is_table())
+      source_.fail(node->source(), std::string(name) + " = " + text_of(*node) + ": a table");
+    return *node->as_table();
+  }
+
+  void read_cell() {
+    const Section cell(source_, table("cell", true), "cell", "cell");
+    scene_.cell_size = cell.optional_real3("size");
+  }
+
+  void read_particles() {
+    const toml::table& types = table("particles", true);
+    for (const auto& [name, node] : types) {
+      const std::string path = "particles." + std::string(name.str());
+      if (!is_name(name.str()))
+        source_.fail(name.source(), path + ": a name of letters, digits and underscores");
+      if (!node.is_table())
+        source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
+      const Section type(source_, *node.as_table(), path, "particles");
+      scene_.particle_types.push_back(
+          {std::string(name.str()),
+           {{type.real("mean_radius"), type.real("elongation"), type.real("flatness")},
+            type.real("density"),
+            static_cast<std::size_t>(type.integer("count"))}});
+      const Batch& batch = scene_.particle_types.back().batch;
+      const double mass = batch.density * volume_of(batch.shape.semi_axes());
+      if (!std::isnormal(mass))
+        source_.fail(node.source(), path + ": mean_radius and density that give a particle a mass");
+    }
+    if (types.empty()) source_.fail(types.source(), "particles: at least one table [particles.NAME]");
+  }
+
+  ContactLaw law_of(const Section& section) const {
+    const double normal = section.real("normal_stiffness");
+    return {normal, section.optional_real("shear_stiffness").value_or(normal),
+            section.real("friction_coefficient"), section.real("cohesion")};
+  }
+
+  /// The index of a type; the number of types where there is none of this name.
+  std::size_t type_named(std::string_view name) const {
+    const auto& types = scene_.particle_types;
+    const auto found = std::find_if(types.begin(), types.end(),
+                                    [&](const ParticleType& type) { return type.name == name; });
+    return static_cast<std::size_t>(found - types.begin());
+  }
+
+  void read_contacts() {
+    const toml::table& contact = table("contact", true);
+    const std::size_t types = scene_.particle_types.size();
+    std::vector<std::optional<ContactLaw>> laws(types * types);
+    const bool common = std::any_of(contact.begin(), contact.end(), [](const auto& entry) {
+      return !entry.second.is_table();
+    });
+    if (common || contact.empty())
+      laws.assign(types * types, law_of(Section(source_, contact, "contact", "contact")));
+    for (const auto& [name, node] : contact) {
+      if (!node.is_table()) continue;
+      const std::string_view pair = name.str();
+      const std::size_t dash = pair.find('-');
+      const std::size_t a = type_named(pair.substr(0, dash));
+      const std::size_t b = dash == pair.npos ? types : type_named(pair.substr(dash + 1));
+      const std::string path = "contact." + std::string(pair);
+      if (a == types || b == types)
+        source_.fail(name.source(), path + ": NAME-NAME of two of the scene's particle types");
+      const ContactLaw law =
+          law_of(Section(source_, *node.as_table(), path, "contact", {}, &contact));
+      laws[a * types + b] = laws[b * types + a] = law;
+    }
+    scene_.laws.types = types;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      if (!laws[k])
+        source_.fail(contact.source(),
+                     "contact." + scene_.particle_types[k / types].name + "-" +
+                         scene_.particle_types[k % types].name +
+                         " is missing: a law for every two types, or one in [contact] for all");
+      scene_.laws.law.push_back(*laws[k]);
+    }
+  }
+
+  void read_stages() {
+    const toml::node* node = root_.get("stage");
+    if (!node) source_.fail("[[stage]] is missing: at least one, the first of kind place");
+    const toml::array* list = node->as_array();
+    if (!list || list->empty() || !list->is_homogeneous<toml::table>())
+      source_.fail(node->source(), "stage = " + text_of(*node) + ": a list of [[stage]] tables");
+    for (std::size_t k = 0; k < list->size(); ++k)
+      read_stage(*list->get(k)->as_table(), "stage[" + std::to_string(k) + "]", k == 0);
+  }
+
+  void read_stage(const toml::table& stage, const std::string& path, bool first) {
+    const toml::node* kind_node = stage.get("kind");
+    const auto& kind_key = *std::find_if(scene_keys().begin(), scene_keys().end(),
+                                         [](const Key& key) { return key.name == "kind"; });
+    if (!kind_node)
+      source_.fail(stage.source(), path + ".kind is missing: " + allowed_values(kind_key));
+    if (!fits(kind_key, *kind_node))
+      source_.fail(kind_node->source(), path + ".kind = " + text_of(*kind_node) + ": " +
+                                            allowed_values(kind_key));
+    const std::string kind = kind_node->ref<std::string>();
+    if (first != (kind == "place"))
+      source_.fail(kind_node->source(),
+                   path + ".kind = '" + kind + "': " +
+                       (first ? "the first stage must be of kind place"
+                              : "only the first stage may be of kind place"));
+    const Section section(source_, stage, path, "stage", kind);
+    Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}});
+    if (kind == "place")
+      added.place = read_place(section, path, stage);
+    else
+      added.compress = read_compress(section, kind);
+  }
+
+  Place read_place(const Section& section, const std::string& path, const toml::table& stage) const {
+    const Place place{static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter")};
+    try {
+      const LatticePlacement how{scene_.cell_size, place.jitter * scene_.smallest_mean_radius(),
+                                 place.seed};
+      check_room(scene_.batches(), how);
+    } catch (const DoesNotFit& error) {
+      const toml::node* size = root_["cell"].as_table()->get("size");
+      if (size)
+        source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
+      source_.fail(stage.source(), path + ": " + error.what());
+    }
+    return place;
+  }
+
+  static Compress read_compress(const Section& section, const std::string& kind) {
+    return {{section.real("mean_stress"), section.real("servo_gain"),
+             section.real("max_strain_rate")},
+            section.real("damping"),
+            section.real("time_step_factor"),
+            section.optional_real("friction_coefficient"),
+            section.real("stress_tolerance"),
+            kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
+            section.integer("max_cycles")};
+  }
+
+  const toml::table& root_;
+  const Source& source_;
+  Scene scene_;
+};
+
+}  // namespace
+
+std::vector<Batch> Scene::batches() const {
+  std::vector<Batch> all;
+  for (const ParticleType& type : particle_types) all.push_back(type.batch);
+  return all;
+}
+
+std::size_t Scene::particle_count() const {
+  std::size_t count = 0;
+  for (const ParticleType& type : particle_types) count += type.batch.count;
+  return count;
+}
+
+double Scene::smallest_mean_radius() const {
+  double smallest = particle_types.front().batch.shape.mean_radius;
+  for (const ParticleType& type : particle_types)
+    smallest = std::min(smallest, type.batch.shape.mean_radius);
+  return smallest;
+}
+
+Scene parse_scene(const std::string& text, const std::string& name) {
+  const Source source(name);
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    std::string what(error.description());
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    source.fail(error.source(), "not TOML: " + what);
+  }
+  return Reader(root, source).read();
+}
+
+Scene load_scene(const std::filesystem::path& file) {
+  const std::optional<std::string> text = read_whole(file);
+  if (!text) throw SceneError(file.string() + ": cannot be read: a scene in TOML");
+  return parse_scene(*text, file.string());
+}
+
+}  // namespace tangency::dem

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene: everything that determines a run. scene_keys.hpp has the keys and what they may be.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/loading.hpp>
+#include <tangency/dem/sample.hpp>
+
+namespace tangency::dem {
+
+/// A scene that cannot be run; what() is one line, "scene.toml:12: particles.p.count = -1: an
+/// integer from 1 to 1000000".
+class SceneError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ParticleType {
+  std::string name;
+  Batch batch;
+};
+
+/// Puts the particles into the cell.
+struct Place {
+  std::uint64_t seed;
+  double jitter;  ///< in mean radii of the smallest type
+};
+
+/// Strains the cell isotropically until the mean stress is reached and, if so asked, until the
+/// particles are in equilibrium.
+struct Compress {
+  PressureServo servo;
+  double damping;           ///< in 1 / characteristic_time()
+  double time_step_factor;  ///< in characteristic_time()
+  std::optional<double> friction_coefficient;
+  double stress_tolerance;                     ///< relative
+  std::optional<double> max_unbalanced_ratio;  ///< set for a stage that relaxes
+  std::int64_t max_cycles;
+};
+
+/// One of the two is set: the stage's kind.
+struct Stage {
+  std::string name;
+  std::optional<Place> place;
+  std::optional<Compress> compress;
+};
+
+struct OutputIntervals {
+  std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
+};
+
+struct Scene {
+  std::optional<Vec3> cell_size;
+  std::vector<ParticleType> particle_types;
+  ContactLaws laws;
+  std::vector<Stage> stages;  ///< the first, and no other, places
+  OutputIntervals output;
+
+  std::vector<Batch> batches() const;
+  std::size_t particle_count() const;
+  double smallest_mean_radius() const;
+};
+
+/// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema
+Scene load_scene(const std::filesystem::path& file);
+
+/// The same from text; `name` stands for the file in messages.
+Scene parse_scene(const std::string& text, const std::string& name);
+
+}  // namespace tangency::dem

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include <tangency/dem/scene_keys.hpp>
+
+namespace tangency::dem {
+namespace {
+
+using enum KeyType;
+
+constexpr Range any{};
+constexpr Range positive{.low = 0.0};
+constexpr Range not_negative{.low = 0.0, .low_included = true};
+constexpr Range at_least_1{.low = 1.0, .low_included = true};
+constexpr Range ratio{.low = 0.0, .high = 1.0};
+constexpr Range between(double low, double high) { return {low, high, true, true}; }
+constexpr Range above_to(double low, double high) { return {low, high, false, true}; }
+
+/// Chosen: 32-bit indices hold them, and a run of more needs another program.
+constexpr double most_particles = 1e6;
+constexpr double most_cycles = 1e12;
+/// Above it the servo hides that the motion is wrong (design.md section 5: measured on the peak
+/// friction angle, which falls from 44 to 33 degrees).
+constexpr double largest_time_step_factor = 0.3;
+
+constexpr std::string_view kinds = "place compress relax";
+constexpr std::string_view moving = "compress relax";
+
+constexpr std::array table{
+    Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
+
+    Key{"cell", "size", real3, "m", "(smallest cubic lattice)",
+        positive, "", "", "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
+
+    Key{"particles", "count", integer, "-", "", between(1, most_particles), "", "",
+        "Number of particles of this type"},
+    Key{"particles", "mean_radius", real, "m", "", positive, "", "",
+        "Geometric mean of the semi-axes a >= b >= c"},
+    Key{"particles", "elongation", real, "-", "1.0", at_least_1, "", "", "a / b"},
+    Key{"particles", "flatness", real, "-", "1.0", at_least_1, "", "", "b / c"},
+    Key{"particles", "density", real, "kg/m^3", "1000.0", positive, "", "",
+        "Mass over volume; scales time, and nothing else in slow motion"},
+
+    Key{"contact", "normal_stiffness", real, "N/m", "", positive, "", "",
+        "K_n: normal force over overlap"},
+    Key{"contact", "shear_stiffness", real, "N/m", "(normal_stiffness)", not_negative, "", "",
+        "K_s: shear force over shear displacement"},
+    Key{"contact", "friction_coefficient", real, "-", "0.0", not_negative, "", "",
+        "tan(phi): slope of the Coulomb limit of the shear force"},
+    Key{"contact", "cohesion", real, "N", "0.0", not_negative, "", "",
+        "Coulomb limit without a normal force"},
+
+    Key{"stage", "kind", text, "-", "", any, kinds, kinds, "What the stage does"},
+    Key{"stage", "name", text, "-", "(its kind)", any, "", kinds,
+        "Name in the column stage of history.csv"},
+    Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
+        "Start of the random numbers"},
+    Key{"stage", "jitter", real, "mean_radius", "1e-3", between(0.0, 1.0), "", "place",
+        "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
+    Key{"stage", "mean_stress", real, "Pa", "", positive, "", moving,
+        "Mean stress to reach (compress) or to hold (relax)"},
+    Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", moving,
+        "Bound on the size of the isotropic linear strain rate"},
+    Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", moving,
+        "Share of the stress error that the servo removes in a cycle"},
+    Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "", moving,
+        "Rate at which the velocity of a free particle decays"},
+    Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
+        above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
+    Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",
+        moving, "Used for all contacts during this stage"},
+    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", moving,
+        "The stage ends with the mean stress this close to the wanted, relatively"},
+    Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax",
+        "The stage ends with every particle's unbalanced force, and moment over its largest "
+        "semi-axis, below this times the mean contact force"},
+    Key{"stage", "max_cycles", integer, "-", "200000", between(1, most_cycles), "", moving,
+        "The run fails when the stage has not ended by then"},
+
+    Key{"output", "history_interval", integer, "cycles", "50", between(1, most_cycles), "", "",
+        "Between two rows of history.csv; a stage's end always has one"},
+    Key{"output", "frame_interval", integer, "cycles", "1000", between(0, most_cycles), "", "",
+        "Between two frames; a stage's end always has one, and 0 leaves it at these"},
+    Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, most_cycles), "",
+        "", "Between two writes of checkpoint.state; 0 leaves it at interrupted runs"},
+};
+
+/// Whole numbers in full, as one writes them for an integer.
+std::string number(double x) {
+  std::array<char, 32> buffer;
+  char* const end = buffer.data() + buffer.size();
+  const bool whole = x == std::floor(x) && std::abs(x) < 1e16;
+  const auto written = whole ? std::to_chars(buffer.data(), end, x, std::chars_format::fixed)
+                             : std::to_chars(buffer.data(), end, x);
+  return {buffer.data(), written.ptr};
+}
+
+std::string range_text(const Range& range) {
+  const bool below = range.low > -std::numeric_limits<double>::infinity();
+  const bool above = range.high < std::numeric_limits<double>::infinity();
+  if (below && above && range.low == range.high) return number(range.low);
+  if (below && above && range.low_included && range.high_included)
+    return "from " + number(range.low) + " to " + number(range.high);
+  std::string text;
+  if (below) text = (range.low_included ? ">= " : "> ") + number(range.low);
+  if (above)
+    text += (below ? " and " : "") + std::string(range.high_included ? "<= " : "< ") +
+            number(range.high);
+  return text.empty() ? "any" : text;
+}
+
+std::string choices_text(std::string_view choices) {
+  std::string text;
+  for (const char c : choices) text += c == ' ' ? std::string(", ") : std::string(1, c);
+  return text;
+}
+
+std::string_view type_text(KeyType type) {
+  switch (type) {
+    case integer: return "integer";
+    case real: return "number";
+    case real3: return "3 numbers";
+    case text: return "text";
+  }
+  return "";
+}
+
+std::string_view header_of(std::string_view section) {
+  if (section == "particles") return "[particles.NAME]";
+  if (section == "contact") return "[contact] for all pairs, [contact.NAME-NAME] for one";
+  if (section == "stage") return "[[stage]], in the order of the run";
+  if (section == "cell") return "[cell]";
+  if (section == "output") return "[output]";
+  return "top level";
+}
+
+}  // namespace
+
+std::span<const Key> scene_keys() { return table; }
+
+bool is_among(std::string_view word, std::string_view words) {
+  std::istringstream stream{std::string(words)};
+  for (std::string one; stream >> one;)
+    if (one == word) return true;
+  return false;
+}
+
+std::string allowed_values(const Key& key) {
+  const std::string unit = key.unit == "-" ? "" : " (" + std::string(key.unit) + ")";
+  switch (key.type) {
+    case integer: return "an integer " + range_text(key.range) + unit;
+    case real: return "a finite number " + range_text(key.range) + unit;
+    case real3: return "3 finite numbers " + range_text(key.range) + unit;
+    case text: break;
+  }
+  if (key.choices.empty()) return "a name of letters, digits and underscores";
+  return (key.choices.find(' ') == std::string_view::npos ? "" : "one of ") +
+         choices_text(key.choices);
+}
+
+void print_schema(std::ostream& out) {
+  out << "Scene schema 1. Compression is positive in stress.\n";
+  std::string_view section = "none";
+  for (const Key& key : table) {
+    if (key.section != section) {
+      section = key.section;
+      out << '\n' << header_of(section) << '\n';
+      out << "  " << std::left << std::setw(22) << "key" << std::setw(11) << "type" << std::setw(19)
+          << "unit" << std::setw(26) << "default" << std::setw(27) << "allowed"
+          << "meaning\n";
+    }
+    const std::string allowed = key.type == text
+                                    ? (key.choices.empty() ? "letters, digits, _"
+                                                           : choices_text(key.choices))
+                                    : range_text(key.range);
+    out << "  " << std::left << std::setw(22) << key.name << std::setw(11) << type_text(key.type)
+        << std::setw(19) << key.unit << std::setw(26)
+        << (key.required() ? "required" : key.fallback) << std::setw(27) << allowed << key.meaning;
+    if (section == "stage" && key.kinds != kinds)
+      out << " [" << choices_text(key.kinds) << ']';
+    out << '\n';
+  }
+}
+
+}  // namespace tangency::dem

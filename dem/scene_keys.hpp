@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Scene schema 1: the table of keys that both checks scenes and prints itself.
+///
+/// A new key with a fallback, a new stage kind or a new choice is no new version; a key that goes
+/// away or changes its meaning is.
+#pragma once
+
+#include <iosfwd>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tangency::dem {
+
+enum class KeyType { integer, real, real3, text };
+
+/// The values a number may have, each bound included or not.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_included = false;
+  bool high_included = false;
+
+  bool holds(double x) const {
+    return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
+  }
+};
+
+struct Key {
+  std::string_view section;  ///< "", "cell", "particles", "contact", "stage" or "output"
+  std::string_view name;
+  KeyType type;
+  std::string_view unit;  ///< "-" for none
+  /// "" for a key that must be given; a value as written in TOML; or, in parentheses, what holds
+  /// without one.
+  std::string_view fallback;
+  Range range;
+  std::string_view choices;  ///< of a text, separated by blanks; "" for any name
+  std::string_view kinds;    ///< of a stage's key: the kinds that have it, separated by blanks
+  std::string_view meaning;
+
+  bool required() const { return fallback.empty(); }
+  bool has_default() const { return !required() && fallback.front() != '('; }
+};
+
+std::span<const Key> scene_keys();
+
+/// Is `word` one of the blank-separated words?
+bool is_among(std::string_view word, std::string_view words);
+
+/// "an integer from 1 to 1000000", "a number > 0 (m)", "one of place, compress, relax".
+std::string allowed_values(const Key& key);
+
+/// Every key with type, unit, default, range and meaning, section by section.
+void print_schema(std::ostream& out);
+
+}  // namespace tangency::dem

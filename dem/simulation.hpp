@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A run: the state of an assembly and the cycle that moves it on.
+///
+/// (1) The state after a cycle depends on the state before it and the scene alone: not on the
+///     number of threads, and not on whether the run was saved and resumed in between.
+#pragma once
+
+#include <tangency/dem/motion.hpp>
+#include <tangency/dem/scene.hpp>
+
+namespace tangency::dem {
+
+/// Everything that a run carries from one cycle to the next.
+struct State {
+  Particles particles;
+  Cell cell;
+  NeighbourList list;
+  Contacts contacts;
+  std::int64_t cycle = 0;
+  double time = 0.0;
+  std::size_t stage = 0;  ///< the current one; the number of stages when all are done
+  std::int64_t stage_cycle = 0;
+  double servo_integral = 0.0;
+};
+
+enum class StageStatus {
+  running,
+  done,
+  out_of_cycles,  ///< the stage's max_cycles are spent and its criterion is not met
+};
+
+class Simulation {
+ public:
+  /// Places the particles: the scene's first stage.
+  explicit Simulation(const Scene& scene);
+
+  /// Continues from a saved state.
+  /// @throws std::invalid_argument  where the state is not one of such a scene: what() says why
+  Simulation(const Scene& scene, State state);
+
+  const State& state() const { return state_; }
+  const Scene& scene() const { return scene_; }
+  bool finished() const { return state_.stage == scene_.stages.size(); }
+  /// The current stage, or the last one when finished.
+  const Stage& stage() const;
+
+  /// One cycle of the current stage. Requires !finished().
+  /// @throws Diverged, ContactNotFound
+  void step();
+
+  /// Where the current stage is. Requires !finished().
+  StageStatus status() const;
+
+  /// Goes on to the next stage, whose first cycle starts the strains anew. Requires !finished().
+  void next_stage();
+
+  /// Time step of the current stage.
+  double time_step() const;
+
+  /// A guess at how much of the current stage is done, in [0, 1]: for progress bars only.
+  double stage_fraction() const;
+
+  Observation observe() const;
+
+ private:
+  void prepare_stage();
+  void renew_list();
+
+  Scene scene_;
+  State state_;
+  ContactLaws laws_;  ///< the scene's, with the current stage's friction
+};
+
+}  // namespace tangency::dem

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/state_file.hpp>
+
+namespace tangency::dem {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "state files are little-endian");
+
+constexpr std::string_view magic = "TANGSTAT";
+constexpr std::uint32_t version = 1;
+
+class Writer {
+ public:
+  template <class T>
+    requires std::is_arithmetic_v<T>
+  void operator()(const T& value) {
+    const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    bytes_.append(raw.data(), raw.size());
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class TooShort {};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+    requires std::is_arithmetic_v<T>
+  void operator()(T& value) {
+    if (bytes_.size() < sizeof(T)) throw TooShort();
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+  }
+  bool at_end() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }
+
+ private:
+  std::string_view bytes_;
+};
+
+// One description of the format for both ways: each function passes every number of its argument
+// to the archive, a Writer or a ByteReader.
+
+template <class Archive, class Vec>
+  requires std::is_same_v<std::remove_const_t<Vec>, Vec3>
+void pass(Archive& archive, Vec& v) {
+  for (int k = 0; k < 3; ++k) archive(v[k]);
+}
+
+template <class Archive, class Quaternion>
+  requires std::is_same_v<std::remove_const_t<Quaternion>, Eigen::Quaterniond>
+void pass(Archive& archive, Quaternion& q) {
+  for (int k = 0; k < 4; ++k) archive(q.coeffs()[k]);
+}
+
+template <class Archive, class Number>
+  requires std::is_arithmetic_v<Number>
+void pass(Archive& archive, Number& x) {
+  archive(x);
+}
+
+template <class Archive, class P>
+  requires std::is_same_v<std::remove_const_t<P>, Pair>
+void pass(Archive& archive, P& pair) {
+  archive(pair.a);
+  archive(pair.b);
+  for (auto& k : pair.image) archive(k);
+}
+
+template <class Archive, class C>
+  requires std::is_same_v<std::remove_const_t<C>, Contact>
+void pass(Archive& archive, C& contact) {
+  for (auto* v : {&contact.normal, &contact.branch, &contact.arm, &contact.force, &contact.shear})
+    pass(archive, *v);
+  archive(contact.overlap);
+  archive(contact.normal_force);
+  archive(contact.normal_stiffness);
+}
+
+template <class T>
+void pass(Writer& archive, const std::vector<T>& items) {
+  archive(std::uint64_t{items.size()});
+  for (const T& item : items) pass(archive, item);
+}
+
+template <class T>
+void pass(ByteReader& archive, std::vector<T>& items) {
+  std::uint64_t size = 0;
+  archive(size);
+  if (size > archive.left()) throw TooShort();
+  items.resize(size);
+  for (T& item : items) pass(archive, item);
+}
+
+template <class Archive, class P>
+void pass_particles(Archive& archive, P& particles) {
+  pass(archive, particles.position);
+  pass(archive, particles.velocity);
+  pass(archive, particles.angular_velocity);
+  pass(archive, particles.orientation);
+  pass(archive, particles.semi_axes);
+  pass(archive, particles.mass);
+  pass(archive, particles.type);
+}
+
+/// Everything but the list and the contacts, which are classes that restore() themselves.
+template <class Archive, class S>
+void pass_plain(Archive& archive, S& state) {
+  pass_particles(archive, state.particles);
+  for (auto* v : {&state.cell.length, &state.cell.rate, &state.cell.reference_length})
+    pass(archive, *v);
+  archive(state.cycle);
+  archive(state.time);
+  archive(state.stage);
+  archive(state.stage_cycle);
+  archive(state.servo_integral);
+}
+
+template <class Archive, class R>
+void pass_reference(Archive& archive, R& reference) {
+  pass(archive, reference.cell_length);
+  archive(reference.skin);
+  archive(reference.largest_radius);
+  pass(archive, reference.reduced_position);
+}
+
+std::string bytes_of(const State& state) {
+  Writer archive;
+  pass_plain(archive, state);
+  pass_reference(archive, state.list.reference());
+  pass(archive, state.list.pairs());
+  pass(archive, state.contacts.records());
+  return archive.take();
+}
+
+/// Do all arrays belong together? A file with the right hash that fails is another program's.
+bool is_whole(const State& state, const NeighbourList::Reference& reference,
+              const std::vector<Pair>& pairs, const std::vector<Contact>& records) {
+  const Particles& p = state.particles;
+  const std::size_t n = p.size();
+  if (n == 0 || p.velocity.size() != n || p.angular_velocity.size() != n ||
+      p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
+      p.type.size() != n || reference.reduced_position.size() != n ||
+      records.size() != pairs.size())
+    return false;
+  for (const Pair& pair : pairs)
+    if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.b) >= n) return false;
+  return true;
+}
+
+State state_of(std::string_view bytes) {
+  ByteReader archive(bytes);
+  State state;
+  NeighbourList::Reference reference;
+  std::vector<Pair> pairs;
+  std::vector<Contact> records;
+  pass_plain(archive, state);
+  pass_reference(archive, reference);
+  pass(archive, pairs);
+  pass(archive, records);
+  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw TooShort();
+  state.list.restore(std::move(reference), std::move(pairs));
+  state.contacts.restore(std::move(records), state.particles, state.list);
+  return state;
+}
+
+/// 64-bit FNV-1a [Fowler, Noll, Vo; RFC 9923].
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  return hash;
+}
+
+template <class T>
+T number_at(std::string_view bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+std::string state_hash(const State& state) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::uint64_t hash = fnv1a(bytes_of(state));
+  std::string text(16, '0');
+  for (auto at = text.rbegin(); at != text.rend(); ++at, hash >>= 4) *at = digits[hash & 15u];
+  return text;
+}
+
+void save_state(const State& state, const std::filesystem::path& file) {
+  const std::string body = bytes_of(state);
+  Writer head, tail;
+  head(version);
+  tail(fnv1a(body));
+  write_whole(file, std::string(magic) + head.take() + body + tail.take());
+}
+
+State load_state(const std::filesystem::path& file) {
+  const auto fail = [&](const std::string& what) { throw StateError(file.string() + ": " + what); };
+  const std::optional<std::string> whole = read_whole(file);
+  if (!whole) fail("cannot be read: a state of an earlier run");
+  const std::string_view bytes = *whole;
+  constexpr std::size_t head = magic.size() + sizeof version;
+  if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(magic))
+    fail("no state of tangency-dem: final.state or checkpoint.state of a run");
+  const auto found = number_at<std::uint32_t>(bytes, magic.size());
+  if (found != version)
+    fail("state of version " + std::to_string(found) + ": this program reads version " +
+         std::to_string(version));
+  const std::size_t end = bytes.size() - sizeof(std::uint64_t);
+  const std::string_view body = bytes.substr(head, end - head);
+  if (number_at<std::uint64_t>(bytes, end) != fnv1a(body)) fail("damaged: its hash is wrong");
+  try {
+    return state_of(body);
+  } catch (const TooShort&) {
+    throw StateError(file.string() + ": damaged: it is not a whole state");
+  }
+}
+
+}  // namespace tangency::dem

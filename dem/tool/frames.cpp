@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/tool/frames.hpp>
+#include <tangency/dem/tool/numbers.hpp>
+
+namespace tangency::dem {
+namespace {
+
+template <class Vector>
+std::string row(const Vector& v) {
+  std::string text;
+  for (Eigen::Index k = 0; k < v.size(); ++k) text += (k ? " " : "") + to_text(v[k]);
+  return text;
+}
+
+Vec3 wrapped(const State& state, std::size_t i) {
+  const Vec3& x = state.particles.position[i];
+  return x - state.cell.translation(state.cell.image_of(x));
+}
+
+/// R diag(2a) R', row by row.
+Eigen::Matrix<double, 9, 1> axes_tensor(const Particles& particles, std::size_t i) {
+  const Mat3 rotation = particles.orientation[i].toRotationMatrix();
+  const Mat3 tensor = rotation * (2.0 * particles.semi_axes[i]).asDiagonal() * rotation.transpose();
+  return tensor.reshaped();
+}
+
+std::vector<int> contact_counts(const State& state) {
+  std::vector<int> counts(state.particles.size(), 0);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    for (const auto* at = state.list.begin_of(i); at != state.list.end_of(i); ++at)
+      counts[i] += state.contacts.records()[at->index].touches() ? 1 : 0;
+  return counts;
+}
+
+/// One array of a VTK XML file; `value(i)` is the text of item i.
+template <class F>
+void data_array(std::ostream& out, const std::string& attributes, std::size_t count, F&& value) {
+  out << "<DataArray " << attributes << " format=\"ascii\">\n";
+  for (std::size_t i = 0; i < count; ++i) out << value(i) << '\n';
+  out << "</DataArray>\n";
+}
+
+std::string vtp_of(const State& state) {
+  const Particles& p = state.particles;
+  const std::size_t n = p.size();
+  const std::vector<int> contacts = contact_counts(state);
+  const std::string real = "type=\"Float64\" NumberOfComponents=";
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\"?>\n"
+         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+         "<FieldData>\n";
+  data_array(out, real + "\"3\" NumberOfTuples=\"1\" Name=\"cell\"", 1,
+             [&](std::size_t) { return row(state.cell.length); });
+  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << n
+      << "\">\n<Points>\n";
+  data_array(out, real + "\"3\"", n, [&](std::size_t i) { return row(wrapped(state, i)); });
+  out << "</Points>\n<Verts>\n";
+  const std::string integer = "type=\"Int32\" Name=";
+  data_array(out, integer + "\"connectivity\"", n, [](std::size_t i) { return to_text(i); });
+  data_array(out, integer + "\"offsets\"", n, [](std::size_t i) { return to_text(i + 1); });
+  out << "</Verts>\n<PointData Tensors=\"axes\">\n";
+  data_array(out, real + "\"9\" Name=\"axes\"", n,
+             [&](std::size_t i) { return row(axes_tensor(p, i)); });
+  data_array(out, real + "\"4\" Name=\"orientation\"", n,
+             [&](std::size_t i) { return row(p.orientation[i].coeffs()); });
+  data_array(out, real + "\"3\" Name=\"semi_axes\"", n,
+             [&](std::size_t i) { return row(p.semi_axes[i]); });
+  data_array(out, real + "\"3\" Name=\"velocity\"", n,
+             [&](std::size_t i) { return row(p.velocity[i]); });
+  data_array(out, integer + "\"type\"", n, [&](std::size_t i) { return to_text(p.type[i]); });
+  data_array(out, integer + "\"contacts\"", n, [&](std::size_t i) { return to_text(contacts[i]); });
+  out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  return out.str();
+}
+
+std::string xyz_of(const Simulation& simulation) {
+  const State& state = simulation.state();
+  const Particles& p = state.particles;
+  const Vec3& l = state.cell.length;
+  std::string text = to_text(p.size()) + "\nLattice=\"" + to_text(l[0]) + " 0 0 0 " +
+                     to_text(l[1]) + " 0 0 0 " + to_text(l[2]) +
+                     "\" pbc=\"T T T\" Properties=species:S:1:pos:R:3:orientation:R:4:"
+                     "aspherical_shape:R:3:velo:R:3 cycle=" +
+                     to_text(state.cycle) + " Time=" + to_text(state.time) + "\n";
+  for (std::size_t i = 0; i < p.size(); ++i)
+    text += simulation.scene().particle_types[static_cast<std::size_t>(p.type[i])].name + " " +
+            row(wrapped(state, i)) + " " + row(p.orientation[i].coeffs()) + " " +
+            row(p.semi_axes[i]) + " " + row(p.velocity[i]) + "\n";
+  return text;
+}
+
+/// The text between `before` and `after` in a line, if both are there.
+std::optional<std::string> between(const std::string& line, const std::string& before,
+                                   const std::string& after) {
+  const std::size_t start = line.find(before);
+  if (start == line.npos) return std::nullopt;
+  const std::size_t end = line.find(after, start + before.size());
+  if (end == line.npos) return std::nullopt;
+  return line.substr(start + before.size(), end - start - before.size());
+}
+
+}  // namespace
+
+Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle)
+    : directory_(directory) {
+  std::filesystem::create_directories(directory_ / "frames");
+  keep_index(last_cycle);
+  keep_xyz(last_cycle);
+}
+
+void Frames::keep_index(std::int64_t last_cycle) {
+  std::ifstream in(directory_ / "frames.pvd");
+  for (std::string line; std::getline(in, line);) {
+    const auto time = between(line, "timestep=\"", "\"");
+    const auto cycle = between(line, "file=\"frames/", ".vtp\"");
+    if (!time || !cycle) continue;
+    const Entry entry{std::stoll(*cycle), std::stod(*time)};
+    if (entry.cycle <= last_cycle)
+      entries_.push_back(entry);
+    else
+      std::filesystem::remove(directory_ / "frames" / (*cycle + ".vtp"));
+  }
+}
+
+void Frames::keep_xyz(std::int64_t last_cycle) {
+  const auto part = directory_ / "frames.xyz.part", whole = directory_ / "frames.xyz";
+  // A run that was killed has left its frames under the first name.
+  std::ifstream in(std::filesystem::exists(part) ? part : whole);
+  std::string kept;
+  for (std::string count; std::getline(in, count);) {
+    std::string frame = count + "\n", line;
+    std::getline(in, line);
+    const auto cycle = between(line, " cycle=", " ");
+    if (!cycle || std::stoll(*cycle) > last_cycle) break;
+    frame += line + "\n";
+    for (long left = std::stol(count); left > 0 && std::getline(in, line); --left)
+      frame += line + "\n";
+    kept += frame;
+  }
+  in.close();
+  xyz_.open(part, std::ios::binary | std::ios::trunc);
+  xyz_ << kept;
+  std::filesystem::remove(whole);
+}
+
+void Frames::add(const Simulation& simulation) {
+  const State& state = simulation.state();
+  if (!entries_.empty() && entries_.back().cycle == state.cycle) return;
+  write_whole(directory_ / "frames" / (to_text(state.cycle) + ".vtp"), vtp_of(state));
+  entries_.push_back({state.cycle, state.time});
+  write_index();
+  xyz_ << xyz_of(simulation) << std::flush;
+  if (!xyz_) throw std::runtime_error((directory_ / "frames.xyz").string() + ": cannot be written");
+}
+
+void Frames::write_index() const {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const Entry& entry : entries_)
+    text += "<DataSet timestep=\"" + to_text(entry.time) + "\" part=\"0\" file=\"frames/" +
+            to_text(entry.cycle) + ".vtp\"/>\n";
+  write_whole(directory_ / "frames.pvd", text + "</Collection>\n</VTKFile>\n");
+}
+
+void Frames::finish() {
+  xyz_.close();
+  std::filesystem::rename(directory_ / "frames.xyz.part", directory_ / "frames.xyz");
+}
+
+}  // namespace tangency::dem

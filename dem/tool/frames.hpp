@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Frames to look at. Particles are drawn where they lie in the cell, wrapped into it.
+///
+/// DIR/frames.pvd (ParaView) lists DIR/frames/CYCLE.vtp: points with `orientation` (x y z w),
+/// `semi_axes`, `velocity`, `type`, `contacts` and the tensor `axes` = R diag(2a) R', which the
+/// filter Tensor Glyph draws to scale as its sphere of diameter 1; field data `cell`, its edges.
+/// DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation` x y z w and
+/// `aspherical_shape`, the three semi-axes.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <tangency/dem/simulation.hpp>
+
+namespace tangency::dem {
+
+class Frames {
+ public:
+  /// Starts after the frames that the directory holds already.
+  /// @param last_cycle  frames of later cycles are taken away; -1: all are
+  Frames(const std::filesystem::path& directory, std::int64_t last_cycle);
+
+  /// Adds one frame; a second one of the same cycle is left out.
+  /// @throws std::runtime_error  naming a file that cannot be written
+  void add(const Simulation& simulation);
+
+  /// Gives frames.xyz, until now frames.xyz.part, its name.
+  void finish();
+
+ private:
+  struct Entry {
+    std::int64_t cycle;
+    double time;
+  };
+  void keep_index(std::int64_t last_cycle);
+  void keep_xyz(std::int64_t last_cycle);
+  void write_index() const;
+
+  std::filesystem::path directory_;
+  std::ofstream xyz_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace tangency::dem

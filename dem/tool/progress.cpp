@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <unistd.h>
+
+#include <tangency/dem/tool/progress.hpp>
+
+namespace tangency::dem {
+namespace {
+
+constexpr int bar_width = 30;  // characters: leaves room for the note on 100 columns
+constexpr std::chrono::milliseconds bar_interval{100};
+constexpr std::chrono::milliseconds line_interval{5000};
+
+std::string time_left(double seconds) {
+  std::ostringstream text;
+  if (seconds < 90.0)
+    text << std::ceil(seconds) << " s left";
+  else if (seconds < 5400.0)
+    text << std::ceil(seconds / 60.0) << " min left";
+  else
+    text << std::fixed << std::setprecision(1) << seconds / 3600.0 << " h left";
+  return text.str();
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+bool Progress::is_due() const {
+  return !quiet_ && Clock::now() - last_ >= (on_terminal_ ? bar_interval : line_interval);
+}
+
+void Progress::show(double fraction, const std::string& note) {
+  if (quiet_) return;
+  last_ = Clock::now();
+  if (first_fraction_ < 0.0) first_fraction_ = fraction;
+  const double spent = std::chrono::duration<double>(last_ - start_).count();
+  const double done = fraction - first_fraction_;
+  const std::string left =
+      done > 0.0 ? ", about " + time_left(spent * (1.0 - fraction) / done) : std::string();
+  if (on_terminal_) {
+    const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * bar_width);
+    std::cerr << "\r[" << std::string(filled, '#') << std::string(bar_width - filled, ' ') << "] "
+              << note << left << "\x1b[K" << std::flush;
+    bar_is_open_ = true;
+  } else {
+    std::cerr << std::lround(100.0 * fraction) << " %: " << note << left << std::endl;
+  }
+}
+
+void Progress::finish() {
+  if (bar_is_open_) std::cerr << std::endl;
+  bar_is_open_ = false;
+}
+
+}  // namespace tangency::dem

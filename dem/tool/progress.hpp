@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a person who waits for a run sees, on standard error.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace tangency::dem {
+
+/// On a terminal a bar that is drawn over itself; elsewhere a plain line now and then; or nothing.
+/// The time left is what the fraction done took so far, carried on: a guess.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+
+  /// Is it time to show something? Cheap: asked every cycle.
+  bool is_due() const;
+
+  /// @param fraction  of the whole run, in [0, 1]
+  /// @param note      one short line: stage, cycle, stress
+  void show(double fraction, const std::string& note);
+
+  /// Ends the bar's line. Call before other messages.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool quiet_;
+  bool on_terminal_;
+  bool bar_is_open_ = false;
+  double first_fraction_ = -1.0;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+}  // namespace tangency::dem

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/numbers.hpp>
+#include <tangency/dem/tool/results.hpp>
+
+namespace tangency::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes the directory and sees that files can be made in it. Leaves nothing when not.
+fs::path usable(const fs::path& directory) {
+  std::error_code error;
+  fs::path made;  // the uppermost directory that was not there
+  for (fs::path at = fs::absolute(directory).lexically_normal(); !fs::exists(at, error);
+       at = at.parent_path())
+    made = at;
+  fs::create_directories(directory, error);
+  const fs::path probe = directory / ".writable";
+  const bool writable = !error && std::ofstream(probe).put('.').good();
+  fs::remove(probe, error);
+  if (writable) return directory;
+  if (!made.empty()) fs::remove_all(made, error);
+  throw OutputError("--out " + directory.string() +
+                    ": cannot be written: a directory, or a place for one");
+}
+
+std::string header_line() {
+  std::string line;
+  for (const Field& field : history_fields(0, 0.0, "", Observation{}))
+    line += (line.empty() ? "" : ",") + field.name;
+  return line + "\n";
+}
+
+std::string csv_line(const std::vector<Field>& fields) {
+  std::string line;
+  for (const Field& field : fields) {
+    if (!line.empty()) line += ',';
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+            line += value;
+          else
+            line += to_text(value);
+        },
+        field.value);
+  }
+  return line + "\n";
+}
+
+std::vector<Field> row_of(const Simulation& simulation) {
+  const State& state = simulation.state();
+  const auto& stages = simulation.scene().stages;
+  const std::string& stage = state.cycle == 0 ? stages.front().name : simulation.stage().name;
+  return history_fields(state.cycle, state.time, stage, simulation.observe());
+}
+
+/// Rows of the history in a directory up to those of `cycle`.
+std::string earlier_rows(const fs::path& directory, std::int64_t cycle) {
+  std::ifstream in(directory / "history.csv");
+  std::string rows, line;
+  std::getline(in, line);
+  if (line + "\n" != header_line()) return {};
+  while (std::getline(in, line) && std::atoll(line.c_str()) <= cycle) rows += line + "\n";
+  return rows;
+}
+
+}  // namespace
+
+Results::Results(const fs::path& directory, const Simulation& simulation, bool resumed)
+    : directory_(usable(directory)),
+      history_(resumed ? earlier_rows(directory_, simulation.state().cycle) : std::string()),
+      last_cycle_(resumed ? simulation.state().cycle : -1),
+      frames_(directory_, last_cycle_) {
+  for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
+  if (resumed) return;
+  for (const char* name : {"checkpoint.state", "history.csv"}) fs::remove(directory_ / name);
+}
+
+void Results::add_row(const Simulation& simulation) {
+  const State& state = simulation.state();
+  if (state.cycle == last_cycle_) return;
+  last_cycle_ = state.cycle;
+  history_ += csv_line(row_of(simulation));
+}
+
+void Results::checkpoint(const Simulation& simulation) const {
+  save_state(simulation.state(), directory_ / "checkpoint.state");
+  write_history();
+}
+
+void Results::write_history() const {
+  write_whole(directory_ / "history.csv", header_line() + history_);
+}
+
+void Results::finish_incomplete(const Simulation& simulation) {
+  checkpoint(simulation);
+  frames_.finish();
+}
+
+void Results::finish(const Simulation& simulation, const RunCost& cost) {
+  frames_.add(simulation);
+  finish_incomplete(simulation);
+  save_state(simulation.state(), directory_ / "final.state");
+  write_summary(simulation, cost);
+}
+
+void Results::write_summary(const Simulation& simulation, const RunCost& cost) const {
+  const State& state = simulation.state();
+  const Balance balance = simulation.observe().balance;
+  nlohmann::ordered_json summary;
+  for (const Field& field : row_of(simulation))
+    std::visit([&](const auto& value) { summary[field.name] = value; }, field.value);
+  summary["particles"] = state.particles.size();
+  summary["cycles"] = state.cycle;
+  summary["wall_seconds"] = cost.wall_seconds;
+  summary["ns_per_listed_pair_per_cycle"] =
+      cost.listed_pair_cycles > 0.0 ? 1e9 * cost.cycle_seconds / cost.listed_pair_cycles : 0.0;
+  summary["listed_pairs"] = state.list.pairs().size();
+  summary["threads"] = cost.threads;
+  summary["state_hash"] = state_hash(state);
+  summary["rattlers"] = balance.rattlers;
+  summary["largest_unbalanced_ratio"] = balance.largest_unbalanced_ratio;
+  summary["largest_unbalanced_moment_ratio"] = balance.largest_unbalanced_moment_ratio;
+  write_whole(directory_ / "summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace tangency::dem

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+#include <omp.h>
+#include <sstream>
+
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/progress.hpp>
+#include <tangency/dem/tool/results.hpp>
+#include <tangency/dem/tool/run.hpp>
+
+namespace tangency::dem {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Above it the motion is no longer slow and the stresses are not those of a sound run (design.md
+/// section 5: measured).
+constexpr double sound_inertial_fraction = 0.015;
+
+volatile std::sig_atomic_t caught_signal = 0;
+
+extern "C" void catch_signal(int number) { caught_signal = number; }
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string short_text(double x) {
+  std::ostringstream text;
+  text << std::setprecision(3) << x;
+  return text.str();
+}
+
+class Run {
+ public:
+  Run(Simulation simulation, const RunOptions& options)
+      : simulation_(std::move(simulation)),
+        results_(options.out, simulation_, options.resume.has_value()),
+        progress_(options.quiet) {
+    cost_.threads = omp_get_max_threads();
+  }
+
+  int execute() {
+    if (simulation_.state().cycle == 0) {
+      results_.add_row(simulation_);
+      results_.add_frame(simulation_);
+    }
+    try {
+      while (!simulation_.finished()) {
+        const StageStatus status = simulation_.status();
+        if (status == StageStatus::out_of_cycles) return give_up(unmet_criterion());
+        if (status == StageStatus::done) {
+          end_stage();
+          continue;
+        }
+        if (caught_signal != 0) return interrupt();
+        cycle();
+      }
+    } catch (const Diverged& error) {
+      return give_up(error.what());
+    } catch (const ContactNotFound& error) {
+      return give_up(error.what());
+    }
+    progress_.finish();
+    cost_.wall_seconds = seconds_since(start_);
+    results_.finish(simulation_, cost_);
+    return success;
+  }
+
+ private:
+  void cycle() {
+    const auto before = Clock::now();
+    simulation_.step();
+    cost_.cycle_seconds += seconds_since(before);
+    cost_.listed_pair_cycles += static_cast<double>(simulation_.state().list.pairs().size());
+
+    const OutputIntervals& every = simulation_.scene().output;
+    const std::int64_t now = simulation_.state().cycle;
+    if (now % every.history == 0) results_.add_row(simulation_);
+    if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
+    if (every.checkpoint > 0 && now % every.checkpoint == 0) results_.checkpoint(simulation_);
+    if (progress_.is_due()) show_progress();
+  }
+
+  void show_progress() {
+    const double stages = static_cast<double>(simulation_.scene().stages.size());
+    const double done = static_cast<double>(simulation_.state().stage);
+    progress_.show((done - 1.0 + simulation_.stage_fraction()) / (stages - 1.0), where());
+  }
+
+  std::string where() const {
+    const Observation seen = simulation_.observe();
+    return simulation_.stage().name + ", cycle " + std::to_string(simulation_.state().cycle) +
+           ", mean stress " + short_text(seen.stress.mean());
+  }
+
+  void end_stage() {
+    results_.add_row(simulation_);
+    results_.add_frame(simulation_);
+    const double fraction = simulation_.observe().balance.inertial_fraction;
+    if (fraction > sound_inertial_fraction)
+      warn("stage " + simulation_.stage().name + " ended with inertial fraction " +
+           short_text(fraction) + ", above " + short_text(sound_inertial_fraction) +
+           ": the motion is too fast for its stresses to be static ones; lower max_strain_rate");
+    simulation_.next_stage();
+  }
+
+  std::string unmet_criterion() const {
+    const Compress& stage = *simulation_.stage().compress;
+    const Observation seen = simulation_.observe();
+    std::string text = "stage " + simulation_.stage().name + " did not end within max_cycles = " +
+                       std::to_string(stage.max_cycles) + ": mean stress " +
+                       short_text(seen.stress.mean()) + " of " +
+                       short_text(stage.servo.mean_stress);
+    if (stage.max_unbalanced_ratio)
+      text += ", largest unbalanced force " + short_text(seen.balance.largest_unbalanced_ratio) +
+              " and moment " + short_text(seen.balance.largest_unbalanced_moment_ratio) +
+              " of " + short_text(*stage.max_unbalanced_ratio);
+    return text;
+  }
+
+  int give_up(const std::string& why) {
+    warn(why);
+    results_.add_row(simulation_);
+    results_.finish_incomplete(simulation_);
+    return not_reached;
+  }
+
+  int interrupt() {
+    results_.finish_incomplete(simulation_);
+    warn("interrupted in cycle " + std::to_string(simulation_.state().cycle) +
+         "; continue with --resume checkpoint.state");
+    return 128 + caught_signal;
+  }
+
+  void warn(const std::string& message) {
+    progress_.finish();
+    std::cerr << "tangency-dem: " << message << std::endl;
+  }
+
+  Clock::time_point start_ = Clock::now();
+  Simulation simulation_;
+  Results results_;
+  Progress progress_;
+  RunCost cost_;
+};
+
+Simulation simulation_of(const RunOptions& options) {
+  const Scene scene = load_scene(options.scene);
+  if (!options.resume) return Simulation(scene);
+  State state = load_state(*options.resume);
+  try {
+    return Simulation(scene, std::move(state));
+  } catch (const std::invalid_argument& error) {
+    throw StateError(options.resume->string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  Run run(simulation_of(options), options);
+  std::signal(SIGINT, catch_signal);
+  std::signal(SIGTERM, catch_signal);
+  return run.execute();
+}
+
+}  // namespace tangency::dem

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// tangency-dem run.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace tangency::dem {
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> resume;
+  int threads = 0;  ///< 0: as many as OpenMP offers
+  bool quiet = false;
+};
+
+/// What the program returns. A run that a signal ended returns 128 + the signal, as shells do.
+enum ExitStatus : int {
+  success = 0,
+  not_reached = 1,  ///< a stage's criterion was not met, or the run blew up
+  refused = 2,      ///< bad scene, state or command line: nothing was written
+};
+
+/// Runs a scene; messages go to standard error.
+/// @throws SceneError, StateError, OutputError  where the input is refused
+int run(const RunOptions& options);
+
+}  // namespace tangency::dem

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The characteristic quartic of a pair of ellipsoids in exact integers. Internal (GMP).
+///
+/// P(l) = c det(l Q_A + Q_B) with c > 0 and Q < 0 inside. With the Perram-Wertheim form, by block
+/// elimination,  det M_A det M_B det(l Q_A + Q_B) = l N(l) - (1 + l) D(l),  which needs only 3 x 3
+/// matrices and the difference of the centres: numbers half as long as the determinant's.
+///
+/// (1) P(0) < 0 and the leading coefficient is < 0.
+/// (2) P has at least two negative roots, counted with multiplicity [WangWangKim2001].
+/// (3) The solids are apart <=> P has two distinct positive roots; they touch from outside <=> one
+///     (double) positive root; their interiors meet <=> none [WangWangKim2001].
+#pragma once
+
+#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/exact/integer_polynomial.hpp>
+
+namespace tangency::exact {
+
+/// Coefficients from the constant upwards, degree 4.
+IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b);
+
+enum class Position { apart, touching, interiors_meet };
+
+/// Identity (3). Requires a quartic of pair_quartic().
+Position position(const IntegerPolynomial& quartic);
+
+}  // namespace tangency::exact

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Doubles by their bits: exponent, zero test and scaling that read subnormal numbers as they are
+/// even where the caller's floating-point environment reads them as zero (DAZ).
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <tangency/geometry/floating_point.hpp>
+
+namespace tangency {
+
+/// Is the value 0 or -0?
+inline bool is_zero(double value) noexcept {
+  return (std::bit_cast<std::uint64_t>(value) << 1) == 0;
+}
+
+/// e with 2^e <= |value| < 2^(e+1); for 0 less than for any other number. Requires a finite value.
+inline int exponent_of(double value) noexcept {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(value) & ~(std::uint64_t{1} << 63);
+  if (bits == 0) return -1100;
+  const int biased = static_cast<int>(bits >> 52);
+  return biased != 0 ? biased - 1023 : static_cast<int>(std::bit_width(bits)) - 1 - 1074;
+}
+
+/// value * 2^power, rounded (or flushed to 0, if that is the environment) below 2^-1022.
+/// Requires a finite value and a result in range.
+inline double scaled_by_power(double value, int power) noexcept {
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(value) & ~(std::uint64_t{1} << 63);
+  if (bits >> 52 != 0 || bits == 0) return std::scalbn(value, power);
+  const double magnitude = std::scalbn(static_cast<double>(bits), power - 1074);
+  return std::signbit(value) ? -magnitude : magnitude;
+}
+
+}  // namespace tangency

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/relation.hpp>
+
+#include <tangency/geometry/exact/containment.hpp>
+#include <tangency/geometry/exact/pair_quartic.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
+#include <tangency/geometry/methods/overlap_filter.hpp>
+#include <tangency/geometry/methods/overlap_filter_double_double.hpp>
+#include <tangency/geometry/methods/scaled_pair.hpp>
+
+namespace tangency {
+namespace {
+
+using methods::Filtered;
+using methods::FilteredAt;
+
+/// Calls ask(a, b, d, d_low) with the pair in a unit that suits the filters, c_B - c_A = d + d_low;
+/// `otherwise` where there is none.
+template <class Answer, class Ask>
+Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const Ask& ask) noexcept {
+  const Vec3 d = b.centre() - a.centre();
+  if (methods::moderate(a, b, d)) {
+    return ask(a, b, d, [&] { return methods::separation_error(a.centre(), b.centre(), d); });
+  }
+  // A difference of subnormal centres may be lost before it is scaled.
+  if (!environment_is_default()) return otherwise;
+  const methods::ScaledPair pair = methods::scaled_pair(a, b);
+  if (!methods::moderate(pair.a, pair.b, pair.d)) return otherwise;
+  return ask(pair.a, pair.b, pair.d, [&] { return pair.d_low; });
+}
+
+/// The filters in double and, where they cannot tell, in double-double.
+template <class SeparationError>
+FilteredAt filter_position(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
+                           const SeparationError& d_low) {
+  FilteredAt found = methods::filter_overlap_with_normal(a, b, d);
+  if (found.answer == Filtered::unknown && environment_is_default() && found.normal.allFinite() &&
+      found.normal != Vec3::Zero()) {
+    found.answer = methods::filter_overlap_in_double_double(a, b, d, d_low(), found.normal);
+  }
+  return found;
+}
+
+enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };
+
+template <class SeparationError>
+Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
+                      const SeparationError& d_low) {
+  const FilteredAt found = filter_position(a, b, d, d_low);
+  if (found.answer == Filtered::apart) return Found::apart;
+  if (found.answer == Filtered::unknown) return Found::unknown;
+  if (!methods::proves_sticking_out(a, b, d, found.normal)) {
+    return methods::proves_inside(a, b, d) ? Found::a_inside : Found::meeting;
+  }
+  if (methods::proves_sticking_out(b, a, -d, -found.normal)) return Found::overlapping;
+  return methods::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
+}
+
+RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
+                                 const exact::IntegerPolynomial& quartic) {
+  using exact::Containment;
+  constexpr Tier tier = Tier::exact;
+  if (exact::equal(a, b)) return {Relation::equal, Inner::none, tier};
+  switch (exact::containment(a, b, quartic)) {
+    case Containment::interior: return {Relation::a_in_b, Inner::none, tier};
+    case Containment::touching: return {Relation::internal_touch, Inner::a, tier};
+    case Containment::none: break;
+  }
+  switch (exact::containment(b, a, exact::pair_quartic(b, a))) {
+    case Containment::interior: return {Relation::b_in_a, Inner::none, tier};
+    case Containment::touching: return {Relation::internal_touch, Inner::b, tier};
+    case Containment::none: break;
+  }
+  return {Relation::overlap, Inner::none, tier};
+}
+
+}  // namespace
+
+std::string_view to_string(Relation relation) noexcept {
+  switch (relation) {
+    case Relation::separate: return "separate";
+    case Relation::external_touch: return "external_touch";
+    case Relation::overlap: return "overlap";
+    case Relation::internal_touch: return "internal_touch";
+    case Relation::a_in_b: return "a_in_b";
+    case Relation::b_in_a: return "b_in_a";
+    case Relation::equal: break;
+  }
+  return "equal";
+}
+
+OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  const Filtered found =
+      filtered(a, b, Filtered::unknown, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
+                                           const auto& d_low) {
+        return filter_position(pa, pb, d, d_low).answer;
+      });
+  if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
+  const exact::Position position = exact::position(exact::pair_quartic(a, b));
+  return {position == exact::Position::interiors_meet, Tier::exact};
+}
+
+RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  const Found found =
+      filtered(a, b, Found::unknown, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
+                                        const auto& d_low) {
+        return filter_relation(pa, pb, d, d_low);
+      });
+  switch (found) {
+    case Found::apart: return {Relation::separate, Inner::none, Tier::filter};
+    case Found::overlapping: return {Relation::overlap, Inner::none, Tier::filter};
+    case Found::a_inside: return {Relation::a_in_b, Inner::none, Tier::filter};
+    case Found::b_inside: return {Relation::b_in_a, Inner::none, Tier::filter};
+    case Found::meeting: return exact_containment(a, b, exact::pair_quartic(a, b));
+    case Found::unknown: break;
+  }
+  const exact::IntegerPolynomial quartic = exact::pair_quartic(a, b);
+  switch (exact::position(quartic)) {
+    case exact::Position::apart: return {Relation::separate, Inner::none, Tier::exact};
+    case exact::Position::touching: return {Relation::external_touch, Inner::none, Tier::exact};
+    case exact::Position::interiors_meet: break;
+  }
+  return exact_containment(a, b, quartic);
+}
+
+}  // namespace tangency

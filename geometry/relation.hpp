@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How two solid ellipsoids lie to each other, as point sets: exact for the stored doubles, with no
+/// tolerance anywhere.
+///
+/// A filter in double answers where a proven error bound leaves no doubt
+/// (docs/derivations/relation-filter.md: valid in all four rounding modes and where subnormal
+/// numbers are flushed or read as zero); everything else goes to exact integers. The answers hold for
+/// every ellipsoid that can be constructed.
+///
+/// (1) relation(b, a) is relation(a, b) with a_in_b and b_in_a, and the inner body, exchanged.
+/// (2) overlaps(a, b) if and only if the relation is neither separate nor external_touch.
+/// (3) Scaling both bodies by a power of two, permuting and reflecting coordinates, and all that
+///     leaves the two solids as they are (see Ellipsoid) leave the answer.
+/// (4) Growing a body never turns overlaps() off.
+/// (5) overlaps(a, b) if and only if the true signed gap is < 0.
+#pragma once
+
+#include <string_view>
+
+#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/tier.hpp>
+
+namespace tangency {
+
+enum class Relation {
+  separate,        ///< no common point
+  external_touch,  ///< common points, interiors disjoint
+  overlap,         ///< every other pair, whether or not the surfaces are also tangent somewhere
+  internal_touch,  ///< one inside the other, not equal, boundaries meeting
+  a_in_b,          ///< A inside the interior of B
+  b_in_a,
+  equal,
+};
+
+/// As the file formats write it: "separate", "external_touch", ...
+std::string_view to_string(Relation relation) noexcept;
+
+enum class Inner { none, a, b };
+
+struct RelationAnswer {
+  Relation relation;
+  Inner inner;  ///< the body inside, for internal_touch; else none
+  Tier tier;
+};
+
+/// The exact tier allocates; the filter does not.
+RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+
+struct OverlapAnswer {
+  bool overlaps;
+  Tier tier;
+};
+
+/// Do the interiors meet, and which tier knew. The exact tier allocates; the filter does not.
+OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+
+/// Do the interiors meet?
+inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return overlap_answer(a, b).overlaps;
+}
+
+}  // namespace tangency

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <tangency/dem/loading.hpp>
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Mat3;
+
+constexpr double kStep = 0.01;
+
+/// A body whose mean stress is stiffness * (compressive strain - slack), and creeps.
+struct Spring {
+  double stiffness, slack, creep_rate, strain = 0.0;
+
+  Stress stress() const {
+    const double pressure = std::max(0.0, stiffness * (strain - slack));
+    return {pressure * Mat3::Identity(), pressure > 0.0 ? stiffness : 0.0};
+  }
+  std::vector<double> load(const PressureServo& servo, int cycles) {
+    std::vector<double> pressures;
+    double integral = 0.0;
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      strain -= servo.rate(stress(), kStep, integral) * kStep;
+      slack += creep_rate * kStep;
+      pressures.push_back(stress().mean());
+    }
+    return pressures;
+  }
+};
+
+constexpr PressureServo kServo{100.0, 0.01, 0.05};
+
+TEST(PressureServo, ReachesTheWantedStressWithoutRinging) {
+  const auto pressures = Spring{1000.0, 0.2, 0.0}.load(kServo, 20000);
+  EXPECT_NEAR(pressures.back(), 100.0, 0.01);
+  EXPECT_LT(*std::max_element(pressures.begin(), pressures.end()), 105.0);
+  int crossings = 0;
+  for (std::size_t k = 1; k < pressures.size(); ++k)
+    crossings += (pressures[k - 1] < 100.0) != (pressures[k] < 100.0) ? 1 : 0;
+  EXPECT_LE(crossings, 2);
+}
+
+TEST(PressureServo, TakesUpSteadyCreepWithoutALastingError) {
+  const auto pressures = Spring{1000.0, 0.0, 0.005}.load(kServo, 20000);
+  EXPECT_NEAR(pressures.back(), 100.0, 0.01);
+}
+
+TEST(PressureServo, KeepsItsRateWithinTheBoundAndCompressesWhatBearsNothing) {
+  double integral = 0.0;
+  EXPECT_EQ(kServo.rate(Stress{}, kStep, integral), -0.05);
+  const Stress far{1e9 * Mat3::Identity(), 1.0};
+  EXPECT_EQ(kServo.rate(far, kStep, integral), 0.05);
+  EXPECT_EQ(integral, 0.0) << "no wind-up at the bound";
+}
+
+}  // namespace

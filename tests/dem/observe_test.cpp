@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <tangency/dem/observe.hpp>
+
+#include "assembly.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Mat3;
+using tangency::Vec3;
+using tangency::test::crowd;
+using tangency::test::laws;
+
+constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
+
+struct Seen {
+  NeighbourList list;
+  Contacts contacts;
+
+  Seen(const Particles& particles, const Cell& cell, const ContactLaw& law = kFrictionless,
+       double dt = 0.0) {
+    list.build(particles, cell, 0.3);
+    contacts.carry_over({}, list.pairs());
+    contacts.update(particles, cell, list, laws(law), dt);
+  }
+};
+
+Cell cube(double edge) { return {Vec3::Constant(edge), Vec3::Zero(), Vec3::Constant(edge)}; }
+
+/// Three spheres in a row along x, touching 0-1 (overlap 0.5) and 1-2 (overlap 0.25), and one apart.
+Particles row_of_spheres() {
+  Particles particles;
+  for (const double x : {1.0, 2.5, 4.25})
+    particles.add({x, 5.0, 5.0}, Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
+  particles.add({7.5, 1.0, 1.0}, Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
+  return particles;
+}
+
+TEST(Observe, StressOfARowOfSpheresIsForceTimesBranchOverVolume) {
+  const Stress stress = stress_of(Seen(row_of_spheres(), cube(10.0)).contacts, cube(10.0));
+  Mat3 expected = Mat3::Zero();
+  expected(0, 0) = (50.0 * 1.5 + 25.0 * 1.75) / 1000.0;
+  EXPECT_LT((stress.tensor - expected).norm(), 1e-13);
+  EXPECT_NEAR(stress.affine_stiffness, 100.0 * (1.5 * 1.5 + 1.75 * 1.75) / 3000.0, 1e-13);
+}
+
+double elastic_energy(const Particles& particles, const Cell& cell) {
+  double energy = 0.0;
+  const Seen seen(particles, cell);
+  for (const Contact& contact : seen.contacts.records())
+    energy += 0.5 * kFrictionless.normal_stiffness * contact.overlap * contact.overlap;
+  return energy;
+}
+
+// Without friction forces derive from an energy, so that stress is minus its derivative by strain.
+TEST(Observe, StressIsTheDerivativeOfTheElasticEnergyByStrain) {
+  const Cell cell = cube(6.0);
+  // Shallow contacts, so that each has one normal: crowds of deep ones jump between local answers.
+  Particles particles = crowd(40, cell, 21);
+  for (Vec3& axes : particles.semi_axes) axes = 0.8 * axes + Vec3::Constant(0.2);
+  const Stress stress = stress_of(Seen(particles, cell).contacts, cell);
+  ASSERT_GT(stress.mean(), 0.1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double strain = 1e-6;
+    const auto energy_at = [&](double e) {
+      Cell strained = cell;
+      Particles moved = particles;
+      strained.length[axis] *= 1.0 + e;
+      for (Vec3& x : moved.position) x[axis] *= 1.0 + e;
+      return elastic_energy(moved, strained);
+    };
+    const double derivative = (energy_at(strain) - energy_at(-strain)) / (2.0 * strain);
+    EXPECT_NEAR(stress.tensor(axis, axis), -derivative / cell.volume(), 1e-6 * stress.mean());
+  }
+}
+
+TEST(Observe, FrictionAngleComesFromThePrincipalStresses) {
+  const Eigen::Quaterniond turn(0.3, 0.5, -0.1, 0.8);
+  const Mat3 rotation = turn.normalized().toRotationMatrix();
+  const Mat3 stress = rotation * Vec3(3.0, 1.0, 2.0).asDiagonal() * rotation.transpose();
+  EXPECT_NEAR(friction_angle_deg(stress), 30.0, 1e-12);
+  EXPECT_NEAR(friction_angle_deg(Mat3::Identity()), 0.0, 1e-6);
+  EXPECT_EQ(friction_angle_deg(Mat3::Zero()), 0.0);
+}
+
+TEST(Observe, BalanceCountsRattlersApartAndTakesTheWorstOfAllWithContacts) {
+  const Particles particles = row_of_spheres();
+  const Seen seen(particles, cube(10.0));
+  const Balance balance = balance_of(particles, seen.contacts, seen.list);
+  EXPECT_EQ(balance.rattlers, 3);  // the ends of the row, and the sphere apart
+  EXPECT_NEAR(balance.mean_contact_force, 37.5, 1e-12);
+  EXPECT_NEAR(balance.largest_unbalanced_ratio, 50.0 / 37.5, 1e-13);
+  EXPECT_NEAR(balance.inertial_fraction, (50.0 + 25.0 + 25.0) / 3.0 / 37.5, 1e-13);
+  EXPECT_NEAR(balance.largest_unbalanced_moment_ratio, 0.0, 1e-13);
+}
+
+TEST(Observe, RowHasTheAssemblysNumbers) {
+  Particles particles = row_of_spheres();
+  particles.velocity[0] = {3.0, 0.0, 4.0};
+  Cell cell = cube(10.0);
+  cell.reference_length = {10.0, 12.0, 20.0};
+  const Seen seen(particles, cell);
+  const Observation row = observe(particles, cell, seen.contacts, seen.list);
+  EXPECT_NEAR(row.axial_strain, std::log(2.0), 1e-15);
+  EXPECT_NEAR(row.volumetric_strain, -std::log(2.4), 1e-15);
+  EXPECT_EQ(row.contacts, 2);
+  EXPECT_EQ(row.coordination_number, 1.0);
+  EXPECT_NEAR(row.coordination_std, std::sqrt(0.5), 1e-15);
+  const double sphere = 4.0 / 3.0 * std::numbers::pi;
+  EXPECT_NEAR(row.porosity, 1.0 - 4.0 * sphere / 1000.0, 1e-15);
+  EXPECT_NEAR(row.mean_normal_force, 37.5, 1e-12);
+  EXPECT_NEAR(row.mean_overlap, 0.375, 1e-14);
+  EXPECT_NEAR(row.kinetic_energy, 0.5 * sphere * 25.0, 1e-12);
+}
+
+TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
+  Particles particles;
+  particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
+  const Seen seen(particles, cube(10.0));
+  const Observation row = observe(particles, cube(10.0), seen.contacts, seen.list);
+  for (const Field& field : history_fields(0, 0.0, "place", row))
+    if (const double* value = std::get_if<double>(&field.value)) {
+      EXPECT_TRUE(std::isfinite(*value)) << field.name;
+    }
+}
+
+TEST(Observe, HistoryHasItsColumnsInOrder) {
+  std::string names;
+  for (const Field& field : history_fields(0, 0.0, "place", Observation{})) names += field.name + ",";
+  EXPECT_EQ(names,
+            "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
+            "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
+            "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,");
+}
+
+}  // namespace

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `tangency-dem` from outside: refusals, results, interruption, resumption.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace tangency::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Runs a scene that must be refused; the message, without its end of line.
+std::string refused_message(const TemporaryFolder& folder, const std::string& scene,
+                            Arguments more = {}) {
+  const auto before = folder.names();
+  Arguments arguments{"run", scene, "--out", folder.path("out")};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Finished run = run_tool(arguments);
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(lines_in(run.err), 1u) << run.err;
+  EXPECT_EQ(folder.names(), before) << "something was left behind";
+  return run.err.substr(0, run.err.find('\n'));
+}
+
+std::string refused_change(const std::string& before, const std::string& after) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("scene.toml", with(small_scene(), before, after));
+  const std::string message = refused_message(folder, path);
+  EXPECT_EQ(message.find(path), 0u) << message;
+  return message.substr(std::min(message.size(), path.size()));
+}
+
+TEST(RunCommand, RefusesAnImpossibleValue) {
+  EXPECT_EQ(refused_change("count = 27", "count = -1"),
+            ":4: particles.grain.count = -1: an integer from 1 to 1000000");
+}
+
+TEST(RunCommand, RefusesAWrongType) {
+  EXPECT_EQ(refused_change("count = 27", "count = \"many\""),
+            ":4: particles.grain.count = 'many': an integer from 1 to 1000000");
+}
+
+TEST(RunCommand, RefusesAnUnknownKey) {
+  EXPECT_EQ(refused_change("frame_interval", "frames"),
+            ":21: output.frames: no such key; allowed are history_interval, frame_interval, "
+            "checkpoint_interval");
+}
+
+TEST(RunCommand, RefusesAMissingKey) {
+  EXPECT_EQ(refused_change("mean_radius = 10.0\n", ""),
+            ":3: particles.grain.mean_radius is missing: a finite number > 0 (m)");
+}
+
+TEST(RunCommand, RefusesWhatIsNoToml) {
+  EXPECT_EQ(refused_change("[cell]", "[cell").find(":2: not TOML: "), 0u);
+}
+
+TEST(RunCommand, RefusesAMissingFileAndAFolder) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refused_message(folder, folder.path("none.toml")),
+            folder.path("none.toml") + ": cannot be read: a scene in TOML");
+  EXPECT_EQ(refused_message(folder, folder.path("")),
+            folder.path("") + ": cannot be read: a scene in TOML");
+}
+
+TEST(RunCommand, RefusesAnOutputThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  const std::string file = folder.write("file", "");
+  for (const std::string& out : {file, file + "/below"}) {
+    const Finished run = run_tool({"run", scene, "--out", out});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "--out " + out + ": cannot be written: a directory, or a place for one\n");
+  }
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"file", "scene.toml"}));
+}
+
+TEST(RunCommand, RefusesAStateThatIsNone) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  EXPECT_EQ(refused_message(folder, scene, {"--resume", scene}),
+            scene + ": no state of tangency-dem: final.state or checkpoint.state of a run");
+}
+
+TEST(RunCommand, RefusesABadCommandLine) {
+  for (const Arguments& arguments : {Arguments{}, Arguments{"run"}, Arguments{"walk"},
+                                     Arguments{"run", "a.toml", "--threads", "0"}})
+    EXPECT_EQ(run_tool(arguments).status, 2);
+}
+
+TEST(RunCommand, LeavesHistorySummaryStatesAndFrames) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  const std::string out = folder.path("out");
+  const Finished run = run_tool({"run", scene, "--out", out, "--quiet"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+
+  const auto summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  EXPECT_NEAR(summary["mean_stress"].get<double>(), 10e6, 0.01 * 10e6);
+  EXPECT_LT(summary["largest_unbalanced_ratio"].get<double>(), 0.01);
+  EXPECT_EQ(summary["particles"], 27);
+  for (const char* key : {"cycles", "wall_seconds", "ns_per_listed_pair_per_cycle", "listed_pairs",
+                          "threads", "state_hash", "rattlers"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_FALSE(summary.contains("peak_friction_angle_deg")) << "no stage sheared";
+
+  // The last row of the history is the head of the summary, number by number.
+  std::istringstream history(read_file(out + "/history.csv"));
+  std::string header, line, row;
+  std::getline(history, header);
+  while (std::getline(history, line)) row = line;
+  std::istringstream names(header), values(row);
+  std::string name, value;
+  while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
+    if (name == "stage") {
+      EXPECT_EQ(summary[name], value);
+    } else {
+      EXPECT_EQ(summary[name].get<double>(), std::stod(value)) << name;
+    }
+  }
+
+  EXPECT_EQ(read_file(out + "/final.state"), read_file(out + "/checkpoint.state"));
+  const std::string pvd = read_file(out + "/frames.pvd");
+  EXPECT_NE(pvd.find("file=\"frames/0.vtp\""), pvd.npos);
+  EXPECT_NE(read_file(out + "/frames/0.vtp").find("Name=\"orientation\""), std::string::npos);
+  const std::string xyz = read_file(out + "/frames.xyz");
+  EXPECT_EQ(xyz.substr(0, 3), "27\n");
+  EXPECT_NE(xyz.find("orientation:R:4:aspherical_shape:R:3"), xyz.npos);
+  EXPECT_EQ(lines_in(xyz) % 29, 0u);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    EXPECT_NE(entry.path().extension(), ".part");
+}
+
+TEST(RunCommand, ShowsPlainLinesOffATerminalAndABarOnOne) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  Process::Place terminal;
+  terminal.error_is_terminal = true;
+  const Finished on = run_tool({"run", scene, "--out", folder.path("on")}, "", terminal);
+  const Finished off = run_tool({"run", scene, "--out", folder.path("off")});
+  EXPECT_NE(on.err.find("\r["), on.err.npos);
+  EXPECT_EQ(off.err.find('\r'), off.err.npos);
+}
+
+TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.toml", with(small_scene(), "kind = \"compress\"", "kind = \"compress\"\nmax_cycles = 9"));
+  const Finished run = run_tool({"run", scene, "--out", folder.path("out")});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.err,
+            "tangency-dem: stage compress did not end within max_cycles = 9: mean stress 0 of "
+            "1e+07\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out") + "/summary.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("out") + "/checkpoint.state"));
+}
+
+// Interrupted wherever the signal finds it, then resumed in its own directory: every file is as if
+// the run had gone through.
+TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
+  const TemporaryFolder folder;
+  const std::string text = with(with(small_scene(), "count = 27", "count = 125"),
+                                "frame_interval = 0", "frame_interval = 300");
+  const std::string scene = folder.write("scene.toml", text);
+  const std::string whole = folder.path("whole"), halves = folder.path("halves");
+  ASSERT_EQ(run_tool({"run", scene, "--out", whole, "--quiet"}).status, 0);
+
+  Process first({"run", scene, "--out", halves, "--quiet"});
+  while (!std::filesystem::exists(halves + "/frames/300.vtp"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  first.send(SIGINT);
+  const Finished interrupted = first.wait();
+  ASSERT_EQ(interrupted.status, 128 + SIGINT) << interrupted.err;
+  EXPECT_FALSE(std::filesystem::exists(halves + "/summary.json"));
+
+  ASSERT_EQ(run_tool({"run", scene, "--out", halves, "--quiet", "--resume",
+                      halves + "/checkpoint.state"})
+                .status,
+            0);
+  for (const char* file : {"final.state", "history.csv", "frames.xyz", "frames.pvd"})
+    EXPECT_TRUE(read_file(whole + "/" + file) == read_file(halves + "/" + file)) << file;
+}
+
+TEST(SchemaCommand, PrintsEverySection) {
+  const Finished run = run_tool({"schema"});
+  EXPECT_EQ(run.status, 0);
+  for (const char* word : {"[cell]", "[particles.NAME]", "[contact]", "[[stage]]", "[output]",
+                           "mean_radius", "required", "max_unbalanced_ratio"})
+    EXPECT_NE(run.out.find(word), run.out.npos) << word;
+}
+
+}  // namespace
+}  // namespace tangency::test

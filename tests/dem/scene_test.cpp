@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_keys.hpp>
+
+#include "scenes.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Vec3;
+using tangency::test::small_scene;
+using tangency::test::with;
+
+/// The message for a scene, or "" where it is accepted.
+std::string refusal(const std::string& text) {
+  try {
+    parse_scene(text, "scene.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal_with(const std::string& before, const std::string& after) {
+  return refusal(with(small_scene(), before, after));
+}
+
+TEST(Scene, IsReadWithItsValuesAndDefaults) {
+  const Scene scene = parse_scene(small_scene(), "scene.toml");
+  ASSERT_EQ(scene.particle_types.size(), 1u);
+  EXPECT_EQ(scene.particle_types[0].name, "grain");
+  EXPECT_EQ(scene.particle_count(), 27u);
+  EXPECT_EQ(scene.particle_types[0].batch.shape.elongation, 1.4);
+  EXPECT_EQ(scene.particle_types[0].batch.shape.flatness, 1.0);
+  EXPECT_EQ(scene.particle_types[0].batch.density, 1000.0);
+  const ContactLaw& law = scene.laws.between(0, 0);
+  EXPECT_EQ(law.normal_stiffness, 1.5e10);
+  EXPECT_EQ(law.shear_stiffness, 1.5e10) << "that of the normal where it is not given";
+  EXPECT_EQ(law.friction_coefficient, 0.5);
+  ASSERT_EQ(scene.stages.size(), 3u);
+  EXPECT_EQ(scene.stages[0].place->jitter, 1e-3);
+  EXPECT_EQ(scene.stages[1].compress->servo.mean_stress, 10e6);
+  EXPECT_FALSE(scene.stages[1].compress->max_unbalanced_ratio);
+  EXPECT_EQ(scene.stages[2].compress->max_unbalanced_ratio, 0.005);
+  EXPECT_EQ(scene.stages[2].name, "relax");
+  EXPECT_EQ(scene.output.frame, 0);
+}
+
+TEST(Scene, MayHaveALawForEveryTwoTypes) {
+  const std::string two =
+      with(small_scene(), "[contact]\nnormal_stiffness = 1.5e10\nfriction_coefficient = 0.5\n",
+           "[particles.stone]\ncount = 3\nmean_radius = 4\n"
+           "[contact]\nnormal_stiffness = 2.0\nfriction_coefficient = 0.1\n"
+           "[contact.stone-grain]\nnormal_stiffness = 3.0\n");
+  const Scene scene = parse_scene(two, "scene.toml");
+  EXPECT_EQ(scene.laws.between(0, 0).normal_stiffness, 2.0);
+  EXPECT_EQ(scene.laws.between(0, 1).normal_stiffness, 3.0);
+  EXPECT_EQ(scene.laws.between(1, 0).normal_stiffness, 3.0);
+  EXPECT_EQ(scene.laws.between(1, 0).friction_coefficient, 0.1) << "what a pair lacks is common";
+}
+
+TEST(Scene, OfSeveralTypesNeedsALawForEveryTwo) {
+  EXPECT_EQ(refusal_with("[contact]", "[particles.stone]\ncount = 3\nmean_radius = 4\n"
+                                      "[contact.stone-stone]"),
+            "scene.toml:10: contact.grain-grain is missing: a law for every two types, or one in "
+            "[contact] for all");
+}
+
+TEST(Scene, AValueOutOfRangeIsNamedWithFileLineKeyAndRange) {
+  EXPECT_EQ(refusal_with("count = 27", "count = -1"),
+            "scene.toml:4: particles.grain.count = -1: an integer from 1 to 1000000");
+  EXPECT_EQ(refusal_with("1.5e10", "0.0"),
+            "scene.toml:8: contact.normal_stiffness = 0.0: a finite number > 0 (N/m)");
+  EXPECT_EQ(refusal_with("= 0.05", "= inf"),
+            "scene.toml:15: stage[1].max_strain_rate = inf: a finite number > 0 (1/s)");
+  EXPECT_EQ(refusal_with("mean_stress = 10e6", "mean_stress = nan"),
+            "scene.toml:14: stage[1].mean_stress = nan: a finite number > 0 (Pa)");
+  EXPECT_EQ(refusal_with("max_strain_rate", "time_step_factor = 0.31\nmax_strain_rate"),
+            "scene.toml:15: stage[1].time_step_factor = 0.31: a finite number > 0 and <= 0.3 "
+            "(sqrt(m_min/K_max))");
+  EXPECT_EQ(refusal_with("schema = 1", "schema = 2"), "scene.toml:1: schema = 2: an integer 1");
+}
+
+TEST(Scene, AWrongTypeIsNamed) {
+  EXPECT_EQ(refusal_with("count = 27", "count = 'many'"),
+            "scene.toml:4: particles.grain.count = 'many': an integer from 1 to 1000000");
+  EXPECT_EQ(refusal_with("count = 27", "count = 27.0"),
+            "scene.toml:4: particles.grain.count = 27.0: an integer from 1 to 1000000");
+  EXPECT_EQ(refusal_with("[cell]", "[cell]\nsize = [1.0, 2.0]"),
+            "scene.toml:3: cell.size = [ 1.0, 2.0 ]: 3 finite numbers > 0 (m)");
+  EXPECT_EQ(refusal_with("[cell]", "cell = 3"), "scene.toml:2: cell = 3: a table");
+  EXPECT_EQ(refusal_with("\"compress\"", "7"),
+            "scene.toml:13: stage[1].kind = 7: one of place, compress, relax");
+}
+
+TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
+  EXPECT_EQ(refusal_with("elongation", "colour"),
+            "scene.toml:6: particles.grain.colour: no such key; allowed are count, mean_radius, "
+            "elongation, flatness, density");
+  EXPECT_EQ(refusal_with("[cell]", "[sell]"),
+            "scene.toml:2: sell: no such key; allowed are schema, cell, particles, contact, stage, "
+            "output");
+  EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
+            "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
+            "kind, name, seed, jitter");
+  EXPECT_EQ(refusal_with("[contact]", "[contact.grain-stone]"),
+            "scene.toml:7: contact.grain-stone: NAME-NAME of two of the scene's particle types");
+}
+
+TEST(Scene, AMissingKeyIsNamedWithItsTable) {
+  EXPECT_EQ(refusal_with("count = 27\n", ""),
+            "scene.toml:3: particles.grain.count is missing: an integer from 1 to 1000000");
+  EXPECT_EQ(refusal_with("schema = 1\n", ""), "scene.toml:1: schema is missing: an integer 1");
+  EXPECT_EQ(refusal_with("[cell]\n", ""), "scene.toml: [cell] is missing: a table of this name");
+  EXPECT_EQ(refusal_with("kind = \"place\"\n", ""),
+            "scene.toml:10: stage[0].kind is missing: one of place, compress, relax");
+}
+
+TEST(Scene, AStageOfAnotherKindOrOutOfPlaceIsRefused) {
+  EXPECT_EQ(refusal_with("\"compress\"", "\"melt\""),
+            "scene.toml:13: stage[1].kind = 'melt': one of place, compress, relax");
+  EXPECT_EQ(refusal_with("\"compress\"", "\"place\""),
+            "scene.toml:13: stage[1].kind = 'place': only the first stage may be of kind place");
+  EXPECT_EQ(refusal_with("kind = \"place\"\n[[stage]]\n", ""),
+            "scene.toml:11: stage[0].kind = 'compress': the first stage must be of kind place");
+}
+
+TEST(Scene, ThatDoesNotFitItsCellIsRefused) {
+  EXPECT_EQ(refusal_with("[cell]", "[cell]\nsize = [50, 50, 50]"),
+            "scene.toml:3: cell.size = [ 50, 50, 50 ]: a cubic lattice in it has 1 sites, fewer "
+            "than the 27 particles");
+}
+
+TEST(Scene, ThatIsNoTomlIsRefusedWithItsLine) {
+  const std::string message = refusal_with("count = 27", "count = = 27");
+  EXPECT_EQ(message.substr(0, 24), "scene.toml:4: not TOML: ") << message;
+  EXPECT_EQ(message.find('\n'), message.npos);
+}
+
+TEST(Scene, PassesItsOwnTableOfKeys) {
+  for (const char* name : {"assembly-27", "assembly-125", "assembly-1000"})
+    EXPECT_NO_THROW(load_scene(std::string(TANGENCY_SCENES) + "/" + name + ".toml")) << name;
+}
+
+TEST(SceneKeys, ThatHaveADefaultHaveOneThatTheyAllow) {
+  for (const Key& key : scene_keys())
+    if (key.has_default()) {
+      EXPECT_TRUE(key.range.holds(std::stod(std::string(key.fallback)))) << key.name;
+    }
+}
+
+TEST(SceneKeys, AreAllPrintedWithUnitAndDefault) {
+  std::ostringstream out;
+  print_schema(out);
+  std::istringstream lines(out.str());
+  std::size_t found = 0;
+  std::string line;
+  for (const Key& key : scene_keys()) {
+    while (std::getline(lines, line) && line.find("  " + std::string(key.name) + " ") != 0) {
+    }
+    ASSERT_TRUE(lines) << key.name;
+    EXPECT_NE(line.find(key.unit), line.npos);
+    EXPECT_NE(line.find(key.required() ? "required" : key.fallback), line.npos) << line;
+    EXPECT_NE(line.find(key.meaning), line.npos);
+    ++found;
+  }
+  EXPECT_EQ(found, scene_keys().size());
+}
+
+}  // namespace

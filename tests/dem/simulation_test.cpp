@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+
+#include <tangency/dem/state_file.hpp>
+
+#include "../tool/process.hpp"
+#include "assembly.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Mat3;
+using tangency::Vec3;
+using namespace tangency::test;
+
+void run_to_end(Simulation& simulation) {
+  while (!simulation.finished()) {
+    const StageStatus status = simulation.status();
+    ASSERT_NE(status, StageStatus::out_of_cycles);
+    if (status == StageStatus::done)
+      simulation.next_stage();
+    else
+      simulation.step();
+  }
+}
+
+void run_cycles(Simulation& simulation, int cycles) {
+  for (int cycle = 0; cycle < cycles; ++cycle) simulation.step();
+}
+
+/// A dense start, so that a few hundred cycles have contacts: particles enough to be shared among
+/// threads.
+Simulation dense(std::size_t count) {
+  const std::string text =
+      with(with(small_scene(), "count = 27", "count = " + std::to_string(count)),
+           "max_strain_rate = 0.05", "max_strain_rate = 1.0");
+  return Simulation(parse_scene(text, "scene.toml"));
+}
+
+TEST(Simulation, HasTheSameStateAtEveryThreadCount) {
+  std::string hash[3];
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Simulation simulation = dense(512);
+    run_cycles(simulation, 250);
+    ASSERT_GT(simulation.observe().contacts, 400);
+    hash[threads - 1] = state_hash(simulation.state());
+  }
+  omp_set_num_threads(1);
+  EXPECT_EQ(hash[0], hash[1]);
+  EXPECT_EQ(hash[0], hash[2]);
+}
+
+TEST(Simulation, ContinuesFromASavedStateBitForBit) {
+  const TemporaryFolder folder;
+  Simulation uninterrupted = dense(64);
+  for (const int cycles : {1, 150, 37}) {  // the last two with contacts, between renewed lists
+    run_cycles(uninterrupted, cycles);
+    save_state(uninterrupted.state(), folder.path("a.state"));
+    Simulation resumed(uninterrupted.scene(), load_state(folder.path("a.state")));
+    Simulation going_on = uninterrupted;
+    run_cycles(resumed, 120);
+    run_cycles(going_on, 120);
+    EXPECT_EQ(state_hash(resumed.state()), state_hash(going_on.state()));
+  }
+  EXPECT_GT(uninterrupted.observe().contacts, 50);
+}
+
+TEST(Simulation, ContinuesFromAFinalStateIntoAddedStages) {
+  const std::string whole = small_scene();
+  const std::string first =
+      with(whole, "[[stage]]\nkind = \"relax\"\nmean_stress = 10e6\nmax_strain_rate = 0.05\n", "");
+  Simulation all(parse_scene(whole, "scene.toml")), part(parse_scene(first, "scene.toml"));
+  run_to_end(all);
+  run_to_end(part);
+  Simulation rest(parse_scene(whole, "scene.toml"), part.state());
+  run_to_end(rest);
+  EXPECT_EQ(state_hash(rest.state()), state_hash(all.state()));
+}
+
+TEST(Simulation, StopsAskingForMoreWhenItsCyclesAreSpent) {
+  Simulation simulation(parse_scene(
+      with(small_scene(), "mean_stress", "max_cycles = 5\nmean_stress"), "scene.toml"));
+  run_cycles(simulation, 4);
+  EXPECT_EQ(simulation.status(), StageStatus::running);
+  run_cycles(simulation, 1);
+  EXPECT_EQ(simulation.status(), StageStatus::out_of_cycles);
+}
+
+/// Stress and balance anew from the state's positions and shear forces alone: normal forces from
+/// signed_gap() for every pair that brute force finds, none of the simulator's sums.
+struct Recount {
+  Mat3 stress = Mat3::Zero();
+  double mean_force = 0.0, worst = 0.0;
+  std::size_t contacts = 0;
+
+  explicit Recount(const Simulation& simulation) {
+    const State& state = simulation.state();
+    const Particles& p = state.particles;
+    std::vector<Vec3> resultant(p.size(), Vec3::Zero());
+    std::vector<int> touching(p.size(), 0);
+    for (const Pair& pair : meeting_pairs(p, state.cell, 2)) {
+      const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+      const Vec3 d = branch_vector(pair, p, state.cell);
+      const tangency::Gap gap = tangency::signed_gap(body(p, a), body(p, b), d);
+      if (gap.gap >= 0.0) continue;
+      const auto& pairs = state.list.pairs();
+      const auto at = std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin();
+      const Contact& record = state.contacts.records()[static_cast<std::size_t>(at)];
+      const double stiffness = simulation.scene().laws.between(0, 0).normal_stiffness;
+      const Vec3 force = -stiffness * gap.gap * gap.normal + record.shear;
+      stress += force * d.transpose() / state.cell.volume();
+      mean_force += force.norm();
+      ++contacts;
+      resultant[a] -= force;
+      resultant[b] += force;
+      ++touching[a];
+      ++touching[b];
+    }
+    mean_force /= static_cast<double>(contacts);
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (touching[i] > 0) worst = std::max(worst, resultant[i].norm());
+  }
+};
+
+TEST(Simulation, BringsAssembly125ToItsStressAndIntoBalance) {
+  Simulation simulation(load_scene(std::string(TANGENCY_SCENES) + "/assembly-125.toml"));
+  run_to_end(simulation);
+  const Recount recount(simulation);
+  EXPECT_NEAR(recount.stress.trace() / 3.0, 10e6, 0.01 * 10e6);
+  EXPECT_LT(recount.worst, 0.01 * recount.mean_force);
+  const Observation seen = simulation.observe();
+  EXPECT_EQ(static_cast<std::size_t>(seen.contacts), recount.contacts);
+  EXPECT_NEAR(seen.balance.largest_unbalanced_ratio, recount.worst / recount.mean_force, 1e-6);
+  EXPECT_GT(seen.coordination_number, 4.0) << "what stands has at least four contacts";
+}
+
+}  // namespace

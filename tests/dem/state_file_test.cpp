@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/state_file.hpp>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::test::small_scene;
+using tangency::test::TemporaryFolder;
+using tangency::test::with;
+
+/// A run in the middle of its compression, with contacts that carry shear.
+const Simulation& half_way() {
+  static const Simulation simulation = [] {
+    Simulation running(parse_scene(small_scene(), "scene.toml"));
+    while (running.status() == StageStatus::running && running.observe().contacts < 40)
+      running.step();
+    return running;
+  }();
+  return simulation;
+}
+
+std::string failure(const std::filesystem::path& file) {
+  try {
+    load_state(file);
+  } catch (const StateError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StateFile, ReadsBackToTheSameState) {
+  const TemporaryFolder folder;
+  const State& state = half_way().state();
+  save_state(state, folder.path("a.state"));
+  const State read = load_state(folder.path("a.state"));
+  EXPECT_EQ(state_hash(read), state_hash(state));
+  EXPECT_EQ(read.particles.position, state.particles.position);
+  EXPECT_EQ(read.particles.angular_velocity, state.particles.angular_velocity);
+  EXPECT_EQ(read.list.pairs(), state.list.pairs());
+  EXPECT_EQ(read.contacts.resultants().force, state.contacts.resultants().force);
+  EXPECT_EQ(read.cycle, state.cycle);
+}
+
+TEST(StateFile, HashSeesTheLastBitOfAnyNumber) {
+  State state = half_way().state();
+  const std::string before = state_hash(state);
+  double& number = state.particles.angular_velocity.back()[2];
+  number = std::nextafter(number, 1.0);
+  EXPECT_NE(state_hash(state), before);
+  EXPECT_EQ(before.size(), 16u);
+}
+
+TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
+  const TemporaryFolder folder;
+  save_state(half_way().state(), folder.path("a.state"));
+  const std::string bytes = read_whole(folder.path("a.state")).value();
+  std::string changed = bytes;
+  changed[8] = 2;
+  EXPECT_EQ(failure(folder.write("v.state", changed)),
+            folder.path("v.state") + ": state of version 2: this program reads version 1");
+  changed = bytes;
+  changed[bytes.size() / 2] ^= 1;
+  EXPECT_EQ(failure(folder.write("d.state", changed)),
+            folder.path("d.state") + ": damaged: its hash is wrong");
+  EXPECT_EQ(failure(folder.write("s.state", bytes.substr(0, bytes.size() / 3))),
+            folder.path("s.state") + ": damaged: its hash is wrong");
+  const std::string none =
+      ": no state of tangency-dem: final.state or checkpoint.state of a run";
+  EXPECT_EQ(failure(folder.write("t.state", small_scene())), folder.path("t.state") + none);
+  EXPECT_EQ(failure(folder.write("e.state", "")), folder.path("e.state") + none);
+  EXPECT_EQ(failure(folder.path("missing.state")),
+            folder.path("missing.state") + ": cannot be read: a state of an earlier run");
+}
+
+TEST(StateFile, OfAnotherSceneIsRefused) {
+  const std::string more = with(small_scene(), "count = 27", "count = 28");
+  EXPECT_THROW(Simulation(parse_scene(more, "scene.toml"), half_way().state()),
+               std::invalid_argument);
+}
+
+TEST(StateFile, ThatCannotBeWrittenLeavesTheOldOneAndNothingElse) {
+  const TemporaryFolder folder;
+  // A directory in the file's place: the rename fails after all has been written.
+  std::filesystem::create_directory(folder.path("a.state"));
+  EXPECT_THROW(save_state(half_way().state(), folder.path("a.state")), std::runtime_error);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.state"});
+}
+
+}  // namespace

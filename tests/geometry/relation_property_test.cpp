@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/geometry/relation.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <tangency/geometry/gap.hpp>
+#include <tangency/tests/support/generators.hpp>
+
+namespace tangency {
+namespace {
+
+using testing::Pair;
+
+RelationAnswer exchanged(RelationAnswer r) {
+  if (r.relation == Relation::a_in_b) {
+    r.relation = Relation::b_in_a;
+  } else if (r.relation == Relation::b_in_a) {
+    r.relation = Relation::a_in_b;
+  }
+  if (r.inner != Inner::none) r.inner = r.inner == Inner::a ? Inner::b : Inner::a;
+  return r;
+}
+
+bool same(const RelationAnswer& x, const RelationAnswer& y) {
+  return x.relation == y.relation && x.inner == y.inner;
+}
+
+bool interiors_meet(Relation r) {
+  return r != Relation::separate && r != Relation::external_touch;
+}
+
+/// Pairs whose coordinates are small integers, among which exact touches, nesting and equality are
+/// frequent.
+rc::Gen<Pair> integer_pair() {
+  const auto body = rc::gen::map(
+      rc::gen::tuple(rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-2, 3)),
+                     rc::gen::container<std::array<int, 3>>(rc::gen::inRange(1, 4)),
+                     rc::gen::container<std::array<int, 4>>(rc::gen::inRange(-1, 2))),
+      [](const std::tuple<std::array<int, 3>, std::array<int, 3>, std::array<int, 4>>& t) {
+        const auto& [c, r, q] = t;
+        Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+        if (orientation.coeffs() == Eigen::Vector4d::Zero()) orientation.w() = 1;
+        return Ellipsoid(Vec3(c[0], c[1], c[2]), Vec3(r[0], r[1], r[2]), orientation);
+      });
+  return rc::gen::map(rc::gen::pair(body, body), [](const std::pair<Ellipsoid, Ellipsoid>& p) {
+    return Pair{p.first, p.second};
+  });
+}
+
+rc::Gen<Pair> any_pair() {
+  return rc::gen::oneOf(integer_pair(), testing::pair(1000), testing::pair(5));
+}
+
+RC_GTEST_PROP(RelationProperty, ExchangingTheBodiesExchangesTheAnswer, ()) {
+  const Pair p = *any_pair();
+  RC_ASSERT(same(relation(p.b, p.a), exchanged(relation(p.a, p.b))));
+}
+
+RC_GTEST_PROP(RelationProperty, OverlapsIsTheRelationsYesOrNo, ()) {
+  const Pair p = *any_pair();
+  const RelationAnswer r = relation(p.a, p.b);
+  RC_ASSERT(overlaps(p.a, p.b) == interiors_meet(r.relation));
+  RC_TAG(std::string(to_string(r.relation)));
+}
+
+RC_GTEST_PROP(RelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
+  const Pair p = *any_pair();
+  const double s = std::ldexp(1.0, *rc::gen::inRange(-900, 900));
+  const auto scaled = [&](const Ellipsoid& e) {
+    return Ellipsoid(s * e.centre(), s * e.semi_axes(), e.orientation());
+  };
+  RC_ASSERT(same(relation(scaled(p.a), scaled(p.b)), relation(p.a, p.b)));
+}
+
+RC_GTEST_PROP(RelationProperty, PermutingAndReflectingCoordinatesLeavesIt, ()) {
+  const Pair p = *any_pair();
+  // A cyclic permutation of the coordinates, which is a rotation, then the reflection x -> -x, which
+  // takes the rotation of (w, x, y, z) to that of (w, x, -y, -z) up to the body's own symmetry.
+  const auto moved = [](const Ellipsoid& e) {
+    const Vec3& c = e.centre();
+    const Eigen::Quaterniond& q = e.orientation();
+    return Ellipsoid(Vec3(-c[1], c[2], c[0]), e.semi_axes()({1, 2, 0}),
+                     Eigen::Quaterniond(q.w(), q.y(), -q.z(), -q.x()));
+  };
+  RC_ASSERT(same(relation(moved(p.a), moved(p.b)), relation(p.a, p.b)));
+}
+
+RC_GTEST_PROP(RelationProperty, GrowingABodyNeverTurnsOverlapsOff, ()) {
+  const Pair p = *any_pair();
+  const Ellipsoid grown(p.b.centre(), p.b.semi_axes() * *testing::uniform(1, 2), p.b.orientation());
+  Vec3 axes = p.b.semi_axes();
+  axes[*rc::gen::inRange(0, 3)] *= *testing::uniform(1, 2);
+  const Ellipsoid stretched(p.b.centre(), axes, p.b.orientation());
+  if (overlaps(p.a, p.b)) {
+    RC_ASSERT(overlaps(p.a, grown));
+    RC_ASSERT(overlaps(p.a, stretched));
+  }
+}
+
+RC_GTEST_PROP(RelationProperty, AgreesWithTheSignOfTheGap, ()) {
+  const Pair p = *any_pair();
+  const Gap gap = signed_gap(p.a, p.b);
+  const double size = (p.b.centre() - p.a.centre()).norm() + p.a.largest_semi_axis() +
+                      p.b.largest_semi_axis();
+  const bool meet = interiors_meet(relation(p.a, p.b).relation);
+  // Within the error that gap.hpp states the sign of the gap is not known.
+  if (gap.gap < -0x1p-49 * size) RC_ASSERT(meet);
+  if (gap.gap > 0x1p-49 * size) RC_ASSERT(!meet);
+}
+
+}  // namespace
+}  // namespace tangency

@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `tangency contact` from outside: columns, refusals, statuses, help.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <ostream>
+#include <random>
+#include <sstream>
+
+#include <tangency/geometry/gap.hpp>
+#include <tangency/tests/tool/process.hpp>
+
+namespace tangency::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const std::string kNoTurnHeader = "a.x,a.y,a.z,a.r1,a.r2,a.r3,b.x,b.y,b.z,b.r1,b.r2,b.r3\n";
+const std::string kHeader =
+    "a.x,a.y,a.z,a.r1,a.r2,a.r3,a.qw,a.qx,a.qy,a.qz,b.x,b.y,b.z,b.r1,b.r2,b.r3,b.qw,b.qx,b.qy,b."
+    "qz\n";
+const std::string kOutHeader =
+    "row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner\n";
+const std::string kInvalidCells = ",,,,,,,,,,,,,invalid,\n";
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(ContactCommand, AnswersWithTheDocumentedColumns) {
+  const TemporaryFolder folder;
+  const std::string pairs =
+      folder.write("pairs.csv", kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n");
+  const Finished run = run_tool({"contact", pairs});
+  EXPECT_EQ(run.out, kOutHeader + "0,,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n");
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.status, 0);
+}
+
+TEST(ContactCommand, HeaderAloneIsAnEmptyTable) {
+  const Finished run = run_tool({"contact"}, kHeader);
+  EXPECT_EQ(run.out, kOutHeader);
+  EXPECT_EQ(run.status, 0);
+}
+
+TEST(ContactCommand, ReadsStandardInputForADashAndForNoFile) {
+  const std::string pairs = kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n";
+  const std::string answers = kOutHeader + "0,,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n";
+  for (const auto& arguments : {Names{"contact"}, Names{"contact", "-"}}) {
+    EXPECT_EQ(run_tool(arguments, pairs).out, answers);
+    const Finished refused = run_tool(arguments, pairs + "1\n");
+    EXPECT_EQ(refused.err,
+              "<stdin>:3: 1 cell: a row must have as many cells as the header has columns, 12\n");
+    EXPECT_EQ(refused.status, 2);
+  }
+}
+
+TEST(ContactCommand, SpellingOfTheTableDoesNotMatter) {
+  const std::string plain = kHeader + "0,0,0,1,2,3,1,0,0,0,4,0.5,0,2,1,1,0.5,0.5,0.5,0.5\n" +
+                            "0,0,0,1,2,3,0,1,0,0,5,0.5,0,2,1,1,1,2,3,4\n";
+  const std::string answers = run_tool({"contact"}, plain).out;
+  ASSERT_EQ(lines_of(answers).size(), 3U);
+  const std::string spelled =
+      "\xEF\xBB\xBF# two pairs\r\n"
+      "b.qw , b.qx,b.qy,b.qz,note,b.r1,b.r2,b.r3,b.x,b.y,b.z,"
+      "a.qw,a.qx,a.qy,a.qz,a.r1,a.r2,a.r3,a.x,a.y,a.z\r\n"
+      "\r\n"
+      "0x1p-1, 0x.8p0,0.5,5e-1,,2,1,1,4,0x1p-1,0,1,0,0,0,1,2,3,0,0,0\r\n"
+      "# between\r\n"
+      "0x1p0,0x2,0x3p0,0x1p+2,inf,+2,1.0,1,0x5p0,5E-1,-0,0,1,0,0,0x1p0,\t2 ,3,0,0,0";
+  EXPECT_EQ(run_tool({"contact"}, spelled).out, answers);
+}
+
+TEST(ContactCommand, MissingOrientationIsTheIdentity) {
+  const std::string answers =
+      run_tool({"contact"}, kHeader + "0,0,0,1,2,3,1,0,0,0,4,5,6,3,2,1,1,2,3,4\n").out;
+  EXPECT_EQ(run_tool({"contact"},
+                     "a.x,a.y,a.z,a.r1,a.r2,a.r3,b.x,b.y,b.z,b.r1,b.r2,b.r3,b.qw,b.qx,"
+                     "b.qy,b.qz\n0,0,0,1,2,3,4,5,6,3,2,1,1,2,3,4\n")
+                .out,
+            answers);
+}
+
+/// The next double of a line of answers.
+double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+TEST(ContactCommand, NumbersAreThoseOfTheLibraryBitForBit) {
+  std::mt19937_64 source(7);
+  std::uniform_real_distribution<double> place(-3, 3);
+  std::uniform_real_distribution<double> axis(0.3, 2);
+  std::string text = kHeader;
+  std::vector<Gap> gaps;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 300; ++i) {
+    std::array<double, 20> v{};
+    for (std::size_t k = 0; k < v.size(); ++k)
+      v[k] = k % 10 >= 3 && k % 10 < 6 ? axis(source) : place(source);
+    std::array<char, 40> cell;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      std::snprintf(cell.data(), cell.size(), k % 2 == 0 ? "%.17g" : "%a", v[k]);
+      text += cell.data() + std::string(k + 1 < v.size() ? "," : "\n");
+    }
+    const Ellipsoid a({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8], v[9]});
+    const Ellipsoid b({v[10], v[11], v[12]}, {v[13], v[14], v[15]}, {v[16], v[17], v[18], v[19]});
+    gaps.push_back(signed_gap(a, b));
+    points.push_back(a.centre() + gaps.back().arm_a);
+    points.push_back(b.centre() + gaps.back().arm_b);
+  }
+  const std::vector<std::string> lines = lines_of(run_tool({"contact"}, text).out);
+  ASSERT_EQ(lines.size(), gaps.size() + 1);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const std::vector<std::string> cells = cells_of(lines[i + 1]);
+    ASSERT_EQ(cells.size(), 15U) << lines[i + 1];
+    EXPECT_EQ(cells[0], std::to_string(i));
+    EXPECT_EQ(cells[13], gaps[i].status == GapStatus::ok ? "ok" : "local");
+    EXPECT_EQ(bits(number(cells[2])), bits(gaps[i].gap));
+    for (int k = 0; k < 3; ++k) {
+      const auto column = static_cast<std::size_t>(k);
+      EXPECT_EQ(bits(number(cells[3 + column])), bits(gaps[i].normal[k]));
+      EXPECT_EQ(bits(number(cells[6 + column])), bits(points[2 * i][k]));
+      EXPECT_EQ(bits(number(cells[9 + column])), bits(points[2 * i + 1][k]));
+    }
+  }
+}
+
+struct BadRow {
+  std::string name;
+  std::string row;
+  std::string message;  // after "pairs.csv:4: "
+};
+
+void PrintTo(const BadRow& bad, std::ostream* out) { *out << bad.name; }
+
+const std::string kGoodRow = "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4\n";
+
+class BadRows : public testing::TestWithParam<BadRow> {};
+
+TEST_P(BadRows, EndTheRunWithOneLineAndLeaveTheOutputFile) {
+  const TemporaryFolder folder;
+  folder.write("pairs.csv", kHeader + kGoodRow + "#\n" + GetParam().row + "\n" + kGoodRow);
+  folder.write("answers.csv", "old");
+  const Process::Place here{.folder = folder.path("")};
+  const std::string message = "pairs.csv:4: " + GetParam().message + "\n";
+
+  const Finished to_output = run_tool({"contact", "pairs.csv"}, "", here);
+  EXPECT_EQ(to_output.status, 2);
+  EXPECT_EQ(to_output.err, message);
+  EXPECT_EQ(lines_of(to_output.out).size(), 2U);
+  EXPECT_EQ(to_output.out.back(), '\n');
+
+  for (const char* place : {"answers.csv", "new.csv"}) {
+    const Finished to_file = run_tool({"contact", "--out", place, "pairs.csv"}, "", here);
+    EXPECT_EQ(to_file.status, 2);
+    EXPECT_EQ(to_file.out, "");
+    EXPECT_EQ(to_file.err, message);
+  }
+  EXPECT_EQ(folder.names(), (Names{"answers.csv", "pairs.csv"}));
+  EXPECT_EQ(read_file(folder.path("answers.csv")), "old");
+}
+
+TEST_P(BadRows, AreInvalidWhenToldToKeepGoing) {
+  const TemporaryFolder folder;
+  folder.write("pairs.csv", kHeader + kGoodRow + "#\n" + GetParam().row + "\n" + kGoodRow);
+  const Finished run =
+      run_tool({"contact", "--keep-going", "pairs.csv"}, "", {.folder = folder.path("")});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.err, "pairs.csv:4: " + GetParam().message + "\n");
+  const std::string good_answer =
+      run_tool({"contact"}, kHeader + kGoodRow).out.substr(kOutHeader.size() + 1);
+  EXPECT_EQ(run.out, kOutHeader + "0" + good_answer + "1" + kInvalidCells + "2" + good_answer);
+}
+
+const std::string kAxisRule = ": a semi-axis must be finite and > 0";
+const std::string kTurnRule = ": an orientation must be finite and not all 0";
+
+INSTANTIATE_TEST_SUITE_P(
+    ContactCommand, BadRows,
+    testing::ValuesIn(std::vector<BadRow>{
+        {"NegativeAxis", "0,0,0,1,-1,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4", "a.r2 = -1" + kAxisRule},
+        {"ZeroAxis", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,0x0p0,1,2,3,4", "b.r3 = 0x0p0" + kAxisRule},
+        {"ZeroOrientation", "0,0,0,1,2,3,0,0,-0,0,9,0,0,3,2,1,1,2,3,4", "a.qw = 0" + kTurnRule},
+        {"Nan", "0,0,0,1,2,3,1,0,0,0,9,NaN,0,3,2,1,1,2,3,4", "b.y = NaN: a number must be finite"},
+        {"Infinity", "0,0,-inf,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4",
+         "a.z = -inf: a number must be finite"},
+        {"EmptyCell", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,,4",
+         "b.qy = (empty): a cell must hold a number, in decimal or as a hex float"},
+        {"NoNumber", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4m",
+         "b.qz = 4m: a cell must hold a number, in decimal or as a hex float"},
+        {"OutOfRange", "1e999,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4",
+         "a.x = 1e999: a number must be 0 or between 4.9e-324 and 1.8e308 in size, the range of a "
+         "double"},
+        {"ShortRow", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3",
+         "19 cells: a row must have as many cells as the header has columns, 20"},
+        {"LongRow", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4,",
+         "21 cells: a row must have as many cells as the header has columns, 20"}}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(ContactCommand, BadHeaderIsAlwaysRefused) {
+  const std::string body_b = "b.x,b.y,b.z,b.r1,b.r2,b.r3";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"a.x,a.y,a.z,a.r1,a.r3," + body_b,
+       "<stdin>:1: body a without a.r2: a body has the columns x, y, z, r1, r2 and r3\n"},
+      {"a.x,a.y,a.z,a.r1,a.r2,a.r3",
+       "<stdin>:1: body b without b.x, b.y, b.z, b.r1, b.r2, b.r3: a body has the columns x, y, z, "
+       "r1, r2 and r3\n"},
+      {"a.x,a.y,a.z,a.r1,a.r2,a.r3,b.qw,b.qy," + body_b,
+       "<stdin>:1: body b without b.qx, b.qz: the orientation columns qw, qx, qy and qz come all "
+       "four or not at all\n"},
+      {"a.x,a.y,a.z,a.r1,a.r2,a.r3,a.y," + body_b,
+       "<stdin>:1: a.y: a column must be named only once\n"}};
+  for (const auto& [names, message] : cases) {
+    for (const auto& arguments : {Names{"contact"}, Names{"contact", "--keep-going"}}) {
+      const Finished run = run_tool(arguments, names + "\n");
+      EXPECT_EQ(run.err, message);
+      EXPECT_EQ(run.out, "");
+      EXPECT_EQ(run.status, 2);
+    }
+  }
+}
+
+TEST(ContactCommand, NamesTheFirstTenInvalidRowsAndCountsThemAll) {
+  std::string text = kNoTurnHeader;
+  for (int i = 0; i < 25; ++i) text += "0,0,0,1,1,1,3,0,0,1,1,0\n";
+  const Finished run = run_tool({"contact", "--keep-going"}, text);
+  const std::vector<std::string> messages = lines_of(run.err);
+  ASSERT_EQ(messages.size(), 11U);
+  EXPECT_EQ(messages[9], "<stdin>:11: b.r3 = 0" + kAxisRule);
+  EXPECT_EQ(messages[10], "<stdin>: 25 invalid rows, of which the first 10 are named above");
+}
+
+TEST(ContactCommand, AnswerBeyondTheRangeOfADoubleIsNotApplicable) {
+  const Finished run =
+      run_tool({"contact"}, kNoTurnHeader + "-1.7e308,0,0,1,1,1,1.7e308,0,0,1,1,1\n");
+  EXPECT_EQ(run.out, kOutHeader + "0,,,,,,,,,,,,,not_applicable,\n");
+  EXPECT_EQ(run.status, 1);
+}
+
+TEST(ContactCommand, RefusesABadCommandLineWithOneLine) {
+  const std::string see = " (`tangency contact --help` says what is allowed)\n";
+  const std::string later = " is not available in this version; common-normal is";
+  const std::vector<std::pair<Names, std::string>> cases{
+      {{"contact", "--method", "trace"}, "tangency contact: --method: trace" + later + see},
+      {{"contact", "--method", "perram-wertheim"},
+       "tangency contact: --method: perram-wertheim" + later + see},
+      {{"contact", "--method", "midpoint-potential"},
+       "tangency contact: --method: midpoint-potential" + later + see},
+      {{"contact", "--method", "guess"},
+       "tangency contact: --method: guess is not a method; common-normal is the one available" +
+           see},
+      {{"contact", "--threads", "0"},
+       "tangency contact: --threads: Value 0 not in range 1 to 1024" + see},
+      {{"contact", "--threads", "two"},
+       "tangency contact: --threads: Value two not in range 1 to 1024" + see},
+      {{"contact", "--out", ""}, "tangency contact: --out: a file name is empty" + see},
+      {{"contact", "one", "two"},
+       "tangency contact: The following argument was not expected: two" + see},
+      {{}, "tangency: A subcommand is required (`tangency --help` says what is allowed)\n"},
+      {{"contact", "/nonexistent.csv"},
+       "/nonexistent.csv: cannot be read: No such file or directory\n"},
+      {{"contact", "/"}, "/: cannot be read: Is a directory\n"}};
+  for (const auto& [arguments, message] : cases) {
+    const Finished run = run_tool(arguments, kHeader + kGoodRow);
+    EXPECT_EQ(run.err, message);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.status, 2);
+  }
+}
+
+TEST(ContactCommand, MethodCanBeNamed) {
+  const std::string pairs = kHeader + kGoodRow;
+  EXPECT_EQ(run_tool({"contact", "--method", "common-normal"}, pairs).out,
+            run_tool({"contact"}, pairs).out);
+}
+
+TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
+  const Finished run = run_tool({"contact", "--help"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  std::vector<std::string> wanted{"a.qw a.qx a.qy a.qz",
+                                  "relation         empty in this version",
+                                  "gap_error        empty in this version",
+                                  "inner            empty in this version",
+                                  "not available in this version",
+                                  "Exit status: 0 ",
+                                  "--keep-going",
+                                  "--threads",
+                                  "--out"};
+  for (const std::string& column : cells_of(kOutHeader.substr(0, kOutHeader.size() - 1))) {
+    wanted.push_back(column.substr(0, column.find('.')));
+  }
+  for (const char* status :
+       {"ok  ", "local  ", "not_applicable  ", "not_converged  ", "invalid  "}) {
+    wanted.push_back(status);
+  }
+  for (const std::string& text : wanted) {
+    EXPECT_NE(run.out.find(text), std::string::npos) << text;
+  }
+}
+
+TEST(ContactCommand, HelpExampleIsTrue) {
+  std::string input;
+  std::string output;
+  std::string* target = nullptr;
+  for (const std::string& line : lines_of(run_tool({"contact", "--help"}).out)) {
+    if (line.starts_with("  $ cat")) {
+      target = &input;
+    } else if (line.starts_with("  $ tangency contact")) {
+      target = &output;
+    } else if (target != nullptr && line.size() > 2) {
+      *target += line.substr(2) + "\n";
+    }
+  }
+  ASSERT_NE(input, "");
+  EXPECT_EQ(run_tool({"contact"}, input).out, output);
+}
+
+TEST(Program, TellsItsVersion) {
+  const Finished run = run_tool({"--version"});
+  EXPECT_EQ(run.out, "tangency " TANGENCY_VERSION "\n");
+  EXPECT_EQ(run.status, 0);
+}
+
+}  // namespace
+}  // namespace tangency::test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Runs the built `tangency` as a user does: a process with arguments, files and pipes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tangency::test {
+
+/// An empty folder that is removed with everything in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string path(std::string_view name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  std::string write(std::string_view name, std::string_view text) const;
+  /// Names of everything in the folder, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::string& path);
+
+struct Finished {
+  int status = -1;  ///< exit status; -1 when a signal ended the process
+  int signal = 0;   ///< that signal
+  std::string out;
+  std::string err;
+};
+
+/// `tangency ARGUMENTS` with a pipe as standard input and pipes for both outputs.
+class Process {
+ public:
+  struct Place {
+    std::string folder{};            ///< working directory
+    std::string standard_output{};   ///< a file to open in place of the pipe
+    bool error_is_terminal = false;  ///< standard error is a pseudo-terminal
+  };
+
+  explicit Process(const std::vector<std::string>& arguments) : Process(arguments, Place()) {}
+  Process(const std::vector<std::string>& arguments, const Place& place);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void write_input(std::string_view text);
+  void close_input();
+  /// One line of standard output; waits for it. Empty at the end of the output.
+  std::string read_output_line();
+  void close_output();
+  void send(int signal);
+  /// Collects what is left of both outputs, then the exit status. Leaves the input open.
+  Finished wait();
+
+ private:
+  pid_t pid_ = -1;
+  int input_ = -1;
+  int output_ = -1;
+  int error_ = -1;
+};
+
+/// Runs to the end with the given text on standard input.
+Finished run_tool(const std::vector<std::string>& arguments, std::string_view input = "",
+                  const Process::Place& place = Process::Place());
+
+}  // namespace tangency::test

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies by
+// family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <tangency/bench/families/adversarial.hpp>
+#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/geometry/relation.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/oracles/relation.hpp>
+
+namespace {
+
+using tangency::Tier;
+using tangency::verify::RawEllipsoid;
+
+struct Tally {
+  long pairs = 0;
+  long disagreements = 0;
+  long overlaps_filter = 0;
+  long relation_filter = 0;
+
+  void add(const Tally& other) {
+    pairs += other.pairs;
+    disagreements += other.disagreements;
+    overlaps_filter += other.overlaps_filter;
+    relation_filter += other.relation_filter;
+  }
+};
+
+using Tallies = std::map<std::string, Tally, std::less<>>;
+
+void print_hex(const RawEllipsoid& e) {
+  for (const double x : e.centre) std::printf("%a,", x);
+  for (const double x : e.semi_axes) std::printf("%a,", x);
+  for (const double x : e.orientation) std::printf("%a,", x);
+}
+
+void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_view family,
+             Tallies& tallies) {
+  const auto a = tangency::testing::to_ellipsoid(raw_a), b = tangency::testing::to_ellipsoid(raw_b);
+  const auto relation = tangency::relation(a, b);
+  const auto overlap = tangency::overlap_answer(a, b);
+  const auto truth = tangency::verify::exact_relation(raw_a, raw_b);
+
+  using TrueRelation = tangency::verify::Relation;
+  const bool meet = truth.relation != TrueRelation::separate &&
+                    truth.relation != TrueRelation::external_touch;
+  const bool same_inner =
+      (relation.inner == tangency::Inner::a) == (truth.inner == tangency::verify::Inner::a) &&
+      (relation.inner == tangency::Inner::b) == (truth.inner == tangency::verify::Inner::b);
+  const bool agree = to_string(relation.relation) == tangency::verify::name(truth.relation) &&
+                     same_inner && overlap.overlaps == meet;
+
+  auto found = tallies.find(family);
+  if (found == tallies.end()) found = tallies.emplace(family, Tally{}).first;
+  Tally& tally = found->second;
+  ++tally.pairs;
+  tally.overlaps_filter += overlap.tier == Tier::filter;
+  tally.relation_filter += relation.tier == Tier::filter;
+  if (agree) return;
+  ++tally.disagreements;
+  static std::mutex printing;
+  const std::lock_guard lock(printing);
+  std::printf("DISAGREE %s: relation %s (overlaps %d), oracle %s: ", std::string(family).c_str(),
+              std::string(to_string(relation.relation)).c_str(), overlap.overlaps,
+              std::string(tangency::verify::name(truth.relation)).c_str());
+  print_hex(raw_a);
+  print_hex(raw_b);
+  std::printf("\n");
+}
+
+/// One part of the work, whose outcome depends on nothing but its own seed and count.
+struct Job {
+  const tangency::families::ContactFamily* family;  ///< none: adversarial pairs
+  std::uint64_t seed;
+  long count;
+};
+
+void run(const Job& job, Tallies& tallies) {
+  if (job.family == nullptr) {
+    tangency::verify::for_each_adversarial_pair(
+        job.seed, static_cast<std::size_t>(job.count),
+        [&](const tangency::verify::AdversarialPair& p) { compare(p.a, p.b, p.family, tallies); });
+    return;
+  }
+  tangency::families::ManufacturedContacts contacts(*job.family, job.seed);
+  for (long i = 0; i < job.count; ++i) {
+    const auto contact = contacts.next();
+    compare(contact.a, contact.b, job.family->name, tallies);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Hold the kernel's exact relation against the oracle's");
+  long per_class = 1'000'000, adversarial = 100'000;
+  std::uint64_t seed = 20261122;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  app.add_option("--per-class", per_class, "random pairs of each class")->capture_default_str();
+  app.add_option("--adversarial", adversarial, "adversarial pairs")->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  app.add_option("--threads", threads)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  constexpr long kPart = 10'000;
+  std::vector<Job> jobs;
+  const auto split = [&](const tangency::families::ContactFamily* family, long count) {
+    for (long done = 0; done < count; done += kPart) {
+      jobs.push_back({family, seed + jobs.size(), std::min(kPart, count - done)});
+    }
+  };
+  split(nullptr, adversarial);
+  for (const auto& family : tangency::families::contact_classes()) split(&family, per_class);
+
+  Tallies total;
+  std::mutex adding;
+  std::atomic<std::size_t> next = 0, done = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      Tallies part;
+      run(jobs[i], part);
+      const std::lock_guard lock(adding);
+      for (const auto& [family, tally] : part) total[family].add(tally);
+      if (++done % 16 == 0) std::fprintf(stderr, "%zu of %zu parts\n", done.load(), jobs.size());
+    }
+  };
+  std::vector<std::thread> pool;
+  for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
+  for (std::thread& thread : pool) thread.join();
+
+  Tally all;
+  std::printf("seed %llu\n%-28s %9s %13s %16s %16s\n", static_cast<unsigned long long>(seed), "family",
+              "pairs", "disagreements", "overlaps filter", "relation filter");
+  const auto print = [](const char* name, const Tally& t) {
+    std::printf("%-28s %9ld %13ld %14.3f %% %14.3f %%\n", name, t.pairs, t.disagreements,
+                100.0 * static_cast<double>(t.overlaps_filter) / static_cast<double>(t.pairs),
+                100.0 * static_cast<double>(t.relation_filter) / static_cast<double>(t.pairs));
+  };
+  for (const auto& [family, tally] : total) {
+    print(family.c_str(), tally);
+    all.add(tally);
+  }
+  print("all", all);
+  return all.disagreements == 0 && all.pairs == adversarial + 3 * per_class ? 0 : 1;
+}
