@@ -12,9 +12,8 @@ Vec3 turned_with(const Vec3& v, const Vec3& from, const Vec3& to) {
 
 Vec3 ContactLaw::shear_force(const Vec3& shear, const Vec3& previous_normal, const Vec3& normal,
                              const Vec3& displacement, double normal_force) const {
-  const Vec3 slip = displacement - normal * normal.dot(displacement);
-  Vec3 force = turned_with(shear, previous_normal, normal) - shear_stiffness * slip;
-  // Without this, rounding would let a long history leave the tangent plane.
+  Vec3 force = turned_with(shear, previous_normal, normal) - shear_stiffness * displacement;
+  // Takes the normal part of the displacement away, and what rounding has left of earlier ones.
   force -= normal * normal.dot(force);
   const double limit = cohesion + normal_force * friction_coefficient;
   const double size = force.norm();

@@ -5,54 +5,28 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/tool/columns.hpp>
+
 namespace tangency::tool {
 namespace {
 
 constexpr std::array<std::string_view, 6> kPlaceAndAxesFields{"x", "y", "z", "r1", "r2", "r3"};
 constexpr std::array<std::string_view, 4> kOrientationFields{"qw", "qx", "qy", "qz"};
 
-std::string column_name(std::string_view body, std::string_view field) {
-  return std::string(body) + '.' + std::string(field);
-}
-
-/// The columns that were found; the names of the others are added to `missing`.
-template <std::size_t N>
-std::array<csv::Column, N> find_columns(const csv::Header& header, std::string_view body,
-                                        const std::array<std::string_view, N>& fields,
-                                        std::vector<std::string>& missing) {
-  std::array<csv::Column, N> columns{};
-  for (std::size_t i = 0; i < N; ++i) {
-    const std::string name = column_name(body, fields[i]);
-    if (const auto column = header.find(name)) {
-      columns[i] = *column;
-    } else {
-      missing.push_back(name);
-    }
-  }
-  return columns;
-}
-
-csv::Error lacking(const csv::Header& header, std::string_view body,
-                   const std::vector<std::string>& missing, std::string_view rule) {
-  std::string what = "body " + std::string(body) + " without ";
-  for (const std::string& name : missing) what += (&name == &missing.front() ? "" : ", ") + name;
-  return csv::Error(
-      {.file = header.file(), .line = header.line(), .value = what, .rule = std::string(rule)});
-}
-
 }  // namespace
 
 BodyColumns::BodyColumns(const csv::Header& header, std::string_view body) {
+  const std::string prefix = std::string(body) + '.', who = "body " + std::string(body);
   std::vector<std::string> missing;
-  place_and_axes_ = find_columns(header, body, kPlaceAndAxesFields, missing);
+  place_and_axes_ = find_columns(header, prefix, kPlaceAndAxesFields, missing);
   if (!missing.empty()) {
-    throw lacking(header, body, missing, "a body has the columns x, y, z, r1, r2 and r3");
+    throw lacking(header, who, missing, "a body has the columns x, y, z, r1, r2 and r3");
   }
-  const auto orientation = find_columns(header, body, kOrientationFields, missing);
+  const auto orientation = find_columns(header, prefix, kOrientationFields, missing);
   if (missing.empty()) {
     orientation_ = orientation;
   } else if (missing.size() < kOrientationFields.size()) {
-    throw lacking(header, body, missing,
+    throw lacking(header, who, missing,
                   "the orientation columns qw, qx, qy and qz come all four or not at all");
   }
 }

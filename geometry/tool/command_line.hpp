@@ -20,5 +20,7 @@ struct Subcommand {
 void add_row_stream_options(CLI::App& app, RowStreamOptions& options);
 
 Subcommand add_contact(CLI::App& program);
+Subcommand add_overlap(CLI::App& program);
+Subcommand add_classify(CLI::App& program);
 
 }  // namespace tangency::tool

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
@@ -32,7 +33,8 @@ Input columns, in any order; others are ignored:
 
 Output columns, in this order:
   row              number of the data row, from 0
-  relation         empty in this version
+  relation         separate, external_touch, overlap, internal_touch, a_in_b, b_in_a or
+                   equal, as point sets: exact for the numbers as they are read
   gap              > 0: the distance; < 0: minus the penetration depth, the length of the
                    shortest translation that separates the bodies
   nx ny nz         unit normal, from a to b
@@ -40,7 +42,7 @@ Output columns, in this order:
   pb.x pb.y pb.z   witness point on b; pb - pa = gap n
   gap_error        empty in this version
   status           see below
-  inner            empty in this version
+  inner            a or b, the body inside, for internal_touch; else empty
   Numbers read back to the same double.
 
 Status of a row:
@@ -69,11 +71,12 @@ Example, a unit sphere and an ellipsoid 0.5 away from it:
   0,0,0,1,1,1,3.5,0,0,2,1,1
   $ tangency contact pairs.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
-  0,,0.5,1,0,0,1,0,0,1.5,0,0,,ok,
+  0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,
 )";
 
 /// What is known about a pair: one row of the output.
 struct Answer {
+  RelationAnswer relation;
   std::string_view status;
   bool has_numbers;
   double gap;
@@ -83,21 +86,21 @@ struct Answer {
 };
 
 /// The answer that says nothing but why it is empty.
-Answer without_numbers(std::string_view status) {
-  return {status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+Answer without_numbers(const RelationAnswer& relation, std::string_view status) {
+  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 }
 
 Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
-  const Vec3 separation = b.centre() - a.centre();
-  if (!separation.allFinite()) return without_numbers("not_applicable");
-  const Gap found = signed_gap(a, b, separation);
-  if (found.status == GapStatus::not_converged) return without_numbers("not_converged");
+  const RelationAnswer exact = relation(a, b);
+  const Gap found = signed_gap(a, b);
+  if (found.status == GapStatus::not_converged) return without_numbers(exact, "not_converged");
   const Vec3 point_a = a.centre() + found.arm_a;
   const Vec3 point_b = b.centre() + found.arm_b;
   const bool representable = std::isfinite(found.gap) && found.normal.allFinite() &&
                              point_a.allFinite() && point_b.allFinite();
-  if (!representable) return without_numbers("not_applicable");
-  return {found.status == GapStatus::ok ? "ok" : "local",
+  if (!representable) return without_numbers(exact, "not_applicable");
+  return {exact,
+          found.status == GapStatus::ok ? "ok" : "local",
           true,
           found.gap,
           found.normal,
@@ -106,7 +109,7 @@ Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
 }
 
 RowOutcome write(const Answer& answer, csv::RowText& out) {
-  out.empty();  // relation
+  out.text(to_string(answer.relation.relation));
   if (answer.has_numbers) {
     out.number(answer.gap);
     for (const Vec3* vector : {&answer.normal, &answer.point_a, &answer.point_b}) {
@@ -117,7 +120,11 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
   }
   out.empty();  // gap_error
   out.text(answer.status);
-  out.empty();  // inner
+  switch (answer.relation.inner) {
+    case Inner::none: out.empty(); break;
+    case Inner::a: out.text("a"); break;
+    case Inner::b: out.text("b"); break;
+  }
   return answer.has_numbers ? RowOutcome::answered : RowOutcome::unanswered;
 }
 

@@ -52,6 +52,37 @@ TEST(Contacts, OfTwoSpheresPushAlongTheLineOfCentres) {
   EXPECT_LT(two.contacts.resultants().moment[0].norm(), 1e-12);
 }
 
+/// Two spheres at rest, radii 1 and 2, overlapping by 0.4 along a diagonal.
+Assembly two_on_a_diagonal() {
+  Assembly two;
+  two.particles = Particles();
+  const Vec3 direction = Vec3(1.0, 2.0, 2.0) / 3.0;
+  two.particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
+  two.particles.add(Vec3::Ones() + 2.6 * direction, Eigen::Quaterniond::Identity(),
+                    Vec3::Constant(2.0), 1.0, 0);
+  two.cell.length.setConstant(20.0);
+  return two;
+}
+
+TEST(Contacts, AreAtTheMidpointOfTheTwoWitnessPoints) {
+  Assembly two = two_on_a_diagonal();
+  two.update(kFrictionless);
+  ASSERT_EQ(two.contacts.records().size(), 1u);
+  EXPECT_LT((two.contacts.records()[0].arm - 0.8 * Vec3(1.0, 2.0, 2.0) / 3.0).norm(), 1e-14);
+}
+
+TEST(Contacts, ShearByTheStrainOfTheCellAndByRotation) {
+  Assembly two = two_on_a_diagonal();
+  const Vec3 n = Vec3(1.0, 2.0, 2.0) / 3.0;
+  two.cell.rate = {-0.01, 0.02, 0.005};
+  two.particles.angular_velocity[1] = {0.001, 0.002, -0.003};
+  two.update(kFrictional, 0.1);
+  const Vec3 velocity = two.cell.rate.cwiseProduct(2.6 * n) +
+                        two.particles.angular_velocity[1].cross(-1.8 * n);
+  const Vec3 expected = -80.0 * 0.1 * (velocity - n * n.dot(velocity));
+  EXPECT_LT((two.contacts.records()[0].shear - expected).norm(), 1e-14);
+}
+
 // Pairs that are followed by their stored normal, skipped by it, or new: none may be missed.
 TEST(Contacts, OfAMovingCrowdAreThosePairsWithANegativeGap) {
   Assembly crowd_of;

@@ -189,6 +189,9 @@ TEST(ClassifyFilter, RangeIsFoundByBitsAndKeptByScaling) {
   const auto with_k = [](double k) { return Quadric::Coefficients{1, 1, 1, 0, 0, 0, 0, 0, 0, k}; };
   EXPECT_FALSE(filter::in_range(with_k(smallest)));
   EXPECT_FALSE(filter::in_range(with_k(0x1p-401)));
+  Quadric::Coefficients subnormal = with_k(-1);
+  for (double& c : subnormal) c *= 3 * smallest;
+  EXPECT_FALSE(filter::in_range(subnormal));
   ASSERT_TRUE(filter::in_range(with_k(0x1p-400)));
   EXPECT_EQ((*filter::in_range(with_k(-0x1p-400)))[9], -0x1p-200);
   EXPECT_EQ((*filter::in_range(with_k(-0x1p-400)))[0], 0x1p200);

@@ -177,6 +177,16 @@ TEST(Classify, OneUnitInTheLastPlaceOfADenseBlockCrossesTheBorder) {
   EXPECT_EQ(classify(with_y2(std::nextafter(9.0, 8.0))).type, hyperboloid_one_sheet);
 }
 
+TEST(Classify, CoefficientsThatAreAllSubnormalAreDecided) {
+  const auto with_y2 = [](double b) {
+    const double s = kSmallest;
+    return Quadric({s, b * s, s, 3 * s, 0, 0, 0, 0, 0, -s});
+  };
+  EXPECT_EQ(classify(with_y2(9)).type, real_elliptic_cylinder);
+  EXPECT_EQ(classify(with_y2(10)).type, real_ellipsoid);
+  EXPECT_EQ(classify(with_y2(8)).type, hyperboloid_one_sheet);
+}
+
 // The decimal 0.1 is not a tenth: 0.01 - 0.1^2 of the stored doubles is not 0, and its sign is that
 // of the true product, not of the rounded one.
 TEST(Classify, TheStoredDoublesCountNotTheirDecimalNames) {

@@ -257,6 +257,19 @@ RC_GTEST_PROP(PencilProperty, ExchangingThePairReversesThePositiveMembers, ()) {
   RC_ASSERT(forward == positive(pencil_members(b, a)));
 }
 
+TEST(Pencil, ThePairOfEllipsoidsIsNormalisedToMinusOneAtTheCentres) {
+  const Members solids = pencil_members(sphere(0, 1), sphere(3, 2));
+  // |x|^2 - 1 and |x - c|^2 / 4 - 1, c = (3, 0, 0).
+  const Members quadrics = pencil_members(Quadric({1, 1, 1, 0, 0, 0, 0, 0, 0, -1}),
+                                          Quadric({.25, .25, .25, 0, 0, 0, -.75, 0, 0, 1.25}));
+  ASSERT_EQ(solids.size(), quadrics.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    EXPECT_EQ(solids[i].low, quadrics[i].low);
+    EXPECT_EQ(solids[i].high, quadrics[i].high);
+    EXPECT_EQ(solids[i].signs, quadrics[i].signs);
+  }
+}
+
 TEST(Pencil, APairOfEmptyQuadricsHasOneMemberEverywhere) {
   const Quadric zero({0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   const Members members = pencil_members(zero, zero);

@@ -50,7 +50,7 @@ TEST(ContactCommand, AnswersWithTheDocumentedColumns) {
   const std::string pairs =
       folder.write("pairs.csv", kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n");
   const Finished run = run_tool({"contact", pairs});
-  EXPECT_EQ(run.out, kOutHeader + "0,,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n");
+  EXPECT_EQ(run.out, kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n");
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.status, 0);
 }
@@ -63,7 +63,7 @@ TEST(ContactCommand, HeaderAloneIsAnEmptyTable) {
 
 TEST(ContactCommand, ReadsStandardInputForADashAndForNoFile) {
   const std::string pairs = kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n";
-  const std::string answers = kOutHeader + "0,,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n";
+  const std::string answers = kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n";
   for (const auto& arguments : {Names{"contact"}, Names{"contact", "-"}}) {
     EXPECT_EQ(run_tool(arguments, pairs).out, answers);
     const Finished refused = run_tool(arguments, pairs + "1\n");
@@ -251,7 +251,7 @@ TEST(ContactCommand, NamesTheFirstTenInvalidRowsAndCountsThemAll) {
 TEST(ContactCommand, AnswerBeyondTheRangeOfADoubleIsNotApplicable) {
   const Finished run =
       run_tool({"contact"}, kNoTurnHeader + "-1.7e308,0,0,1,1,1,1.7e308,0,0,1,1,1\n");
-  EXPECT_EQ(run.out, kOutHeader + "0,,,,,,,,,,,,,not_applicable,\n");
+  EXPECT_EQ(run.out, kOutHeader + "0,separate,,,,,,,,,,,,not_applicable,\n");
   EXPECT_EQ(run.status, 1);
 }
 
@@ -297,9 +297,9 @@ TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   std::vector<std::string> wanted{"a.qw a.qx a.qy a.qz",
-                                  "relation         empty in this version",
+                                  "relation         separate, external_touch, overlap",
                                   "gap_error        empty in this version",
-                                  "inner            empty in this version",
+                                  "inner            a or b, the body inside",
                                   "not available in this version",
                                   "Exit status: 0 ",
                                   "--keep-going",

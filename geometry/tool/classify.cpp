@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/classify.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/tool/command_line.hpp>
+
+namespace tangency::tool {
+namespace {
+
+constexpr std::array<std::string_view, 5> kOutputColumns{"row", "type", "rank4", "rank3", "tier"};
+constexpr std::array<std::string_view, 10> kCoefficients{"A", "B", "C", "D", "E",
+                                                         "F", "G", "H", "J", "K"};
+
+constexpr const char* kHelp = R"(
+Input columns, in any order; others are ignored:
+  A B C D E F G H J K   the coefficients of
+                        A x^2 + B y^2 + C z^2 + 2D xy + 2E yz + 2F zx
+                          + 2G x + 2H y + 2J z + K = 0
+
+Output columns, in this order:
+  row              number of the data row, from 0
+  type             real_ellipsoid, imaginary_ellipsoid, hyperboloid_one_sheet,
+                   hyperboloid_two_sheets, elliptic_paraboloid, hyperbolic_paraboloid,
+                   real_elliptic_cone, imaginary_elliptic_cone, real_elliptic_cylinder,
+                   imaginary_elliptic_cylinder, hyperbolic_cylinder, parabolic_cylinder,
+                   real_intersecting_planes, imaginary_intersecting_planes,
+                   real_parallel_planes, imaginary_parallel_planes, coincident_planes;
+                   plane, no_points and all_space for what is no quadric;
+                   invalid for a refused row (only with --keep-going)
+  rank4, rank3     ranks of the discriminant matrix and of its upper-left 3 x 3 block
+  tier             filter: proven in floating point; exact: decided in exact integers
+  The answer is exact for the numbers as they are read, whatever their size.
+
+Exit status: 0 every row is answered; 1 some row is invalid; 2 refused command line or
+input, or a failed read or write.
+
+Example, a sphere and a cone:
+  $ cat quadrics.csv
+  A,B,C,D,E,F,G,H,J,K
+  1,1,1,0,0,0,0,0,0,-1
+  1,1,-1,0,0,0,0,0,0,0
+  $ tangency classify quadrics.csv
+  row,type,rank4,rank3,tier
+  0,real_ellipsoid,4,3,filter
+  1,real_elliptic_cone,3,3,exact
+)";
+
+RowFunction bind(const csv::Header& header) {
+  std::vector<std::string> missing;
+  const auto columns = find_columns(header, "", kCoefficients, missing);
+  if (!missing.empty()) {
+    throw lacking(header, "quadric", missing,
+                  "a quadric has the columns A, B, C, D, E, F, G, H, J and K");
+  }
+  return [columns](const csv::RowCursor& row, csv::RowText& out) {
+    Quadric::Coefficients c{};
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = row.number(columns[i]);
+    const Classification answer = classify(Quadric(c));
+    out.text(to_string(answer.type));
+    out.text(std::to_string(answer.rank4));
+    out.text(std::to_string(answer.rank3));
+    out.text(to_string(answer.tier));
+    return RowOutcome::answered;
+  };
+}
+
+}  // namespace
+
+Subcommand add_classify(CLI::App& program) {
+  const auto options = std::make_shared<RowStreamOptions>();
+  CLI::App& app = *program.add_subcommand("classify", "Exact types of quadrics");
+  add_row_stream_options(app, *options);
+  app.footer(kHelp);
+  return {&app, [options] {
+            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+                               .verdict_column = "type",
+                               .bind = bind};
+            return run_row_stream(task, *options);
+          }};
+}
+
+}  // namespace tangency::tool

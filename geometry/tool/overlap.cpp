@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/tool/body_columns.hpp>
+#include <tangency/geometry/tool/command_line.hpp>
+
+namespace tangency::tool {
+namespace {
+
+constexpr std::array<std::string_view, 4> kOutputColumns{"row", "relation", "overlaps", "tier"};
+
+constexpr const char* kHelp = R"(
+Input columns: those of `tangency contact`.
+
+Output columns, in this order:
+  row              number of the data row, from 0
+  relation         separate, external_touch, overlap, internal_touch, a_in_b, b_in_a or
+                   equal, as point sets; invalid for a refused row (only with --keep-going)
+  overlaps         1 where the interiors meet, else 0
+  tier             filter: proven in floating point; exact: decided in exact integers
+  The answer is exact for the numbers as they are read, whatever their size.
+
+Exit status: 0 every row is answered; 1 some row is invalid; 2 refused command line or
+input, or a failed read or write.
+
+Example, two unit spheres that touch:
+  $ cat pairs.csv
+  a.x,a.y,a.z,a.r1,a.r2,a.r3,b.x,b.y,b.z,b.r1,b.r2,b.r3
+  0,0,0,1,1,1,2,0,0,1,1,1
+  $ tangency overlap pairs.csv
+  row,relation,overlaps,tier
+  0,external_touch,0,exact
+)";
+
+RowFunction bind(const csv::Header& header) {
+  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const csv::RowCursor& row,
+                                                                      csv::RowText& out) {
+    const RelationAnswer answer = relation(a.read(row), b.read(row));
+    const bool meet = answer.relation != Relation::separate &&
+                      answer.relation != Relation::external_touch;
+    out.text(to_string(answer.relation));
+    out.text(meet ? "1" : "0");
+    out.text(to_string(answer.tier));
+    return RowOutcome::answered;
+  };
+}
+
+}  // namespace
+
+Subcommand add_overlap(CLI::App& program) {
+  const auto options = std::make_shared<RowStreamOptions>();
+  CLI::App& app =
+      *program.add_subcommand("overlap", "Exact relation of pairs of ellipsoids: do they overlap?");
+  add_row_stream_options(app, *options);
+  app.footer(kHelp);
+  return {&app, [options] {
+            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+                               .verdict_column = "relation",
+                               .bind = bind};
+            return run_row_stream(task, *options);
+          }};
+}
+
+}  // namespace tangency::tool
