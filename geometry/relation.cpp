@@ -12,7 +12,7 @@ namespace tangency {
 namespace {
 
 using methods::Filtered;
-using methods::FilteredAt;
+using methods::OverlapFilter;
 
 /// Calls ask(a, b, d, d_low) with the pair in a unit that suits the filters, c_B - c_A = d + d_low;
 /// `otherwise` where there is none.
@@ -29,16 +29,14 @@ Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const 
   return ask(pair.a, pair.b, pair.d, [&] { return pair.d_low; });
 }
 
-/// The filters in double and, where they cannot tell, in double-double.
+/// The answer of the filter in double or, where it cannot tell, in double-double.
 template <class SeparationError>
-FilteredAt filter_position(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
-                           const SeparationError& d_low) {
-  FilteredAt found = methods::filter_overlap_with_normal(a, b, d);
-  if (found.answer == Filtered::unknown && environment_is_default() && found.normal.allFinite() &&
-      found.normal != Vec3::Zero()) {
-    found.answer = methods::filter_overlap_in_double_double(a, b, d, d_low(), found.normal);
-  }
-  return found;
+Filtered settled(const OverlapFilter& filter, const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
+                 const SeparationError& d_low) {
+  if (filter.answer() != Filtered::unknown || !environment_is_default()) return filter.answer();
+  const Vec3 n = filter.normal();
+  if (!n.allFinite() || n == Vec3::Zero()) return Filtered::unknown;
+  return methods::filter_overlap_in_double_double(a, b, d, d_low(), n);
 }
 
 enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };
@@ -46,13 +44,17 @@ enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };
 template <class SeparationError>
 Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                       const SeparationError& d_low) {
-  const FilteredAt found = filter_position(a, b, d, d_low);
-  if (found.answer == Filtered::apart) return Found::apart;
-  if (found.answer == Filtered::unknown) return Found::unknown;
-  if (!methods::proves_sticking_out(a, b, d, found.normal)) {
+  const OverlapFilter filter(a, b, d);
+  switch (settled(filter, a, b, d, d_low)) {
+    case Filtered::apart: return Found::apart;
+    case Filtered::unknown: return Found::unknown;
+    case Filtered::interiors_meet: break;
+  }
+  const Vec3 n = filter.normal();
+  if (!methods::proves_sticking_out(a, b, d, n)) {
     return methods::proves_inside(a, b, d) ? Found::a_inside : Found::meeting;
   }
-  if (methods::proves_sticking_out(b, a, -d, -found.normal)) return Found::overlapping;
+  if (methods::proves_sticking_out(b, a, -d, n)) return Found::overlapping;
   return methods::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
 }
 
@@ -93,7 +95,7 @@ OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   const Filtered found =
       filtered(a, b, Filtered::unknown, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
                                            const auto& d_low) {
-        return filter_position(pa, pb, d, d_low).answer;
+        return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
       });
   if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   const exact::Position position = exact::position(exact::pair_quartic(a, b));

@@ -92,28 +92,28 @@ Filtered decide_by_factors(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d
 
 }  // namespace
 
-FilteredAt filter_overlap_with_normal(const Ellipsoid& a, const Ellipsoid& b,
-                                      const Vec3& d) noexcept {
-  const PerramWertheimForm form(a, b, d);
+OverlapFilter::OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
+    : form_(a, b, d) {
   const Yardstick yardstick(a, b, d);
   constexpr double kSettled = 1e-4;  // of l, chosen: the rest is left to Newton's method on n
   PerramWertheimSearch search;
-  double l = form.first_guess();
+  l_ = form_.first_guess();
   for (int step = 0; step < kSteps; ++step) {
-    const PerramWertheimAt at = form.at(l);
-    const Filtered answer = decide(at, yardstick);
-    if (answer != Filtered::unknown) return {answer, form.normal_direction(l)};
+    const PerramWertheimAt at = form_.at(l_);
+    answer_ = decide(at, yardstick);
+    if (answer_ != Filtered::unknown) return;
     const double next = search.next(at);
-    const bool settled = std::abs(next - l) < kSettled * l;
-    l = next;
+    const bool settled = std::abs(next - l_) < kSettled * l_;
+    l_ = next;
     if (settled) break;
   }
-  const Vec3 n = newton_from(a, b, d, form.normal_direction(l).normalized()).normal;
-  return {decide_by_factors(a, b, d, n), n};
+  settle(a, b, d);
 }
 
-Filtered filter_overlap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
-  return filter_overlap_with_normal(a, b, d).answer;
+void OverlapFilter::settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
+  normal_ = newton_from(a, b, d, form_.normal_direction(l_).normalized()).normal;
+  settled_ = true;
+  answer_ = decide_by_factors(a, b, d, normal_);
 }
 
 bool proves_sticking_out(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,

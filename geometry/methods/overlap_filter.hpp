@@ -4,31 +4,40 @@
 /// cannot. Error bounds: docs/derivations/relation-filter.md, whose names for them stand at each.
 #pragma once
 
-#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/methods/perram_wertheim.hpp>
 
 namespace tangency::methods {
 
 enum class Filtered { apart, interiors_meet, unknown };
 
-/// An answer, and the normal at which the search stopped, from A to B, of any length.
-struct FilteredAt {
-  Filtered answer;
-  Vec3 normal;
+/// Are the solids apart, or do their interiors meet? Allocates nothing.
+class OverlapFilter {
+ public:
+  /// @param d  fl(c_B - c_A); centres are not used otherwise
+  /// Requires moderate() bodies and |d_i| <= 2^60; the bodies must outlive the filter.
+  OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
+
+  Filtered answer() const noexcept { return answer_; }
+  /// The normal at which the search stopped, from A to B, of any length.
+  Vec3 normal() const noexcept { return settled_ ? normal_ : form_.normal_direction(l_); }
+
+ private:
+  /// For what the polynomials cannot tell.
+  void settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
+
+  PerramWertheimForm form_;
+  double l_;
+  Filtered answer_ = Filtered::unknown;
+  bool settled_ = false;
+  Vec3 normal_;
 };
 
-/// Are the solids apart, or do their interiors meet? d = fl(c_B - c_A), centres not used otherwise.
-/// Requires moderate() bodies and |d_i| <= 2^60.
-Filtered filter_overlap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
-/// The same, with the normal.
-FilteredAt filter_overlap_with_normal(const Ellipsoid& a, const Ellipsoid& b,
-                                      const Vec3& d) noexcept;
-
 /// True only where some point of A is outside B. Tried are the axes of both bodies and a normal from A
-/// to B, each the way that leads away from B. Requires as filter_overlap().
+/// to B, each the way that leads away from B. Requires as OverlapFilter.
 bool proves_sticking_out(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                          const Vec3& normal) noexcept;
 
-/// True only where A is inside the interior of B. Requires as filter_overlap().
+/// True only where A is inside the interior of B. Requires as OverlapFilter.
 bool proves_inside(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
 
 }  // namespace tangency::methods

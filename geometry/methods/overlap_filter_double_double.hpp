@@ -10,7 +10,7 @@ namespace tangency::methods {
 
 /// Are the solids apart, or do their interiors meet, as the normal `n` (any length but 0) tells?
 /// c_B - c_A = d + d_low exactly. Requires the default floating-point environment and as
-/// filter_overlap().
+/// OverlapFilter.
 Filtered filter_overlap_in_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                                          const Vec3& d_low, const Vec3& n) noexcept;
 
