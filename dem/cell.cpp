@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-
 #include <tangency/dem/cell.hpp>
 
 namespace tangency::dem {
@@ -12,8 +11,6 @@ Image Cell::image_of(const Vec3& x) const {
   return image;
 }
 
-Vec3 Cell::logarithmic_strain() const {
-  return (length.array() / reference_length.array()).log();
-}
+Vec3 Cell::logarithmic_strain() const { return (length.array() / reference_length.array()).log(); }
 
 }  // namespace tangency::dem

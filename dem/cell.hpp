@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-
 #include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::dem {

@@ -8,10 +8,9 @@
 #pragma once
 
 #include <stdexcept>
-#include <vector>
-
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/dem/neighbours.hpp>
+#include <vector>
 
 namespace tangency::dem {
 
@@ -59,8 +58,7 @@ class Contacts {
   void carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now);
 
   /// Adds the saved records' forces up again: after a restore.
-  void restore(std::vector<Contact> records, const Particles& particles,
-               const NeighbourList& list);
+  void restore(std::vector<Contact> records, const Particles& particles, const NeighbourList& list);
 
   const std::vector<Contact>& records() const { return records_; }
   const Resultants& resultants() const { return resultants_; }

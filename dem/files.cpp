@@ -2,7 +2,6 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-
 #include <tangency/dem/files.hpp>
 
 namespace tangency::dem {

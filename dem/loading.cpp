@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-
 #include <tangency/dem/loading.hpp>
 
 namespace tangency::dem {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-
 #include <tangency/dem/motion.hpp>
 
 namespace tangency::dem {
 namespace {
 
-/// Below so many particles the loop is over before a second thread has woken up.
+/// Below so many particles the loop is over before a second thread has woken up: contacts.cpp.
 constexpr std::size_t worth_sharing = 400;
 
 }  // namespace

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <stdexcept>
-
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-
 #include <tangency/dem/neighbours.hpp>
 
 namespace tangency::dem {
@@ -110,12 +109,11 @@ bool NeighbourList::is_current(const Particles& particles, const Cell& cell) con
   }
   // An unlisted pair was at least r_a + r_b + skin apart. Its distance is now at least `shrunk`
   // times that, less what both centres moved; r_a + r_b is at most twice the largest radius.
-  const double shrunk =
-      std::min(1.0, cell.length.cwiseQuotient(reference_.cell_length).minCoeff());
+  const double shrunk = std::min(1.0, cell.length.cwiseQuotient(reference_.cell_length).minCoeff());
   const double spheres_then = 2.0 * reference_.largest_radius;
-  const double grown = 2.0 * std::max(0.0, largest_radius_of(particles) - reference_.largest_radius);
-  return 2.0 * std::sqrt(moved) + grown <
-         shrunk * reference_.skin - (1.0 - shrunk) * spheres_then;
+  const double grown =
+      2.0 * std::max(0.0, largest_radius_of(particles) - reference_.largest_radius);
+  return 2.0 * std::sqrt(moved) + grown < shrunk * reference_.skin - (1.0 - shrunk) * spheres_then;
 }
 
 void NeighbourList::restore(Reference reference, std::vector<Pair> pairs) {

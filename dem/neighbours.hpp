@@ -11,10 +11,9 @@
 #pragma once
 
 #include <compare>
-#include <vector>
-
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
+#include <vector>
 
 namespace tangency::dem {
 

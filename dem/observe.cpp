@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
 #include <tangency/dem/observe.hpp>
 
 namespace tangency::dem {
@@ -80,8 +79,7 @@ Balance balance_of(const Particles& particles, const Contacts& contacts,
   }
   if (touching == 0) return balance;
   balance.mean_contact_force = contact_sum / static_cast<double>(touching);
-  balance.inertial_fraction =
-      sum / static_cast<double>(with_contacts) / balance.mean_contact_force;
+  balance.inertial_fraction = sum / static_cast<double>(with_contacts) / balance.mean_contact_force;
   balance.largest_unbalanced_ratio /= balance.mean_contact_force;
   balance.largest_unbalanced_moment_ratio /= balance.mean_contact_force;
   return balance;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <numbers>
-
 #include <tangency/dem/particles.hpp>
 
 namespace tangency::dem {
@@ -11,9 +10,7 @@ Vec3 Shape::semi_axes() const {
   return {b * elongation, b, b / flatness};
 }
 
-double volume_of(const Vec3& semi_axes) {
-  return 4.0 / 3.0 * std::numbers::pi * semi_axes.prod();
-}
+double volume_of(const Vec3& semi_axes) { return 4.0 / 3.0 * std::numbers::pi * semi_axes.prod(); }
 
 Vec3 principal_inertia(double mass, const Vec3& semi_axes) {
   const Vec3 squares = semi_axes.cwiseAbs2();
@@ -36,8 +33,8 @@ double kinetic_energy(const Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 spin = particles.orientation[i].conjugate() * particles.angular_velocity[i];
     const Vec3 inertia = principal_inertia(particles.mass[i], particles.semi_axes[i]);
-    twice += particles.mass[i] * particles.velocity[i].squaredNorm() +
-             inertia.dot(spin.cwiseAbs2());
+    twice +=
+        particles.mass[i] * particles.velocity[i].squaredNorm() + inertia.dot(spin.cwiseAbs2());
   }
   return 0.5 * twice;
 }

@@ -2,15 +2,15 @@
 /// @file
 /// The particles of an assembly: solid ellipsoids of uniform density.
 ///
-/// Units are any consistent set; the scenes and files say SI. Frame: that of geometry/ellipsoid.hpp.
-/// A particle's velocity is the *fluctuation*: what it moves in addition to the homogeneous
-/// strain of the cell. Velocities belong to the half step before the positions (leapfrog).
+/// Units are any consistent set; the scenes and files say SI. Frame: that of
+/// geometry/ellipsoid.hpp. A particle's velocity is the *fluctuation*: what it moves in addition to
+/// the homogeneous strain of the cell. Velocities belong to the half step before the positions
+/// (leapfrog).
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
 #include <tangency/geometry/ellipsoid.hpp>
+#include <vector>
 
 namespace tangency::dem {
 
@@ -44,7 +44,8 @@ struct Particles {
 /// Volume of an ellipsoid: 4/3 pi a b c.
 double volume_of(const Vec3& semi_axes);
 
-/// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel, eq. 3.19].
+/// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel,
+/// eq. 3.19].
 Vec3 principal_inertia(double mass, const Vec3& semi_axes);
 
 /// Resultants of the contact forces on each particle, about its centre, in space coordinates.

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <sstream>
 #include <string>
-
 #include <tangency/dem/sample.hpp>
 
 namespace tangency::dem {
@@ -63,9 +62,7 @@ Lattice lattice_for(const std::vector<Batch>& batches, const LatticePlacement& h
 
 }  // namespace
 
-double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 Eigen::Quaterniond uniform_rotation(std::mt19937_64& random) {
   const double u = uniform(random);

@@ -6,10 +6,9 @@
 #include <optional>
 #include <random>
 #include <stdexcept>
-#include <vector>
-
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
+#include <vector>
 
 namespace tangency::dem {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <toml++/toml.h>
-
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_keys.hpp>
@@ -67,8 +67,7 @@ bool fits(const Key& key, const toml::node& node) {
       return number_fits(node);
     case KeyType::real3: {
       const auto* array = node.as_array();
-      return array && array->size() == 3 &&
-             std::all_of(array->begin(), array->end(), number_fits);
+      return array && array->size() == 3 && std::all_of(array->begin(), array->end(), number_fits);
     }
     case KeyType::text: {
       if (!node.is_string()) return false;
@@ -214,8 +213,7 @@ class Reader {
       const std::string path = "particles." + std::string(name.str());
       if (!is_name(name.str()))
         source_.fail(name.source(), path + ": a name of letters, digits and underscores");
-      if (!node.is_table())
-        source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
+      if (!node.is_table()) source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
       const Section type(source_, *node.as_table(), path, "particles");
       scene_.particle_types.push_back(
           {std::string(name.str()),
@@ -227,7 +225,8 @@ class Reader {
       if (!std::isnormal(mass))
         source_.fail(node.source(), path + ": mean_radius and density that give a particle a mass");
     }
-    if (types.empty()) source_.fail(types.source(), "particles: at least one table [particles.NAME]");
+    if (types.empty())
+      source_.fail(types.source(), "particles: at least one table [particles.NAME]");
   }
 
   ContactLaw law_of(const Section& section) const {
@@ -248,9 +247,8 @@ class Reader {
     const toml::table& contact = table("contact", true);
     const std::size_t types = scene_.particle_types.size();
     std::vector<std::optional<ContactLaw>> laws(types * types);
-    const bool common = std::any_of(contact.begin(), contact.end(), [](const auto& entry) {
-      return !entry.second.is_table();
-    });
+    const bool common = std::any_of(contact.begin(), contact.end(),
+                                    [](const auto& entry) { return !entry.second.is_table(); });
     if (common || contact.empty())
       laws.assign(types * types, law_of(Section(source_, contact, "contact", "contact")));
     for (const auto& [name, node] : contact) {
@@ -294,14 +292,13 @@ class Reader {
     if (!kind_node)
       source_.fail(stage.source(), path + ".kind is missing: " + allowed_values(kind_key));
     if (!fits(kind_key, *kind_node))
-      source_.fail(kind_node->source(), path + ".kind = " + text_of(*kind_node) + ": " +
-                                            allowed_values(kind_key));
+      source_.fail(kind_node->source(),
+                   path + ".kind = " + text_of(*kind_node) + ": " + allowed_values(kind_key));
     const std::string kind = kind_node->ref<std::string>();
     if (first != (kind == "place"))
-      source_.fail(kind_node->source(),
-                   path + ".kind = '" + kind + "': " +
-                       (first ? "the first stage must be of kind place"
-                              : "only the first stage may be of kind place"));
+      source_.fail(kind_node->source(), path + ".kind = '" + kind + "': " +
+                                            (first ? "the first stage must be of kind place"
+                                                   : "only the first stage may be of kind place"));
     const Section section(source_, stage, path, "stage", kind);
     Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}});
     if (kind == "place")
@@ -310,7 +307,8 @@ class Reader {
       added.compress = read_compress(section, kind);
   }
 
-  Place read_place(const Section& section, const std::string& path, const toml::table& stage) const {
+  Place read_place(const Section& section, const std::string& path,
+                   const toml::table& stage) const {
     const Place place{static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter")};
     try {
       const LatticePlacement how{scene_.cell_size, place.jitter * scene_.smallest_mean_radius(),
@@ -318,22 +316,21 @@ class Reader {
       check_room(scene_.batches(), how);
     } catch (const DoesNotFit& error) {
       const toml::node* size = root_["cell"].as_table()->get("size");
-      if (size)
-        source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
+      if (size) source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
       source_.fail(stage.source(), path + ": " + error.what());
     }
     return place;
   }
 
   static Compress read_compress(const Section& section, const std::string& kind) {
-    return {{section.real("mean_stress"), section.real("servo_gain"),
-             section.real("max_strain_rate")},
-            section.real("damping"),
-            section.real("time_step_factor"),
-            section.optional_real("friction_coefficient"),
-            section.real("stress_tolerance"),
-            kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
-            section.integer("max_cycles")};
+    return {
+        {section.real("mean_stress"), section.real("servo_gain"), section.real("max_strain_rate")},
+        section.real("damping"),
+        section.real("time_step_factor"),
+        section.optional_real("friction_coefficient"),
+        section.real("stress_tolerance"),
+        kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
+        section.integer("max_cycles")};
   }
 
   const toml::table& root_;

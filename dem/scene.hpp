@@ -7,11 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
-
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/sample.hpp>
+#include <vector>
 
 namespace tangency::dem {
 

@@ -5,7 +5,6 @@
 #include <iomanip>
 #include <ostream>
 #include <sstream>
-
 #include <tangency/dem/scene_keys.hpp>
 
 namespace tangency::dem {
@@ -34,8 +33,8 @@ constexpr std::string_view moving = "compress relax";
 constexpr std::array table{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
 
-    Key{"cell", "size", real3, "m", "(smallest cubic lattice)",
-        positive, "", "", "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
+    Key{"cell", "size", real3, "m", "(smallest cubic lattice)", positive, "", "",
+        "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
 
     Key{"particles", "count", integer, "-", "", between(1, most_particles), "", "",
         "Number of particles of this type"},
@@ -86,8 +85,8 @@ constexpr std::array table{
         "Between two rows of history.csv; a stage's end always has one"},
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, most_cycles), "", "",
         "Between two frames; a stage's end always has one, and 0 leaves it at these"},
-    Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, most_cycles), "",
-        "", "Between two writes of checkpoint.state; 0 leaves it at interrupted runs"},
+    Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, most_cycles), "", "",
+        "Between two writes of checkpoint.state; 0 leaves it at interrupted runs"},
 };
 
 /// Whole numbers in full, as one writes them for an integer.
@@ -122,10 +121,14 @@ std::string choices_text(std::string_view choices) {
 
 std::string_view type_text(KeyType type) {
   switch (type) {
-    case integer: return "integer";
-    case real: return "number";
-    case real3: return "3 numbers";
-    case text: return "text";
+    case integer:
+      return "integer";
+    case real:
+      return "number";
+    case real3:
+      return "3 numbers";
+    case text:
+      return "text";
   }
   return "";
 }
@@ -153,10 +156,14 @@ bool is_among(std::string_view word, std::string_view words) {
 std::string allowed_values(const Key& key) {
   const std::string unit = key.unit == "-" ? "" : " (" + std::string(key.unit) + ")";
   switch (key.type) {
-    case integer: return "an integer " + range_text(key.range) + unit;
-    case real: return "a finite number " + range_text(key.range) + unit;
-    case real3: return "3 finite numbers " + range_text(key.range) + unit;
-    case text: break;
+    case integer:
+      return "an integer " + range_text(key.range) + unit;
+    case real:
+      return "a finite number " + range_text(key.range) + unit;
+    case real3:
+      return "3 finite numbers " + range_text(key.range) + unit;
+    case text:
+      break;
   }
   if (key.choices.empty()) return "a name of letters, digits and underscores";
   return (key.choices.find(' ') == std::string_view::npos ? "" : "one of ") +
@@ -174,15 +181,13 @@ void print_schema(std::ostream& out) {
           << "unit" << std::setw(26) << "default" << std::setw(27) << "allowed"
           << "meaning\n";
     }
-    const std::string allowed = key.type == text
-                                    ? (key.choices.empty() ? "letters, digits, _"
-                                                           : choices_text(key.choices))
-                                    : range_text(key.range);
+    const std::string allowed =
+        key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
+                         : range_text(key.range);
     out << "  " << std::left << std::setw(22) << key.name << std::setw(11) << type_text(key.type)
         << std::setw(19) << key.unit << std::setw(26)
         << (key.required() ? "required" : key.fallback) << std::setw(27) << allowed << key.meaning;
-    if (section == "stage" && key.kinds != kinds)
-      out << " [" << choices_text(key.kinds) << ']';
+    if (section == "stage" && key.kinds != kinds) out << " [" << choices_text(key.kinds) << ']';
     out << '\n';
   }
 }

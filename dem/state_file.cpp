@@ -2,10 +2,9 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <type_traits>
-
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <type_traits>
 
 namespace tangency::dem {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::uint32_t version = 1;
 class Writer {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(const T& value) {
     const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
     bytes_.append(raw.data(), raw.size());
@@ -35,7 +34,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(T& value) {
     if (bytes_.size() < sizeof(T)) throw TooShort();
     std::memcpy(&value, bytes_.data(), sizeof(T));
@@ -52,25 +51,23 @@ class ByteReader {
 // to the archive, a Writer or a ByteReader.
 
 template <class Archive, class Vec>
-  requires std::is_same_v<std::remove_const_t<Vec>, Vec3>
+requires std::is_same_v<std::remove_const_t<Vec>, Vec3>
 void pass(Archive& archive, Vec& v) {
   for (int k = 0; k < 3; ++k) archive(v[k]);
 }
 
 template <class Archive, class Quaternion>
-  requires std::is_same_v<std::remove_const_t<Quaternion>, Eigen::Quaterniond>
+requires std::is_same_v<std::remove_const_t<Quaternion>, Eigen::Quaterniond>
 void pass(Archive& archive, Quaternion& q) {
   for (int k = 0; k < 4; ++k) archive(q.coeffs()[k]);
 }
 
 template <class Archive, class Number>
-  requires std::is_arithmetic_v<Number>
-void pass(Archive& archive, Number& x) {
-  archive(x);
-}
+requires std::is_arithmetic_v<Number>
+void pass(Archive& archive, Number& x) { archive(x); }
 
 template <class Archive, class P>
-  requires std::is_same_v<std::remove_const_t<P>, Pair>
+requires std::is_same_v<std::remove_const_t<P>, Pair>
 void pass(Archive& archive, P& pair) {
   archive(pair.a);
   archive(pair.b);
@@ -78,7 +75,7 @@ void pass(Archive& archive, P& pair) {
 }
 
 template <class Archive, class C>
-  requires std::is_same_v<std::remove_const_t<C>, Contact>
+requires std::is_same_v<std::remove_const_t<C>, Contact>
 void pass(Archive& archive, C& contact) {
   for (auto* v : {&contact.normal, &contact.branch, &contact.arm, &contact.force, &contact.shear})
     pass(archive, *v);

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::dem {

@@ -32,7 +32,13 @@ struct Symmetric3 {
   }
 };
 
-/// tr(A B)
+/// v v'
+inline Symmetric3 square(const Eigen::Vector3d& v) noexcept {
+  const double x = v.x(), y = v.y(), z = v.z();
+  return {x * x, y * y, z * z, y * z, z * x, x * y};
+}
+
+/// tr(A B); v' S v is that of S and square(v).
 inline double trace_of_product(const Symmetric3& a, const Symmetric3& b) noexcept {
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz +
          2.0 * (a.yz * b.yz + a.zx * b.zx + a.xy * b.xy);

@@ -3,7 +3,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/tool/frames.hpp>
 #include <tangency/dem/tool/numbers.hpp>

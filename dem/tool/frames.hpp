@@ -11,9 +11,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <vector>
-
 #include <tangency/dem/simulation.hpp>
+#include <vector>
 
 namespace tangency::dem {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
-#include <unistd.h>
-
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/results.hpp>

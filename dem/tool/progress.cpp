@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <unistd.h>
-
 #include <tangency/dem/tool/progress.hpp>
 
 namespace tangency::dem {
@@ -31,7 +31,8 @@ std::string time_left(double seconds) {
 Progress::Progress(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 bool Progress::is_due() const {
-  return !quiet_ && Clock::now() - last_ >= (on_terminal_ ? bar_interval : line_interval);
+  return !quiet_ && (first_fraction_ < 0.0 ||
+                     Clock::now() - last_ >= (on_terminal_ ? bar_interval : line_interval));
 }
 
 void Progress::show(double fraction, const std::string& note) {
@@ -40,8 +41,9 @@ void Progress::show(double fraction, const std::string& note) {
   if (first_fraction_ < 0.0) first_fraction_ = fraction;
   const double spent = std::chrono::duration<double>(last_ - start_).count();
   const double done = fraction - first_fraction_;
-  const std::string left =
-      done > 0.0 ? ", about " + time_left(spent * (1.0 - fraction) / done) : std::string();
+  const std::string left = done > 0.0 && fraction < 1.0
+                               ? ", about " + time_left(spent * (1.0 - fraction) / done)
+                               : std::string();
   if (on_terminal_) {
     const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * bar_width);
     std::cerr << "\r[" << std::string(filled, '#') << std::string(bar_width - filled, ' ') << "] "

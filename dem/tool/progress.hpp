@@ -14,7 +14,7 @@ class Progress {
  public:
   explicit Progress(bool quiet);
 
-  /// Is it time to show something? Cheap: asked every cycle.
+  /// Is it time to show something: the first time at once? Cheap: asked every cycle.
   bool is_due() const;
 
   /// @param fraction  of the whole run, in [0, 1]
@@ -30,7 +30,7 @@ class Progress {
   bool quiet_;
   bool on_terminal_;
   bool bar_is_open_ = false;
-  double first_fraction_ = -1.0;
+  double first_fraction_ = -1.0;  ///< as first shown; below 0: nothing shown yet
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
-
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/numbers.hpp>

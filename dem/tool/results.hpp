@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <string>
-
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
 
@@ -51,7 +50,7 @@ class Results {
   void write_summary(const Simulation& simulation, const RunCost& cost) const;
 
   std::filesystem::path directory_;
-  std::string history_;  ///< rows after the header
+  std::string history_;      ///< rows after the header
   std::int64_t last_cycle_;  ///< of the last row; -1: none yet
   Frames frames_;
 };

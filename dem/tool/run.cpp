@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <omp.h>
+
 #include <chrono>
 #include <csignal>
 #include <iomanip>
 #include <iostream>
-#include <omp.h>
 #include <sstream>
-
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/progress.hpp>
 #include <tangency/dem/tool/results.hpp>
@@ -64,6 +64,7 @@ class Run {
     } catch (const ContactNotFound& error) {
       return give_up(error.what());
     }
+    progress_.show(1.0, where());
     progress_.finish();
     cost_.wall_seconds = seconds_since(start_);
     results_.finish(simulation_, cost_);
@@ -111,14 +112,14 @@ class Run {
   std::string unmet_criterion() const {
     const Compress& stage = *simulation_.stage().compress;
     const Observation seen = simulation_.observe();
-    std::string text = "stage " + simulation_.stage().name + " did not end within max_cycles = " +
-                       std::to_string(stage.max_cycles) + ": mean stress " +
-                       short_text(seen.stress.mean()) + " of " +
+    std::string text = "stage " + simulation_.stage().name +
+                       " did not end within max_cycles = " + std::to_string(stage.max_cycles) +
+                       ": mean stress " + short_text(seen.stress.mean()) + " of " +
                        short_text(stage.servo.mean_stress);
     if (stage.max_unbalanced_ratio)
       text += ", largest unbalanced force " + short_text(seen.balance.largest_unbalanced_ratio) +
-              " and moment " + short_text(seen.balance.largest_unbalanced_moment_ratio) +
-              " of " + short_text(*stage.max_unbalanced_ratio);
+              " and moment " + short_text(seen.balance.largest_unbalanced_moment_ratio) + " of " +
+              short_text(*stage.max_unbalanced_ratio);
     return text;
   }
 

@@ -2,10 +2,10 @@
 #include <tangency/geometry/exact/containment.hpp>
 
 #include <algorithm>
-#include <array>
 
 #include <tangency/geometry/exact/ellipsoid_form.hpp>
 #include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/geometry/exact/pencil_form.hpp>
 
 namespace tangency::exact {
 namespace {
@@ -48,32 +48,6 @@ Isolated isolate_largest(const SturmSequence& sturm) {
   }
 }
 
-/// e_1 to e_4 of t Q_A - Q_B as polynomials in t, by interpolation at t = 0, 1, ..., k: with
-/// Newton's forward differences, k! e_k(t) = sum over j of (k!/j!) (difference j) t (t-1) ... (t-j+1).
-std::array<IntegerPolynomial, 4> invariants(const IntegerForm<4>& a, const IntegerForm<4>& b) {
-  std::array<std::array<mpz_class, 5>, 5> values;  // [t][k]
-  for (std::size_t t = 0; t < 5; ++t) {
-    values[t] = characteristic_coefficients(combine<4>(mpz_class(static_cast<long>(t)), a, -1, b));
-  }
-  std::array<IntegerPolynomial, 4> result;
-  for (std::size_t k = 1; k <= 4; ++k) {
-    std::vector<mpz_class> differences;
-    for (std::size_t t = 0; t <= k; ++t) differences.push_back(values[t][k]);
-    for (std::size_t j = 1; j <= k; ++j) {
-      for (std::size_t t = k; t >= j; --t) differences[t] -= differences[t - 1];
-    }
-    long factor = 1;
-    for (std::size_t j = 2; j <= k; ++j) factor *= static_cast<long>(j);
-    IntegerPolynomial falling({mpz_class(1)});
-    for (std::size_t j = 0; j <= k; ++j) {
-      result[k - 1] += IntegerPolynomial({differences[j] * factor}) * falling;
-      falling = falling * IntegerPolynomial({mpz_class(-static_cast<long>(j)), mpz_class(1)});
-      factor /= static_cast<long>(j) + 1;
-    }
-  }
-  return result;
-}
-
 /// Sign of p at the one root that the square-free f has in (low, high].
 int sign_at_root(const IntegerPolynomial& p, const SturmSequence& f, Isolated root) {
   if (p.is_zero()) return 0;
@@ -104,9 +78,10 @@ Containment containment(const Ellipsoid& a, const Ellipsoid& b, const IntegerPol
   const Isolated largest = isolate_largest(sturm);
   const mpz_class numerator = largest.low.get_num(), denominator = largest.low.get_den();
   if (positive_definite(combine<4>(numerator, qa, -denominator, qb))) return Containment::interior;
-  const auto e = invariants(qa, qb);
-  for (const IntegerPolynomial& invariant : e) {
-    if (sign_at_root(invariant, sturm, largest) < 0) return Containment::none;
+  // Semidefinite <=> D1 to D4 of -Q_B + t Q_A are all >= 0; D4 is 0 at the root.
+  const PencilInvariants invariants = pencil_invariants(combine<4>(-1, qb, 0, qa), qa);
+  for (std::size_t k = 3; k < 6; ++k) {
+    if (sign_at_root(invariants[k], sturm, largest) < 0) return Containment::none;
   }
   return Containment::touching;
 }

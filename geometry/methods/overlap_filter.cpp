@@ -18,37 +18,52 @@ constexpr double kTurned = 16 * kEpsilon;       // E2
 constexpr double kDirection = 64 * kEpsilon;    // E3
 constexpr double kSum = 16 * kEpsilon;          // E4
 
-/// Upper bounds of D and N that no cancellation makes small: the yardstick of their errors.
+/// Bounds of D and N that no cancellation makes small: the yardsticks of their errors.
 struct Yardstick {
-  Yardstick(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
-    const double ma = a.shape().trace(), mb = b.shape().trace();
-    const double ja = a.shape_adjugate().trace(), jb = b.shape_adjugate().trace();
-    const double d2 = d.squaredNorm();
-    det[0] = a.shape_determinant(), det[1] = ja * mb, det[2] = jb * ma, det[3] = b.shape_determinant();
-    num[0] = ja * d2, num[1] = ma * mb * d2, num[2] = jb * d2;
-  }
-  double det_at(double l) const { return det[0] + l * (det[1] + l * (det[2] + l * det[3])); }
-  double num_at(double l) const { return num[0] + l * (num[1] + l * num[2]); }
-
-  double det[4], num[3];
+  double det, num;
 };
 
-/// F(l) > 1 proves the solids apart; a point where both levels are below 1, that the interiors meet.
-Filtered decide(const PerramWertheimAt& p, const Yardstick& yardstick) {
-  const double det = yardstick.det_at(p.l), num = yardstick.num_at(p.l);
-  const double apart = p.l * p.num - (1.0 + p.l) * p.det;
-  const double apart_error = kPolynomial * (p.l * num + (1.0 + p.l) * det);
-  if (apart > apart_error) return Filtered::apart;
-  // At c_A + M_A v the levels are (l N/D)' and -l^2 (N/D)'; times D^2 they are free of division.
-  const double square = p.det * p.det, cross = p.num1 * p.det - p.num * p.det1;
-  const double in_a = square - p.num * p.det - cross;
-  const double in_b = square + p.l * cross;
-  if (in_a > 13.0 * kPolynomial * det * (det + num) &&
-      in_b > 13.0 * kPolynomial * det * (det + p.l * num)) {
-    return Filtered::interiors_meet;
+/// With t = tr M_A + l tr M_B, D <= t^3 and N <= |d|^2 t^2: cheap, and enough for ordinary shapes.
+struct WideYardstick {
+  WideYardstick(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d)
+      : trace_a(a.shape().trace()), trace_b(b.shape().trace()), d2(d.squaredNorm()) {}
+  Yardstick at(double l) const {
+    const double t = trace_a + l * trace_b, square = t * t;
+    return {square * t, d2 * square};
   }
-  return Filtered::unknown;
+
+  double trace_a, trace_b, d2;
+};
+
+/// Coefficient by coefficient: tr J_A tr M_B and so on.
+Yardstick narrow_yardstick(const Ellipsoid& a, const Ellipsoid& b, const WideYardstick& wide,
+                           const PerramWertheimAt& p) {
+  const double ja = a.shape_adjugate().trace(), jb = b.shape_adjugate().trace(), l = p.l;
+  return {p.d0 + l * (ja * wide.trace_b + l * jb * wide.trace_a) + p.d3,
+          wide.d2 * (ja + l * (wide.trace_a * wide.trace_b + l * jb))};
 }
+
+/// What the polynomials say at one l, before their errors are asked about.
+struct Signs {
+  explicit Signs(const PerramWertheimAt& p) : l(p.l) {
+    const double det = p.det(), num = p.num();
+    apart = l * num - (1.0 + l) * det;
+    // At c_A + M_A v the levels are (l N/D)' and -l^2 (N/D)'; times D^2 they are free of division.
+    const double square = det * det, cross = p.num1() * det - num * p.det1();
+    in_a = square - num * det - cross;
+    in_b = square + l * cross;
+  }
+  /// F(l) > 1 proves the solids apart; a point where both levels are < 1, that the interiors meet.
+  Filtered proven(const Yardstick& y) const {
+    if (apart > kPolynomial * (l * y.num + (1.0 + l) * y.det)) return Filtered::apart;
+    const double bound = 13.0 * kPolynomial * y.det;
+    const bool meet = in_a > bound * (y.det + y.num) && in_b > bound * (y.det + l * y.num);
+    return meet ? Filtered::interiors_meet : Filtered::unknown;
+  }
+  bool tell() const { return apart > 0.0 || (in_a > 0.0 && in_b > 0.0); }
+
+  double l, apart, in_a, in_b;
+};
 
 /// diag(a) R' n
 Vec3 stretched(const Ellipsoid& e, const Vec3& n) {
@@ -74,34 +89,49 @@ bool inside(const Ellipsoid& e, const Vec3& p, double error) {
   return body.cwiseQuotient(e.semi_axes()).squaredNorm() * (1.0 + kSum) < 1.0;
 }
 
-/// The tests of the polynomials again, at one normal and one point, from the factors of the shapes:
-/// their errors grow with the aspect ratio, those of the polynomials with its square.
+/// Interiors that meet at a point, given from A's centre.
+bool meet_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& point) {
+  const Vec3 beyond = point - d;
+  const double error = kEpsilon * (sum_of_absolutes(d) + sum_of_absolutes(beyond));
+  return inside(a, point, 0.0) && inside(b, beyond, error);
+}
+
+/// The tests of the polynomials again, at one normal and a point between its witness points, from the
+/// factors of the shapes: their errors grow with the aspect ratio, those of the polynomials with its
+/// square.
 Filtered decide_by_factors(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& n) {
   if (separates(a, b, d, n)) return Filtered::apart;
   const Vec3 ya = stretched(a, n), yb = stretched(b, n);
-  const double ha = ya.norm(), hb = yb.norm();
-  // A point of the lens: between the witness points of the normal.
-  const Vec3 from_a = a.rotation() * (a.semi_axes().cwiseProduct(ya) / ha);
-  const Vec3 from_b = b.rotation() * (b.semi_axes().cwiseProduct(yb) / -hb);
-  const Vec3 point = 0.5 * (from_a + (d + from_b));
-  const Vec3 beyond = point - d;
-  const double error = kEpsilon * (sum_of_absolutes(d) + sum_of_absolutes(beyond));
-  if (inside(a, point, 0.0) && inside(b, beyond, error)) return Filtered::interiors_meet;
-  return Filtered::unknown;
+  const Vec3 from_a = a.rotation() * (a.semi_axes().cwiseProduct(ya) / ya.norm());
+  const Vec3 from_b = b.rotation() * (b.semi_axes().cwiseProduct(yb) / -yb.norm());
+  return meet_at(a, b, d, 0.5 * (from_a + (d + from_b))) ? Filtered::interiors_meet
+                                                          : Filtered::unknown;
 }
 
 }  // namespace
 
 OverlapFilter::OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
     : form_(a, b, d) {
-  const Yardstick yardstick(a, b, d);
+  const WideYardstick wide(a, b, d);
   constexpr double kSettled = 1e-4;  // of l, chosen: the rest is left to Newton's method on n
   PerramWertheimSearch search;
   l_ = form_.first_guess();
   for (int step = 0; step < kSteps; ++step) {
     const PerramWertheimAt at = form_.at(l_);
-    answer_ = decide(at, yardstick);
+    const Signs signs(at);
+    answer_ = signs.proven(wide.at(l_));
     if (answer_ != Filtered::unknown) return;
+    if (signs.tell()) {
+      answer_ = signs.proven(narrow_yardstick(a, b, wide, at));
+      if (answer_ != Filtered::unknown) return;
+      // The same direction and the same point from the factors: F > 1 at l makes v(l) separate.
+      const Vec3 v = form_.normal_direction(l_) / at.det();
+      if (signs.apart > 0.0 ? separates(a, b, d, v) : meet_at(a, b, d, a.shape() * v)) {
+        answer_ = signs.apart > 0.0 ? Filtered::apart : Filtered::interiors_meet;
+        return;
+      }
+      break;
+    }
     const double next = search.next(at);
     const bool settled = std::abs(next - l_) < kSettled * l_;
     l_ = next;

@@ -15,11 +15,18 @@
 
 namespace tangency::methods {
 
-/// D and N at one l, and what Euler's operator l d/dl makes of them once and twice.
+/// D and N at one l by their terms, and what Euler's operator l d/dl makes of them once and twice.
 struct PerramWertheimAt {
   double l;
-  double det, det1, det2;
-  double num, num1, num2;
+  double d0, d1, d2, d3;
+  double n0, n1, n2;
+
+  double det() const noexcept { return (d0 + d1) + (d2 + d3); }
+  double det1() const noexcept { return d1 + (2.0 * d2 + 3.0 * d3); }
+  double det2() const noexcept { return d1 + (4.0 * d2 + 9.0 * d3); }
+  double num() const noexcept { return n0 + n1 + n2; }
+  double num1() const noexcept { return n1 + 2.0 * n2; }
+  double num2() const noexcept { return n1 + 4.0 * n2; }
 };
 
 /// The search for the maximiser of F on l > 0: Newton's method on log l, kept within a bracket.
@@ -28,10 +35,10 @@ class PerramWertheimSearch {
   /// The next l. Requires F at the last one (or at the first guess).
   double next(const PerramWertheimAt& at) noexcept {
     // First and second derivative of log F with respect to log l.
-    const double s = 1.0 / (1.0 + at.l), p = at.num1 / at.num, q = at.det1 / at.det;
+    const double s = 1.0 / (1.0 + at.l), n = 1.0 / at.num(), d = 1.0 / at.det();
+    const double p = n * at.num1(), q = d * at.det1();
     const double slope = s + p - q;
-    const double curvature =
-        (at.num2 / at.num - p * p) - (at.det2 / at.det - q * q) - at.l * s * s;
+    const double curvature = (n * at.num2() - p * p) - (d * at.det2() - q * q) - at.l * s * s;
     (slope > 0.0 ? low_ : high_) = at.l;
     // exp(x) by (1 + x/2) / (1 - x/2), |x| <= 1.8, a factor of up to 19: no more is needed of a step.
     constexpr double kLongest = 0.9;
@@ -55,28 +62,25 @@ class PerramWertheimSearch {
 class PerramWertheimForm {
  public:
   PerramWertheimForm(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
-      : a_(a),
-        b_(b),
-        d_(d),
-        mixed_(mixed_adjugate(a.shape(), b.shape())),
-        det_{a.shape_determinant(), trace_of_product(a.shape_adjugate(), b.shape()),
-             trace_of_product(b.shape_adjugate(), a.shape()), b.shape_determinant()},
-        num_{a.shape_adjugate().form(d), mixed_.form(d), b.shape_adjugate().form(d)} {}
+      : a_(a), b_(b), d_(d), mixed_(mixed_adjugate(a.shape(), b.shape())) {
+    const Symmetric3 dd = square(d);
+    det_[0] = a.shape_determinant();
+    det_[1] = trace_of_product(a.shape_adjugate(), b.shape());
+    det_[2] = trace_of_product(b.shape_adjugate(), a.shape());
+    det_[3] = b.shape_determinant();
+    num_[0] = trace_of_product(a.shape_adjugate(), dd);
+    num_[1] = trace_of_product(mixed_, dd);
+    num_[2] = trace_of_product(b.shape_adjugate(), dd);
+  }
 
   /// A first guess at the maximiser of F: where the outer coefficients balance; at coinciding
   /// centres, where F vanishes, that of det alone.
   double first_guess() const noexcept;
 
   PerramWertheimAt at(double l) const noexcept {
-    const double d1 = l * det_[1], d2 = l * l * det_[2], d3 = l * l * l * det_[3];
-    const double n1 = l * num_[1], n2 = l * l * num_[2];
-    return {l,
-            det_[0] + d1 + (d2 + d3),
-            d1 + (2.0 * d2 + 3.0 * d3),
-            d1 + (4.0 * d2 + 9.0 * d3),
-            num_[0] + n1 + n2,
-            n1 + 2.0 * n2,
-            n1 + 4.0 * n2};
+    const double ll = l * l;
+    return {l,       det_[0],     l * det_[1], ll * det_[2], l * ll * det_[3],
+            num_[0], l * num_[1], ll * num_[2]};
   }
 
   /// Newton steps towards the maximiser of F from the first guess, at most `steps`; stops early

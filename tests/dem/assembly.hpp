@@ -4,11 +4,10 @@
 #pragma once
 
 #include <random>
-#include <vector>
-
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/sample.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <vector>
 
 namespace tangency::test {
 
@@ -46,9 +45,8 @@ inline std::vector<dem::Pair> meeting_pairs(const dem::Particles& particles, con
         for (pair.image[1] = -images; pair.image[1] <= images; ++pair.image[1])
           for (pair.image[2] = -images; pair.image[2] <= images; ++pair.image[2]) {
             if (pair.a == pair.b && pair.image <= dem::Image{0, 0, 0}) continue;
-            const double reach =
-                particles.semi_axes[static_cast<std::size_t>(pair.a)].maxCoeff() +
-                particles.semi_axes[static_cast<std::size_t>(pair.b)].maxCoeff();
+            const double reach = particles.semi_axes[static_cast<std::size_t>(pair.a)].maxCoeff() +
+                                 particles.semi_axes[static_cast<std::size_t>(pair.b)].maxCoeff();
             if (branch_vector(pair, particles, cell).norm() < reach) pairs.push_back(pair);
           }
   return pairs;

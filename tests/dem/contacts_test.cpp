@@ -77,8 +77,8 @@ TEST(Contacts, ShearByTheStrainOfTheCellAndByRotation) {
   two.cell.rate = {-0.01, 0.02, 0.005};
   two.particles.angular_velocity[1] = {0.001, 0.002, -0.003};
   two.update(kFrictional, 0.1);
-  const Vec3 velocity = two.cell.rate.cwiseProduct(2.6 * n) +
-                        two.particles.angular_velocity[1].cross(-1.8 * n);
+  const Vec3 velocity =
+      two.cell.rate.cwiseProduct(2.6 * n) + two.particles.angular_velocity[1].cross(-1.8 * n);
   const Vec3 expected = -80.0 * 0.1 * (velocity - n * n.dot(velocity));
   EXPECT_LT((two.contacts.records()[0].shear - expected).norm(), 1e-14);
 }
@@ -153,8 +153,9 @@ TEST(Contacts, ShearForcesSurviveARenewedList) {
   ASSERT_GT(crowd_of.list.pairs().size(), before.size());
   double largest = 0.0;
   for (std::size_t k = 0; k < before.size(); ++k) {
-    const auto now = std::lower_bound(crowd_of.list.pairs().begin(), crowd_of.list.pairs().end(),
-                                      before[k]) - crowd_of.list.pairs().begin();
+    const auto now =
+        std::lower_bound(crowd_of.list.pairs().begin(), crowd_of.list.pairs().end(), before[k]) -
+        crowd_of.list.pairs().begin();
     EXPECT_EQ(crowd_of.contacts.records()[static_cast<std::size_t>(now)].shear, kept[k].shear);
     largest = std::max(largest, kept[k].shear.norm());
   }

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
 #include <tangency/dem/loading.hpp>
+#include <vector>
 
 namespace {
 

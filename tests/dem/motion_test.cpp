@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-
 #include <tangency/dem/motion.hpp>
 
 namespace {
@@ -18,7 +17,8 @@ struct One {
   Resultants resultants{{Vec3::Zero()}, {Vec3::Zero()}};
 
   One() {
-    particles.add({1.0, 2.0, 3.0}, Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2), {1.5, 1.0, 0.7}, 2.0, 0);
+    particles.add({1.0, 2.0, 3.0}, Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2), {1.5, 1.0, 0.7}, 2.0,
+                  0);
   }
   void move(double damping, double dt) {
     tangency::dem::move(particles, cell, resultants, damping, dt);

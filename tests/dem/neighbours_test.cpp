@@ -56,7 +56,8 @@ int steps_until_out_of_date(double speed, const Vec3& rate) {
   list.build(particles, cell, 0.2);
   cell.rate = rate;
   const double dt = 0.002;
-  for (int steps = 0;; ++steps) {
+  constexpr int most_steps = 1000;
+  for (int steps = 0; steps < most_steps; ++steps) {
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.position[i] +=
           dt * (speed * particles.velocity[i] + cell.rate.cwiseProduct(particles.position[i]));
@@ -64,12 +65,32 @@ int steps_until_out_of_date(double speed, const Vec3& rate) {
     if (!list.is_current(particles, cell)) return steps;
     EXPECT_TRUE(lists_all(list, meeting_pairs(particles, cell, 4)));
   }
+  ADD_FAILURE() << "the list never went out of date";
+  return most_steps;
 }
 
 // A list that is renewed all the time would be no use: it must last a few steps too.
 
 TEST(NeighbourList, MissesNoPairWhileCurrentAsParticlesMove) {
   EXPECT_GT(steps_until_out_of_date(1.0, Vec3(-0.5, 0.3, -0.2)), 10);
+}
+
+TEST(NeighbourList, IsOutOfDateBeforeTwoThatWereNotListedMeetHeadOn) {
+  const Cell cell = cell_of({20.0, 20.0, 20.0});
+  Particles particles;
+  for (const double x : {8.0, 10.2 + 1e-9})
+    particles.add({x, 5.0, 5.0}, Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
+  NeighbourList list;
+  list.build(particles, cell, 0.2);
+  ASSERT_TRUE(list.pairs().empty());
+  const auto approach = [&](double by) {
+    particles.position[0][0] += by;
+    particles.position[1][0] -= by;
+  };
+  approach(0.099);
+  EXPECT_TRUE(list.is_current(particles, cell));
+  approach(0.002);
+  EXPECT_FALSE(list.is_current(particles, cell));
 }
 
 TEST(NeighbourList, MissesNoPairWhileCurrentAsTheCellShrinks) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-
 #include <tangency/dem/observe.hpp>
 
 #include "assembly.hpp"
@@ -32,7 +31,8 @@ struct Seen {
 
 Cell cube(double edge) { return {Vec3::Constant(edge), Vec3::Zero(), Vec3::Constant(edge)}; }
 
-/// Three spheres in a row along x, touching 0-1 (overlap 0.5) and 1-2 (overlap 0.25), and one apart.
+/// Three spheres in a row along x, touching 0-1 (overlap 0.5) and 1-2 (overlap 0.25), and one
+/// apart.
 Particles row_of_spheres() {
   Particles particles;
   for (const double x : {1.0, 2.5, 4.25})
@@ -131,7 +131,8 @@ TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
 
 TEST(Observe, HistoryHasItsColumnsInOrder) {
   std::string names;
-  for (const Field& field : history_fields(0, 0.0, "place", Observation{})) names += field.name + ",";
+  for (const Field& field : history_fields(0, 0.0, "place", Observation{}))
+    names += field.name + ",";
   EXPECT_EQ(names,
             "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
             "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"

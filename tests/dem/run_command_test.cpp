@@ -153,15 +153,17 @@ TEST(RunCommand, ShowsPlainLinesOffATerminalAndABarOnOne) {
   terminal.error_is_terminal = true;
   const Finished on = run_tool({"run", scene, "--out", folder.path("on")}, "", terminal);
   const Finished off = run_tool({"run", scene, "--out", folder.path("off")});
-  EXPECT_NE(on.err.find("\r["), on.err.npos);
+  EXPECT_NE(on.err.find("\r[##"), on.err.npos);
   EXPECT_EQ(off.err.find('\r'), off.err.npos);
+  EXPECT_EQ(off.err.find("0 %: compress, cycle 1,"), 0u) << off.err;
+  EXPECT_NE(off.err.find("\n100 %: relax, cycle "), off.err.npos) << off.err;
 }
 
 TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write(
-      "scene.toml", with(small_scene(), "kind = \"compress\"", "kind = \"compress\"\nmax_cycles = 9"));
-  const Finished run = run_tool({"run", scene, "--out", folder.path("out")});
+  const std::string scene = folder.write("scene.toml", with(small_scene(), "kind = \"compress\"",
+                                                            "kind = \"compress\"\nmax_cycles = 9"));
+  const Finished run = run_tool({"run", scene, "--out", folder.path("out"), "--quiet"});
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.err,
             "tangency-dem: stage compress did not end within max_cycles = 9: mean stress 0 of "
@@ -188,10 +190,10 @@ TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
   ASSERT_EQ(interrupted.status, 128 + SIGINT) << interrupted.err;
   EXPECT_FALSE(std::filesystem::exists(halves + "/summary.json"));
 
-  ASSERT_EQ(run_tool({"run", scene, "--out", halves, "--quiet", "--resume",
-                      halves + "/checkpoint.state"})
-                .status,
-            0);
+  ASSERT_EQ(
+      run_tool({"run", scene, "--out", halves, "--quiet", "--resume", halves + "/checkpoint.state"})
+          .status,
+      0);
   for (const char* file : {"final.state", "history.csv", "frames.xyz", "frames.pvd"})
     EXPECT_TRUE(read_file(whole + "/" + file) == read_file(halves + "/" + file)) << file;
 }

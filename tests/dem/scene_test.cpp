@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
-
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_keys.hpp>
 
@@ -64,8 +63,9 @@ TEST(Scene, MayHaveALawForEveryTwoTypes) {
 }
 
 TEST(Scene, OfSeveralTypesNeedsALawForEveryTwo) {
-  EXPECT_EQ(refusal_with("[contact]", "[particles.stone]\ncount = 3\nmean_radius = 4\n"
-                                      "[contact.stone-stone]"),
+  EXPECT_EQ(refusal_with("[contact]",
+                         "[particles.stone]\ncount = 3\nmean_radius = 4\n"
+                         "[contact.stone-stone]"),
             "scene.toml:10: contact.grain-grain is missing: a law for every two types, or one in "
             "[contact] for all");
 }

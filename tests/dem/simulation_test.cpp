@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
@@ -83,8 +82,8 @@ TEST(Simulation, ContinuesFromAFinalStateIntoAddedStages) {
 }
 
 TEST(Simulation, StopsAskingForMoreWhenItsCyclesAreSpent) {
-  Simulation simulation(parse_scene(
-      with(small_scene(), "mean_stress", "max_cycles = 5\nmean_stress"), "scene.toml"));
+  Simulation simulation(
+      parse_scene(with(small_scene(), "mean_stress", "max_cycles = 5\nmean_stress"), "scene.toml"));
   run_cycles(simulation, 4);
   EXPECT_EQ(simulation.status(), StageStatus::running);
   run_cycles(simulation, 1);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 
@@ -72,8 +71,7 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
             folder.path("d.state") + ": damaged: its hash is wrong");
   EXPECT_EQ(failure(folder.write("s.state", bytes.substr(0, bytes.size() / 3))),
             folder.path("s.state") + ": damaged: its hash is wrong");
-  const std::string none =
-      ": no state of tangency-dem: final.state or checkpoint.state of a run";
+  const std::string none = ": no state of tangency-dem: final.state or checkpoint.state of a run";
   EXPECT_EQ(failure(folder.write("t.state", small_scene())), folder.path("t.state") + none);
   EXPECT_EQ(failure(folder.write("e.state", "")), folder.path("e.state") + none);
   EXPECT_EQ(failure(folder.path("missing.state")),
