@@ -81,6 +81,43 @@ TEST(Simulation, ContinuesFromAFinalStateIntoAddedStages) {
   EXPECT_EQ(state_hash(rest.state()), state_hash(all.state()));
 }
 
+TEST(Simulation, RelaxesUntilEveryParticleIsInBalanceToTheWantedRatio) {
+  const std::string strict =
+      with(small_scene(), "kind = \"relax\"",
+           "kind = \"relax\"\nstress_tolerance = 0.1\nmax_unbalanced_ratio = 1e-6");
+  Simulation simulation(parse_scene(strict, "scene.toml"));
+  while (simulation.state().stage < 2) {
+    if (simulation.status() == StageStatus::done)
+      simulation.next_stage();
+    else
+      simulation.step();
+  }
+  const auto worst = [&] {
+    const Balance balance = simulation.observe().balance;
+    return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio);
+  };
+  int cycles = 0;
+  for (; simulation.status() == StageStatus::running; ++cycles) {
+    ASSERT_GT(worst(), 1e-6);
+    simulation.step();
+  }
+  EXPECT_EQ(simulation.status(), StageStatus::done);
+  EXPECT_LE(worst(), 1e-6);
+  EXPECT_GT(cycles, 100);
+}
+
+TEST(Simulation, StartsEachStageWithAFreshServoAndFreshStrains) {
+  Simulation simulation = dense(64);
+  run_cycles(simulation, 200);
+  while (simulation.state().servo_integral == 0.0) simulation.step();
+  ASSERT_LT(simulation.observe().volumetric_strain, -0.1);
+  simulation.next_stage();
+  EXPECT_EQ(simulation.state().servo_integral, 0.0);
+  EXPECT_EQ(simulation.state().stage_cycle, 0);
+  simulation.step();
+  EXPECT_GT(simulation.observe().volumetric_strain, -0.01);
+}
+
 TEST(Simulation, StopsAskingForMoreWhenItsCyclesAreSpent) {
   Simulation simulation(
       parse_scene(with(small_scene(), "mean_stress", "max_cycles = 5\nmean_stress"), "scene.toml"));
