@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <tangency/dem/files.hpp>
 
 namespace tangency::dem {
@@ -27,7 +26,7 @@ void write_whole(const std::filesystem::path& file, const std::string& bytes) {
   if (out) std::filesystem::rename(part, file, error);
   if (out && !error) return;
   std::filesystem::remove(part, error);
-  throw std::runtime_error(file.string() + ": cannot be written");
+  throw WriteError(file);
 }
 
 }  // namespace tangency::dem

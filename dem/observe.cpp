@@ -89,7 +89,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
                     const NeighbourList& list) {
   Observation seen{};
   const Vec3 strain = cell.logarithmic_strain();
-  seen.axial_strain = -strain[2];
+  seen.axial_strain = 0.0 - strain[2];  // -strain[2] of an unstrained cell is -0
   seen.volumetric_strain = strain.sum();
   seen.stress = stress_of(contacts, cell);
   for (const Contact& contact : contacts.records()) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <limits>
 #include <sstream>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/scene.hpp>
@@ -13,6 +15,15 @@ namespace {
 
 /// The tables of a scene.
 constexpr std::string_view sections = "cell particles contact stage output";
+
+/// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
+constexpr double largest_strain_of_a_step = 0.1;
+
+std::string short_text(double x) {
+  std::ostringstream text;
+  text << std::setprecision(3) << x;
+  return text.str();
+}
 
 /// A name in a scene: also part of a key's path, so without '-', '.' and blanks.
 bool is_name(std::string_view text) {
@@ -46,8 +57,9 @@ class Source {
   [[noreturn]] void fail(const toml::source_region& at, const std::string& message) const {
     throw SceneError(name_ + ":" + std::to_string(at.begin.line) + ": " + message);
   }
+  /// For what is missing from the whole file.
   [[noreturn]] void fail(const std::string& message) const {
-    throw SceneError(name_ + ": " + message);
+    throw SceneError(name_ + ":1: " + message);
   }
 
  private:
@@ -98,6 +110,12 @@ class Section {
         source_.fail(table_.source(), label(key.name) + " is missing: " + allowed_values(key));
   }
 
+  /// Refuses the value of a key that the section has.
+  [[noreturn]] void fail(std::string_view name, const std::string& allowed) const {
+    const toml::node& node = *find(name);
+    source_.fail(node.source(), label(name) + " = " + text_of(node) + ": " + allowed);
+  }
+
   bool has(std::string_view name) const { return find(name) != nullptr; }
 
   double real(std::string_view name) const {
@@ -141,8 +159,7 @@ class Section {
       if (!applies(key)) continue;
       if (key.name == name.str()) {
         if (fits(key, node)) return;
-        source_.fail(node.source(),
-                     label(key.name) + " = " + text_of(node) + ": " + allowed_values(key));
+        fail(key.name, allowed_values(key));
       }
       names += (names.empty() ? "" : ", ") + std::string(key.name);
     }
@@ -182,19 +199,19 @@ class Reader {
     read_particles();
     read_contacts();
     read_stages();
-    const Section output(source_, table("output", false), "output", "output");
+    const Section output(source_, table("output"), "output", "output");
     scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
                      output.integer("checkpoint_interval")};
     return std::move(scene_);
   }
 
  private:
-  /// A section's table; an empty one where it may be left out.
-  const toml::table& table(std::string_view name, bool required) const {
+  /// A section's table; an empty one where it is left out.
+  /// @param wanted  what a section that must not be left out has to be; "" for one that may
+  const toml::table& table(std::string_view name, const std::string& wanted = {}) const {
     static const toml::table empty;
     const toml::node* node = root_.get(name);
-    if (!node && required)
-      source_.fail("[" + std::string(name) + "] is missing: a table of this name");
+    if (!node && !wanted.empty()) source_.fail(std::string(name) + " is missing: " + wanted);
     if (!node) return empty;
     if (!node->is_table())
       source_.fail(node->source(), std::string(name) + " = " + text_of(*node) + ": a table");
@@ -202,12 +219,12 @@ class Reader {
   }
 
   void read_cell() {
-    const Section cell(source_, table("cell", true), "cell", "cell");
+    const Section cell(source_, table("cell"), "cell", "cell");
     scene_.cell_size = cell.optional_real3("size");
   }
 
   void read_particles() {
-    const toml::table& types = table("particles", true);
+    const toml::table& types = table("particles", "at least one table [particles.NAME]");
     for (const auto& [name, node] : types) {
       const std::string path = "particles." + std::string(name.str());
       if (!is_name(name.str()))
@@ -219,13 +236,9 @@ class Reader {
            {{type.real("mean_radius"), type.real("elongation"), type.real("flatness")},
             type.real("density"),
             static_cast<std::size_t>(type.integer("count"))}});
-      const Batch& batch = scene_.particle_types.back().batch;
-      const double mass = batch.density * volume_of(batch.shape.semi_axes());
-      if (!std::isnormal(mass))
-        source_.fail(node.source(), path + ": mean_radius and density that give a particle a mass");
     }
     if (types.empty())
-      source_.fail(types.source(), "particles: at least one table [particles.NAME]");
+      source_.fail(types.source(), "particles = {}: at least one table [particles.NAME]");
   }
 
   ContactLaw law_of(const Section& section) const {
@@ -242,8 +255,24 @@ class Reader {
     return static_cast<std::size_t>(found - types.begin());
   }
 
+  /// [contact.a-b] and [contact.b-a] are one law: of the two, refuses that of the later line.
+  void refuse_second_law(const toml::table& contact, const toml::key& name, std::string_view b,
+                         std::string_view a) const {
+    const std::string reversed = std::string(b) + "-" + std::string(a);
+    const auto other = contact.find(reversed);
+    if (a == b || other == contact.end()) return;
+    const auto line = [](const toml::key& key) { return key.source().begin.line; };
+    const bool first = line(name) < line(other->first);
+    const toml::key& second = first ? other->first : name;
+    source_.fail(second.source(), "contact." + std::string(second.str()) + ": a second law for " +
+                                      "the two types of contact." +
+                                      std::string((first ? name : other->first).str()) +
+                                      "; one is allowed");
+  }
+
   void read_contacts() {
-    const toml::table& contact = table("contact", true);
+    const toml::table& contact =
+        table("contact", "a table [contact] for all pairs, or [contact.NAME-NAME] for each");
     const std::size_t types = scene_.particle_types.size();
     std::vector<std::optional<ContactLaw>> laws(types * types);
     const bool common = std::any_of(contact.begin(), contact.end(),
@@ -259,6 +288,7 @@ class Reader {
       const std::string path = "contact." + std::string(pair);
       if (a == types || b == types)
         source_.fail(name.source(), path + ": NAME-NAME of two of the scene's particle types");
+      refuse_second_law(contact, name, pair.substr(dash + 1), pair.substr(0, dash));
       const ContactLaw law =
           law_of(Section(source_, *node.as_table(), path, "contact", {}, &contact));
       laws[a * types + b] = laws[b * types + a] = law;
@@ -276,7 +306,7 @@ class Reader {
 
   void read_stages() {
     const toml::node* node = root_.get("stage");
-    if (!node) source_.fail("[[stage]] is missing: at least one, the first of kind place");
+    if (!node) source_.fail("stage is missing: a list of [[stage]] tables, the first of kind place");
     const toml::array* list = node->as_array();
     if (!list || list->empty() || !list->is_homogeneous<toml::table>())
       source_.fail(node->source(), "stage = " + text_of(*node) + ": a list of [[stage]] tables");
@@ -304,6 +334,7 @@ class Reader {
       added.place = read_place(section, path, stage);
     else
       added.compress = read_compress(section, kind);
+    if (added.compress) check_step(section, *added.compress);
   }
 
   Place read_place(const Section& section, const std::string& path,
@@ -314,7 +345,7 @@ class Reader {
                                  place.seed};
       check_room(scene_.batches(), how);
     } catch (const DoesNotFit& error) {
-      const toml::node* size = root_["cell"].as_table()->get("size");
+      const toml::node* size = root_["cell"]["size"].node();
       if (size) source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
       source_.fail(stage.source(), path + ": " + error.what());
     }
@@ -330,6 +361,24 @@ class Reader {
         section.real("stress_tolerance"),
         kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
         section.integer("max_cycles")};
+  }
+
+  void check_step(const Section& section, const Compress& stage) const {
+    if (stage.damping * stage.time_step_factor > 2.0)
+      section.fail("damping", "with time_step_factor = " + short_text(stage.time_step_factor) +
+                                  " a finite number <= " +
+                                  short_text(2.0 / stage.time_step_factor) +
+                                  ": a step that damps more would turn velocities round");
+    double lightest = std::numeric_limits<double>::infinity();
+    for (const Batch& batch : scene_.batches())
+      lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes()));
+    const double largest = largest_strain_of_a_step /
+                           (stage.time_step_factor *
+                            std::sqrt(lightest / scene_.laws.largest_stiffness()));
+    if (!(stage.servo.max_strain_rate < largest))
+      section.fail("max_strain_rate", "a finite number < " + short_text(largest) +
+                                          " (1/s), a strain of " +
+                                          short_text(largest_strain_of_a_step) + " a time step");
   }
 
   const toml::table& root_;

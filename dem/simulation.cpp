@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <tangency/dem/simulation.hpp>
@@ -17,6 +19,42 @@ constexpr double skin_ratio = 0.2;
 /// Porosity at which a random assembly begins to bear stress, roughly (spheres: 0.36).
 constexpr double jamming_porosity = 0.36;
 
+/// Relative difference of two descriptions of one particle: the semi-axes of another machine's
+/// libm are a few roundings off. Chosen: far below any change that someone makes.
+constexpr double same_particle = 1e-9;
+
+void require_equal(const std::string& key, double in_state, double in_scene) {
+  if (std::abs(in_state - in_scene) <= same_particle * in_scene) return;
+  std::ostringstream text;
+  text << std::setprecision(10) << "a state with " << key << " = " << in_state
+       << "; the scene has " << in_scene;
+  throw std::invalid_argument(text.str());
+}
+
+/// @throws std::invalid_argument  naming the first key of the scene that the particles are not of
+void require_same_particles(const Particles& particles, const std::vector<ParticleType>& types) {
+  const auto count = static_cast<std::int32_t>(types.size());
+  std::vector<std::size_t> counts(types.size(), 0);
+  for (const std::int32_t type : particles.type) {
+    if (type < 0 || type >= count)
+      throw std::invalid_argument("a state with more particle types than the scene's " +
+                                  std::to_string(count));
+    ++counts[static_cast<std::size_t>(type)];
+  }
+  for (std::size_t k = 0; k < types.size(); ++k)
+    require_equal("particles." + types[k].name + ".count", static_cast<double>(counts[k]),
+                  static_cast<double>(types[k].batch.count));
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const auto& [name, batch] = types[static_cast<std::size_t>(particles.type[i])];
+    const Vec3& axes = particles.semi_axes[i];
+    const std::string path = "particles." + name;
+    require_equal(path + ".mean_radius", std::cbrt(axes.prod()), batch.shape.mean_radius);
+    require_equal(path + ".elongation", axes[0] / axes[1], batch.shape.elongation);
+    require_equal(path + ".flatness", axes[1] / axes[2], batch.shape.flatness);
+    require_equal(path + ".density", particles.mass[i] / volume_of(axes), batch.density);
+  }
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene) : scene_(scene) {
@@ -30,16 +68,7 @@ Simulation::Simulation(const Scene& scene) : scene_(scene) {
 }
 
 Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(std::move(state)) {
-  const std::size_t particles = state_.particles.size();
-  if (particles != scene_.particle_count())
-    throw std::invalid_argument("a state of " + std::to_string(particles) +
-                                " particles; the scene has " +
-                                std::to_string(scene_.particle_count()));
-  const auto types = static_cast<std::int32_t>(scene_.particle_types.size());
-  if (std::any_of(state_.particles.type.begin(), state_.particles.type.end(),
-                  [&](std::int32_t type) { return type < 0 || type >= types; }))
-    throw std::invalid_argument("a state with more particle types than the scene's " +
-                                std::to_string(types));
+  require_same_particles(state_.particles, scene_.particle_types);
   if (state_.stage > scene_.stages.size())
     throw std::invalid_argument("a state after " + std::to_string(state_.stage) +
                                 " stages; the scene has " + std::to_string(scene_.stages.size()));

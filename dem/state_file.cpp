@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
@@ -28,7 +30,11 @@ class Writer {
   std::string bytes_;
 };
 
-class TooShort {};
+/// Bytes that are no state.
+struct Damaged {
+  const char* why;
+};
+constexpr Damaged not_whole{"it is not a whole state"};
 
 class ByteReader {
  public:
@@ -36,8 +42,10 @@ class ByteReader {
   template <class T>
   requires std::is_arithmetic_v<T>
   void operator()(T& value) {
-    if (bytes_.size() < sizeof(T)) throw TooShort();
+    if (bytes_.size() < sizeof(T)) throw not_whole;
     std::memcpy(&value, bytes_.data(), sizeof(T));
+    if constexpr (std::is_floating_point_v<T>)
+      if (!std::isfinite(value)) throw Damaged{"it holds a number that is not finite"};
     bytes_.remove_prefix(sizeof(T));
   }
   bool at_end() const { return bytes_.empty(); }
@@ -94,7 +102,7 @@ template <class T>
 void pass(ByteReader& archive, std::vector<T>& items) {
   std::uint64_t size = 0;
   archive(size);
-  if (size > archive.left()) throw TooShort();
+  if (size > archive.left()) throw not_whole;
   items.resize(size);
   for (T& item : items) pass(archive, item);
 }
@@ -155,6 +163,16 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   return true;
 }
 
+bool is_positive(const Vec3& v) { return v.minCoeff() > 0.0; }
+
+bool lengths_are_positive(const State& state, const NeighbourList::Reference& reference) {
+  const auto& [length, rate, reference_length] = state.cell;
+  const std::vector<Vec3>& axes = state.particles.semi_axes;
+  return is_positive(length) && is_positive(reference_length) &&
+         is_positive(reference.cell_length) && reference.skin > 0.0 &&
+         reference.largest_radius > 0.0 && std::all_of(axes.begin(), axes.end(), is_positive);
+}
+
 State state_of(std::string_view bytes) {
   ByteReader archive(bytes);
   State state;
@@ -165,7 +183,12 @@ State state_of(std::string_view bytes) {
   pass_reference(archive, reference);
   pass(archive, pairs);
   pass(archive, records);
-  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw TooShort();
+  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw not_whole;
+  if (!lengths_are_positive(state, reference)) throw Damaged{"it holds a length that is not > 0"};
+  const std::vector<double>& mass = state.particles.mass;
+  if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
+    throw Damaged{"it holds a mass that is not > 0"};
+  if (state.stage == 0) throw Damaged{"its stage is 0, and a run's are counted from 1"};
   state.list.restore(std::move(reference), std::move(pairs));
   state.contacts.restore(std::move(records), state.particles, state.list);
   return state;
@@ -220,8 +243,8 @@ State load_state(const std::filesystem::path& file) {
   if (number_at<std::uint64_t>(bytes, end) != fnv1a(body)) fail("damaged: its hash is wrong");
   try {
     return state_of(body);
-  } catch (const TooShort&) {
-    throw StateError(file.string() + ": damaged: it is not a whole state");
+  } catch (const Damaged& damaged) {
+    throw StateError(file.string() + ": damaged: " + damaged.why);
   }
 }
 

@@ -21,7 +21,7 @@ class StateError : public std::runtime_error {
 };
 
 /// Writes beside the file and renames: a failure leaves the old file as it was.
-/// @throws std::runtime_error  naming the file that cannot be written
+/// @throws WriteError
 void save_state(const State& state, const std::filesystem::path& file);
 
 /// @throws StateError

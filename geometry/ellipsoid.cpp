@@ -26,8 +26,10 @@ Symmetric3 with_eigenvalues(const Mat3& r, const Vec3& e) {
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(2, 0), entry(0, 1)};
 }
 
-constexpr double kModerateLargest = 0x1p60;    // Ellipsoid::moderate(): chosen so that a^10 d^2, the
-constexpr double kModerateSmallest = 0x1p-60;  // largest product formed, stays below 2^1023
+// Ellipsoid::moderate(): chosen so that a^10 d^2, the largest product of the coefficients of the
+// Perram-Wertheim form, stays below 2^1023.
+constexpr double kModerateLargest = 0x1p60;
+constexpr double kModerateSmallest = 0x1p-60;
 
 }  // namespace
 
@@ -101,8 +103,9 @@ double Ellipsoid::support(const Vec3& n) const noexcept {
 
 Vec3 Ellipsoid::support_point(const Vec3& n) const noexcept {
   assert(n != Vec3::Zero());
-  const Vec3 y = semi_axes_.cwiseProduct(rotation_.transpose() * n).stableNormalized();
-  return rotation_ * semi_axes_.cwiseProduct(y);
+  const Vec3 y = semi_axes_.cwiseProduct(rotation_.transpose() * n);
+  const Vec3 unit = (y / y.cwiseAbs().maxCoeff()).normalized();
+  return rotation_ * semi_axes_.cwiseProduct(unit);
 }
 
 double Ellipsoid::level(const Vec3& point) const noexcept {

@@ -6,11 +6,16 @@
 /// multiply-adds shows in no macro: the CMake target carries -ffp-contract=off to its users.
 #pragma once
 
+#include <cfloat>
 #include <limits>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "tangency: its proofs need IEEE arithmetic; compile without -ffast-math and its parts"
+#endif
+
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD != 0
+#error "tangency: its proofs need double arithmetic that is rounded to double at every operation"
 #endif
 
 namespace tangency {

@@ -9,8 +9,9 @@
 /// from A to B. At the best n the witness points p_A = c_A + x_A(n) and p_B = c_B - x_B(n) satisfy
 /// p_B - p_A = g n: the *common normal*. Their midpoint is the contact point.
 ///
-/// (1) gap(b, a) is gap(a, b) with the normal reversed and the points exchanged.
-/// (2) A common rotation or translation turns and moves normal and points and leaves the gap.
+/// (1) gap(b, a) is gap(a, b); where the best normal is unique it is reversed and the points are
+///     exchanged.
+/// (2) A common rotation or translation leaves the gap; a unique normal and its points go with it.
 /// (3) A common scaling scales gap and points and leaves the normal.
 /// (4) Moving B by -gap n leaves the pair just touching.
 /// (5) The gap changes no faster than the bodies move: |g(d + e) - g(d)| <= |e|.
@@ -42,21 +43,23 @@ struct Gap {
 /// the search: the Perram-Wertheim direction, then the axes of A, then those of B, each pointing
 /// with d (or along its positive body axis where d is normal to it).
 ///
-/// `ok` where the answer is proven to be the global one, which every pair with gap > -rho is,
-/// rho = a_min^2/a_max of A plus that of B; deeper pairs are searched from several starts and the
-/// best is returned as `local`.
+/// `ok` where the answer is known to be the global one, which a stationary answer with gap > -rho is
+/// (and more than rounding above it), rho = a_min^2/a_max of A plus that of B; deeper pairs are
+/// searched from several starts and the best is returned as `local`.
 ///
-/// @return gap within 8 u L of the true one for aspect ratios to 100, u = 2^-53,
-///         L = |d| + largest semi-axis of A + that of B.
+/// @return where `ok`, gap within 8 u L of the true one, u = 2^-53, L = |d| + largest semi-axis of A +
+///         that of B (measured for aspect ratios to 1e8, tests/geometry/gap_test.cpp); infinite where
+///         the true one is beyond the range of doubles.
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
-/// and stays with the stationary answer it leads to. `ok` where that is proven to be global,
-/// `local` where not; for pairs that touch lightly (gap > -rho) the same as signed_gap.
-/// @param previous_normal  not zero; from A to B
+/// and stays with the stationary answer it leads to. `ok` where that is known to be global, and then
+/// the same as signed_gap; `local` where not: a shorter way out may exist. Never < 0 for solids that
+/// are apart. Allocates only where a `local` answer has to be held against the exact relation.
+/// @param previous_normal  from A to B; not zero, of moderate length
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;
 

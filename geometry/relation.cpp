@@ -34,9 +34,7 @@ template <class SeparationError>
 Filtered settled(const OverlapFilter& filter, const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                  const SeparationError& d_low) {
   if (filter.answer() != Filtered::unknown || !environment_is_default()) return filter.answer();
-  const Vec3 n = filter.normal();
-  if (!n.allFinite() || n == Vec3::Zero()) return Filtered::unknown;
-  return methods::filter_overlap_in_double_double(a, b, d, d_low(), n);
+  return methods::filter_overlap_in_double_double(a, b, d, d_low(), filter.normal());
 }
 
 enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace tangency::families {
 namespace {
 
 using Real = long double;
+static_assert(std::numeric_limits<Real>::digits >= 64, "the truth needs more digits than the kernel");
 using Vector = std::array<Real, 3>;
 
 Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/tool/frames.hpp>
@@ -109,8 +108,8 @@ std::optional<std::string> between(const std::string& line, const std::string& b
 Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle)
     : directory_(directory) {
   std::filesystem::create_directories(directory_ / "frames");
+  keep_xyz(last_cycle);  // first: it may fail, and only then nothing has been taken away
   keep_index(last_cycle);
-  keep_xyz(last_cycle);
 }
 
 void Frames::keep_index(std::int64_t last_cycle) {
@@ -143,8 +142,9 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
     kept += frame;
   }
   in.close();
-  xyz_.open(part, std::ios::binary | std::ios::trunc);
-  xyz_ << kept;
+  write_whole(part, kept);
+  xyz_.open(part, std::ios::binary | std::ios::app);
+  if (!xyz_) throw WriteError(part);
   std::filesystem::remove(whole);
 }
 
@@ -155,7 +155,7 @@ void Frames::add(const Simulation& simulation) {
   entries_.push_back({state.cycle, state.time});
   write_index();
   xyz_ << xyz_of(simulation) << std::flush;
-  if (!xyz_) throw std::runtime_error((directory_ / "frames.xyz").string() + ": cannot be written");
+  if (!xyz_) throw WriteError(directory_ / "frames.xyz.part");
 }
 
 void Frames::write_index() const {
@@ -169,8 +169,10 @@ void Frames::write_index() const {
 }
 
 void Frames::finish() {
+  const auto part = directory_ / "frames.xyz.part";
   xyz_.close();
-  std::filesystem::rename(directory_ / "frames.xyz.part", directory_ / "frames.xyz");
+  if (!xyz_) throw WriteError(part);
+  std::filesystem::rename(part, directory_ / "frames.xyz");
 }
 
 }  // namespace tangency::dem

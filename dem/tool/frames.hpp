@@ -20,13 +20,15 @@ class Frames {
  public:
   /// Starts after the frames that the directory holds already.
   /// @param last_cycle  frames of later cycles are taken away; -1: all are
+  /// @throws WriteError  all frames are still there
   Frames(const std::filesystem::path& directory, std::int64_t last_cycle);
 
   /// Adds one frame; a second one of the same cycle is left out.
-  /// @throws std::runtime_error  naming a file that cannot be written
+  /// @throws WriteError
   void add(const Simulation& simulation);
 
   /// Gives frames.xyz, until now frames.xyz.part, its name.
+  /// @throws WriteError
   void finish();
 
  private:

@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <sstream>
+#include <tangency/dem/files.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/results.hpp>
@@ -12,6 +15,69 @@
 namespace {
 
 using namespace tangency::dem;
+
+constexpr const char* program_description =
+    "tangency-dem: assemblies of ellipsoids by the discrete element method";
+
+constexpr const char* program_help = R"(
+`tangency-dem run --help` lists what a run writes and how to stop and resume it;
+`tangency-dem schema` lists every key of a scene.
+)";
+
+constexpr const char* run_help = R"(
+DIR receives:
+  history.csv        a row every history_interval cycles and at the end of each stage
+  summary.json       of a complete run: the values of its last row, and the keys below
+  final.state        of a complete run: where another scene of the same particles goes on
+  checkpoint.state   every checkpoint_interval cycles and at the run's end, whichever it is
+  frames.pvd, frames/CYCLE.vtp   particles for ParaView
+  frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts
+
+Columns of history.csv. Compression is positive in stress and axial strain; strains are
+logarithmic and count from the start of the stage:
+  cycle                 from 0
+  time                  s
+  stage                 its name
+  axial_strain          along z
+  volumetric_strain     dilation is positive
+  mean_stress           Pa
+  s_xx s_yy s_zz s_xy s_yz s_zx
+                        stress, Pa
+  friction_angle_deg    asin((s1 - s3) / (s1 + s3)) of the principal stresses, degrees
+  coordination_number   2 contacts / particles, rattlers included
+  coordination_std      standard deviation of a particle's number of contacts
+  porosity              1 - particle volumes / cell volume; overlaps count twice
+  contacts              number of touching pairs
+  mean_normal_force     N, of a contact; a push is positive
+  mean_overlap          m, of a contact
+  inertial_fraction     mean unbalanced force of a particle that has contacts, over the
+                        mean contact force
+  kinetic_energy        J, of the motion relative to the cell
+
+More keys of summary.json:
+  particles, cycles, threads
+  wall_seconds          of this process: what ran before a resumption is not in it
+  ns_per_listed_pair_per_cycle, listed_pairs
+                        an entry of the neighbour list, each pair once
+  state_hash            of final.state; the same at every number of threads
+  rattlers              particles with fewer than two contacts
+  largest_unbalanced_ratio, largest_unbalanced_moment_ratio
+                        of any particle that has contacts: unbalanced force, and moment over
+                        its largest semi-axis, over the mean contact force
+
+Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with history, frames
+and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
+the same DIR history and frames are carried on. The scene must have the same particles;
+stages may be added after those that the state has passed. A run that is not resumed removes
+the results of an earlier one in DIR.
+
+Exit status:
+  0          the run is complete
+  1          a stage did not reach its criterion within max_cycles, or the run blew up
+  2          the scene, the state or the command line was refused, and earlier results are
+             untouched; or a file could not be written
+  128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM
+)";
 
 int refuse(const std::string& message) {
   std::cerr << message << std::endl;
@@ -30,14 +96,33 @@ std::filesystem::path default_directory(const std::filesystem::path& scene) {
 void let_idle_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);  // returns only where it failed: then go on, slower
+  std::error_code error;
+  // Resolved: the process is called after the path that it was started by.
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv(program.c_str(), argv);  // returns only where it failed: then go on, slower
+}
+
+/// Help and the version go to standard output; whatever else stops the parsing is a refusal.
+int exit_after(const CLI::App& app, const CLI::ParseError& stop) {
+  std::string name = "tangency-dem";
+  if (stop.get_exit_code() == 0) {
+    std::ostringstream text;
+    app.exit(stop, text);
+    return std::cout << text.str() << std::flush
+               ? success
+               : refuse(name + ": standard output: cannot be written");
+  }
+  for (const CLI::App* chosen : app.get_subcommands()) name += ' ' + chosen->get_name();
+  return refuse(name + ": " + stop.what() + " (`" + name + " --help` says what is allowed)");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   let_idle_threads_sleep(argv);
-  CLI::App app{"tangency-dem: assemblies of ellipsoids by the discrete element method"};
+  CLI::App app(program_description, "tangency-dem");
+  app.set_version_flag("--version", "tangency-dem " TANGENCY_VERSION);
+  app.footer(program_help);
   app.require_subcommand(1);
 
   RunOptions options;
@@ -49,20 +134,19 @@ int main(int argc, char** argv) {
   run_command->add_option("--threads", options.threads, "Number of threads [all]")
       ->check(CLI::Range(1, 1024));
   run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state");
+  run_command->footer(run_help);
   run_command->add_flag("--quiet", options.quiet, "No progress");
   CLI::App* schema_command = app.add_subcommand("schema", "Print every key of a scene");
 
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return refuse(std::string("tangency-dem: ") + error.what());
+  } catch (const CLI::ParseError& stop) {
+    return exit_after(app, stop);
   }
 
   if (schema_command->parsed()) {
     print_schema(std::cout);
-    return std::cout.flush() ? success : not_reached;
+    return std::cout.flush() ? success : refuse("tangency-dem: standard output: cannot be written");
   }
   options.scene = scene;
   options.out = out.empty() ? default_directory(scene) : std::filesystem::path(out);
@@ -75,6 +159,10 @@ int main(int argc, char** argv) {
     return refuse(error.what());
   } catch (const OutputError& error) {
     return refuse(error.what());
+  } catch (const WriteError& error) {
+    return refuse(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return refuse(std::string("tangency-dem: ") + error.what());
   } catch (const std::exception& error) {
     std::cerr << "tangency-dem: " << error.what() << std::endl;
     return not_reached;

@@ -23,7 +23,7 @@ fs::path usable(const fs::path& directory) {
     made = at;
   fs::create_directories(directory, error);
   const fs::path probe = directory / ".writable";
-  const bool writable = !error && std::ofstream(probe).put('.').good();
+  const bool writable = !error && std::ofstream(probe).put('.').flush().good();
   fs::remove(probe, error);
   if (writable) return directory;
   if (!made.empty()) fs::remove_all(made, error);

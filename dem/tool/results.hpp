@@ -13,7 +13,8 @@ namespace tangency::dem {
 
 /// What it took.
 struct RunCost {
-  double wall_seconds = 0.0;        ///< of the whole run, output included
+  /// Of this process, output included: what ran before a resumption is not in it.
+  double wall_seconds = 0.0;
   double cycle_seconds = 0.0;       ///< of the cycles alone
   double listed_pair_cycles = 0.0;  ///< sum over this run's cycles of the pairs listed
   int threads = 1;
@@ -30,6 +31,7 @@ class Results {
   /// Makes the directory and takes away what an earlier run there left. Where a run is resumed in
   /// its own directory, history and frames up to its cycle stay and are carried on.
   /// @throws OutputError  leaving nothing behind
+  /// @throws WriteError   what was there is still there
   Results(const std::filesystem::path& directory, const Simulation& simulation, bool resumed);
 
   /// A row of history.csv and a frame of the simulation as it is now, each at most one a cycle.

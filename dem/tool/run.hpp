@@ -20,11 +20,12 @@ struct RunOptions {
 enum ExitStatus : int {
   success = 0,
   not_reached = 1,  ///< a stage's criterion was not met, or the run blew up
-  refused = 2,      ///< bad scene, state or command line: nothing was written
+  refused = 2,      ///< bad scene, state or command line: nothing was written; or a failed write
 };
 
 /// Runs a scene; messages go to standard error.
 /// @throws SceneError, StateError, OutputError  where the input is refused
+/// @throws WriteError, std::filesystem::filesystem_error  where a result cannot be written
 int run(const RunOptions& options);
 
 }  // namespace tangency::dem

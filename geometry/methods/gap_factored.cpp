@@ -14,6 +14,12 @@ constexpr int kHalvings = 50;       // a step of 2^-50 no longer moves a unit ve
 constexpr double kEscape = 0.25;    // rad; chosen: the step off a saddle, before backtracking
 constexpr double kLongestStep = 1;  // tangent of the largest turn in one step
 
+/// |y| where squares may underflow: an axis 1e-162 times as long as the pair is enough for that.
+double length(const Vec3& y) {
+  const double square = y.squaredNorm();
+  return square >= 0x1p-900 ? std::sqrt(square) : y.stableNorm();
+}
+
 struct Bodyside {
   Vec3 y;         ///< unit vector diag(a) R' n / h
   double h;       ///< support function
@@ -22,7 +28,7 @@ struct Bodyside {
 
 Bodyside side(const Mat3& factor, const Vec3& n) {
   const Vec3 y = factor.transpose() * n;
-  const double h = y.norm();
+  const double h = length(y);
   const Vec3 unit = y / h;
   return {unit, h, factor * unit};
 }
@@ -50,7 +56,7 @@ struct FactoredPair::Tangent {
 GapAt gap_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) noexcept {
   const auto arm = [&](const Ellipsoid& body, double& h) -> Vec3 {
     const Vec3 y = body.semi_axes().cwiseProduct(body.rotation().transpose() * normal);
-    h = y.norm();
+    h = length(y);
     return body.rotation() * body.semi_axes().cwiseProduct(y / h);
   };
   double ha, hb;
@@ -65,8 +71,8 @@ FactoredPair::FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d
       size_(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()) {}
 
 double FactoredPair::value(const Vec3& normal) const noexcept {
-  return normal.dot(d_) - (factor_a_.transpose() * normal).norm() -
-         (factor_b_.transpose() * normal).norm();
+  return normal.dot(d_) - length(factor_a_.transpose() * normal) -
+         length(factor_b_.transpose() * normal);
 }
 
 Vec3 FactoredPair::axis(int i) const noexcept {

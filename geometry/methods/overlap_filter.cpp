@@ -5,6 +5,7 @@
 
 #include <tangency/geometry/methods/gap_newton.hpp>
 #include <tangency/geometry/methods/perram_wertheim.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::methods {
 namespace {
@@ -55,6 +56,8 @@ struct Signs {
   }
   /// F(l) > 1 proves the solids apart; a point where both levels are < 1, that the interiors meet.
   Filtered proven(const Yardstick& y) const {
+    // Below 2^500 neither side of a comparison overflows; a search that went astray is not below.
+    if (!(y.det + (1.0 + l) * y.num < 0x1p500)) return Filtered::unknown;
     if (apart > kPolynomial * (l * y.num + (1.0 + l) * y.det)) return Filtered::apart;
     const double bound = 13.0 * kPolynomial * y.det;
     const bool meet = in_a > bound * (y.det + y.num) && in_b > bound * (y.det + l * y.num);
@@ -64,6 +67,15 @@ struct Signs {
 
   double l, apart, in_a, in_b;
 };
+
+/// n times a power of two that brings its largest component to [1, 2); a coordinate axis for what
+/// is no direction.
+Vec3 with_largest_component_near_1(const Vec3& n) {
+  const double largest = n.cwiseAbs().maxCoeff();
+  if (is_zero(largest) || !n.allFinite()) return Vec3::UnitX();
+  const int power = -exponent_of(largest);
+  return {scaled_by_power(n[0], power), scaled_by_power(n[1], power), scaled_by_power(n[2], power)};
+}
 
 /// diag(a) R' n
 Vec3 stretched(const Ellipsoid& e, const Vec3& n) {
@@ -76,7 +88,7 @@ double reach(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
   return sum_of_absolutes(d) + a.largest_semi_axis() + b.largest_semi_axis();
 }
 
-/// n.d - h_A - h_B > 0 proven, for n of any length.
+/// n.d - h_A - h_B > 0 proven, for n with its largest component in [1/2, 2).
 bool separates(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& n) {
   const double value = n.dot(d) - stretched(a, n).norm() - stretched(b, n).norm();
   return value > kDirection * sum_of_absolutes(n) * reach(a, b, d);
@@ -125,8 +137,8 @@ OverlapFilter::OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3&
       answer_ = signs.proven(narrow_yardstick(a, b, wide, at));
       if (answer_ != Filtered::unknown) return;
       // The same direction and the same point from the factors: F > 1 at l makes v(l) separate.
-      const Vec3 v = form_.normal_direction(l_) / at.det();
-      if (signs.apart > 0.0 ? separates(a, b, d, v) : meet_at(a, b, d, a.shape() * v)) {
+      const Vec3 point = a.shape() * (form_.normal_direction(l_) / at.det());
+      if (signs.apart > 0.0 ? separates(a, b, d, scaled_normal()) : meet_at(a, b, d, point)) {
         answer_ = signs.apart > 0.0 ? Filtered::apart : Filtered::interiors_meet;
         return;
       }
@@ -140,8 +152,14 @@ OverlapFilter::OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3&
   settle(a, b, d);
 }
 
+Vec3 OverlapFilter::scaled_normal() const noexcept {
+  // d may be as small as a subnormal number, and n with it: its squares would be nothing.
+  return with_largest_component_near_1(form_.normal_direction(l_));
+}
+
 void OverlapFilter::settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
-  normal_ = newton_from(a, b, d, form_.normal_direction(l_).normalized()).normal;
+  normal_ = with_largest_component_near_1(
+      newton_from(a, b, d, scaled_normal().normalized()).normal);
   settled_ = true;
   answer_ = decide_by_factors(a, b, d, normal_);
 }

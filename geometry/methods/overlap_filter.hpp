@@ -18,10 +18,12 @@ class OverlapFilter {
   OverlapFilter(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
 
   Filtered answer() const noexcept { return answer_; }
-  /// The normal at which the search stopped, from A to B, of any length.
-  Vec3 normal() const noexcept { return settled_ ? normal_ : form_.normal_direction(l_); }
+  /// The normal at which the search stopped, from A to B, its largest component in [1, 2); a
+  /// coordinate axis where the centres coincide or nearly so.
+  Vec3 normal() const noexcept { return settled_ ? normal_ : scaled_normal(); }
 
  private:
+  Vec3 scaled_normal() const noexcept;
   /// For what the polynomials cannot tell.
   void settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
 

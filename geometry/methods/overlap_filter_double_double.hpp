@@ -8,7 +8,7 @@
 
 namespace tangency::methods {
 
-/// Are the solids apart, or do their interiors meet, as the normal `n` (any length but 0) tells?
+/// Are the solids apart, or do their interiors meet, as the normal `n` (largest component in [1, 2)) tells?
 /// c_B - c_A = d + d_low exactly. Requires the default floating-point environment and as
 /// OverlapFilter.
 Filtered filter_overlap_in_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,

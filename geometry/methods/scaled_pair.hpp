@@ -9,11 +9,11 @@ namespace tangency::methods {
 
 /// A and B about their own centres, and d = c_B - c_A, in units of 2^exponent: the largest of them
 /// in [1, 4). Scaling is exact but for lengths below 2^-1022 in the new unit; a semi-axis below that
-/// becomes it, less than any rounding of what is computed from it.
+/// becomes it, which changes the gap by less than its rounding.
 struct ScaledPair {
   Ellipsoid a, b;
   Vec3 d;
-  Vec3 d_low;  ///< c_B - c_A = d + d_low exactly, in the default floating-point environment
+  Vec3 d_low;  ///< c_B - c_A = d + d_low, in the default environment exactly but for 2^-1074
   int exponent;
 };
 
