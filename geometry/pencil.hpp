@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The pencil Q_A + f Q_B of two quadrics, member by member, exact for the stored doubles: the
-/// published test for overlap [Ouadfel 1998, section 4.2] laid open, as published and corrected. To
+/// published test for overlap [Ouadfel1998, section 4.2] laid open, as published and corrected. To
 /// decide about two ellipsoids use relation(); this room is for seeing why.
 ///
 /// The invariants of a member are polynomials in f: T1, T2, T3, the sums of the principal minors of

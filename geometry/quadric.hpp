@@ -5,7 +5,7 @@
 ///     A x^2 + B y^2 + C z^2 + 2D xy + 2E yz + 2F zx + 2G x + 2H y + 2J z + K = 0,
 ///
 /// [x y z 1] Q [x y z 1]' = 0 with the discriminant matrix Q, whose upper-left 3 x 3 block is the
-/// sub-discriminant Q_s. [Ouadfel 1998, section 4.2.1]
+/// sub-discriminant Q_s. [Ouadfel1998, section 4.2.1]
 ///
 /// The quadric is its ten stored doubles: classify() answers exactly for them. The operations below
 /// that compute new coefficients round, and near a border between types a rounded quadric can be of

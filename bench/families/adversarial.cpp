@@ -287,6 +287,23 @@ MaybePair concentric_turned(Draw& draw) {
   return pair(a, b, std::nullopt);
 }
 
+// Centres so close that squares of their separation are nothing: nested, since the sizes differ by
+// far more.
+MaybePair nearly_concentric(Draw& draw) {
+  const double size = std::ldexp(1.0, draw.integer(-50, 50));
+  const double offset = size * std::ldexp(draw.real(0.5, 1), -draw.integer(60, 1000));
+  const double growth = 1 + std::ldexp(1.0, -draw.integer(1, 40));
+  RawEllipsoid a{{}, {}, draw.real_quaternion()}, b{{}, {}, {}};
+  const bool spheres = draw.integer(0, 1) == 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    a.semi_axes[k] = spheres ? size : size * draw.log_uniform(1, 4);
+    b.semi_axes[k] = a.semi_axes[k] / growth;
+    b.centre[k] = offset * draw.real(-1, 1);
+  }
+  b.orientation = spheres ? draw.real_quaternion() : a.orientation;
+  return AdversarialPair{a, b, {}, kBInA};
+}
+
 // The same point set: axes permuted and the quaternion that undoes it, signs, scale; spheres and
 // spheroids turned about their axis.
 MaybePair equal_sets(Draw& draw) {
@@ -391,6 +408,7 @@ constexpr std::array kFamilies{
     Family{"coaxial_spheroids", coaxial_spheroids},
     Family{"nested", nested},
     Family{"concentric_parallel", concentric_parallel},
+    Family{"nearly_concentric", nearly_concentric},
     Family{"concentric_turned", concentric_turned},
     Family{"equal_sets", equal_sets},
     Family{"osculating", osculating},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Two equal spheroids in contact, and the three motions that take B out of it: the displacement
-/// profiles of [Ouadfel 1998, section 4.4.1].
+/// profiles of [Ouadfel1998, section 4.4.1].
 ///
 /// The contacts are manufactured: B is put where the normal n and the overlap are the chosen ones,
 /// so that the expected curves below come from the support functions at n and from no solver. The

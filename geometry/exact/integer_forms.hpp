@@ -56,7 +56,7 @@ struct Inertia {
 };
 
 /// Exact, by fraction-free symmetric elimination: a diagonal pivot where one is not zero, else the
-/// sum of two rows (and columns) makes one [Bareiss 1968].
+/// sum of two rows (and columns) makes one [Bareiss1968].
 template <std::size_t N>
 Inertia inertia(const IntegerForm<N>& form);
 

@@ -10,7 +10,7 @@ cmake --install "$build" --prefix "$work/prefix" >/dev/null
 # fused instructions in their baseline.
 flags="-O2 -ffp-contract=fast"
 [ "$(uname -m)" != x86_64 ] || flags="$flags -mfma"
-cmake -S "$source" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
+cmake -G Ninja -S "$source" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="$flags" >/dev/null
 cmake --build "$work/build"
 

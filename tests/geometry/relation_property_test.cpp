@@ -86,6 +86,22 @@ RC_GTEST_PROP(RelationProperty, PermutingAndReflectingCoordinatesLeavesIt, ()) {
   RC_ASSERT(same(relation(moved(p.a), moved(p.b)), relation(p.a, p.b)));
 }
 
+RC_GTEST_PROP(RelationProperty, SignAndLengthOfTheQuaternionAndOrderOfAxesLeaveIt, ()) {
+  const Pair p = *any_pair();
+  const Vec3& r = p.b.semi_axes();
+  const Eigen::Quaterniond& q = p.b.orientation();
+  const Ellipsoid longer(p.b.centre(), r, Eigen::Quaterniond(-0x1p40 * q.coeffs()));
+  RC_ASSERT(same(relation(p.a, longer), relation(p.a, p.b)));
+  // Times (1, 1, 1, 1), a third of a turn, exactly: each component is a sum of four.
+  const Eigen::Quaterniond turned = q * Eigen::Quaterniond(1, 1, 1, 1);
+  const Eigen::Quaterniond back = turned * Eigen::Quaterniond(1, -1, -1, -1);
+  if (back.coeffs() == 4 * q.coeffs()) {
+    const Ellipsoid cycled(p.b.centre(), {r[1], r[2], r[0]}, turned);
+    RC_ASSERT(same(relation(p.a, cycled), relation(p.a, p.b)));
+    RC_TAG("axes permuted");
+  }
+}
+
 RC_GTEST_PROP(RelationProperty, GrowingABodyNeverTurnsOverlapsOff, ()) {
   const Pair p = *any_pair();
   const Ellipsoid grown(p.b.centre(), p.b.semi_axes() * *testing::uniform(1, 2), p.b.orientation());

@@ -2,6 +2,8 @@
 // `tangency overlap` and `tangency classify`, run as their users run them.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include <tangency/tests/tool/process.hpp>
@@ -42,6 +44,26 @@ TEST(OverlapCommand, KeepsGoingWithInvalidInTheRelationColumn) {
   const Finished lenient = run_tool({"overlap", "--keep-going"}, pairs);
   EXPECT_EQ(lenient.status, 1);
   EXPECT_EQ(lenient.out, "row,relation,overlaps,tier\n0,invalid,,\n1,separate,0,filter\n");
+}
+
+TEST(OverlapCommand, AnswersEveryRegressionAsTheOracleDoes) {
+  const std::string path = TANGENCY_TEST_DATA "/regressions/pairs.csv";
+  const Finished run = run_tool({"overlap", path});
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream answers(run.out);
+  std::string answer, line;
+  std::getline(answers, answer);  // the header
+  std::ifstream expected(path);
+  int rows = -1;  // the header is no row
+  while (std::getline(expected, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    if (++rows == 0) continue;
+    ASSERT_TRUE(std::getline(answers, answer));
+    const std::string relation = line.substr(line.rfind(',') + 1);
+    EXPECT_EQ(answer.substr(0, answer.find(',', answer.find(',') + 1)),
+              std::to_string(rows - 1) + ',' + relation);
+  }
+  EXPECT_GE(rows, 1);
 }
 
 TEST(ClassifyCommand, TellsTypesRanksAndTier) {
