@@ -2,8 +2,8 @@
 // Speed of the exact yes/no question, as ratios to the throughput of Eigen's 3x3 inverse over 1024
 // distinct matrices in cache, timed in the same run. Answers are checked before anything is timed.
 //
-// By family: which tier answered, what overlaps() costs, what the filter alone costs (where the pair is
-// in its range), and what the exact tier costs.
+// By family: which tier answered, what overlaps() costs, what the filter alone costs (where the
+// pair is in its range), and what the exact tier costs.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -102,7 +102,8 @@ class RatioReporter : public benchmark::ConsoleReporter {
     }
     if (inverse == 0) return;
     std::printf("\nratio to Eigen's 3x3 inverse (%.2f ns)\n", inverse);
-    for (const auto& [name, time] : times_) std::printf("%-44s %8.1f x\n", name.c_str(), time / inverse);
+    for (const auto& [name, time] : times_)
+      std::printf("%-44s %8.1f x\n", name.c_str(), time / inverse);
   }
 
  private:
@@ -151,13 +152,16 @@ int main(int argc, char** argv) {
     add("overlaps/" + family.name, family, tangency::overlaps, share_of_exact(family));
   }
   for (const Family& family : distant) {
-    add("overlaps_gap_above_1e-6/" + family.name, family, tangency::overlaps, share_of_exact(family));
-    add("filter_alone_gap_above_1e-6/" + family.name, family,
+    add("overlaps_gap_above_1e-6/" + family.name, family, tangency::overlaps,
+        share_of_exact(family));
+    add(
+        "filter_alone_gap_above_1e-6/" + family.name, family,
         [](const Ellipsoid& a, const Ellipsoid& b) {
           return tangency::methods::OverlapFilter(a, b, b.centre() - a.centre()).answer();
         },
         0);
-    add("exact_alone/" + family.name, family,
+    add(
+        "exact_alone/" + family.name, family,
         [](const Ellipsoid& a, const Ellipsoid& b) {
           return tangency::exact::position(tangency::exact::pair_quartic(a, b));
         },

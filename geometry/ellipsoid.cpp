@@ -65,8 +65,8 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
 
 Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
   // A power of two brings the largest component to [1, 2), so that squares stay in range.
-  const int exponent = std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()),
-                                 exponent_of(q.z())});
+  const int exponent =
+      std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()), exponent_of(q.z())});
   const double w = scaled_by_power(q.w(), -exponent), x = scaled_by_power(q.x(), -exponent);
   const double y = scaled_by_power(q.y(), -exponent), z = scaled_by_power(q.z(), -exponent);
   const double ww = w * w, xx = x * x, yy = y * y, zz = z * z;
@@ -84,8 +84,7 @@ Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
   rotation_ = rotation_of(orientation);
   const Vec3 a2 = semi_axes.cwiseAbs2();
   shape_ = with_eigenvalues(rotation_, a2);
-  shape_adjugate_ =
-      with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
+  shape_adjugate_ = with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
   shape_determinant_ = a2[0] * a2[1] * a2[2];
   moderate_ = semi_axes.maxCoeff() <= kModerateLargest && semi_axes.minCoeff() >= kModerateSmallest;
 }

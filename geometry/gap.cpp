@@ -38,8 +38,8 @@ bool is_sphere(const Ellipsoid& body) {
   return a[0] == a[1] && a[1] == a[2];
 }
 
-/// Value and points at a normal. A stationary normal with gap > -rho is the global answer: a ball of
-/// radius rho rolls inside A + (-B), so that no other normal reaches as far (docs/guide.md).
+/// Value and points at a normal. A stationary normal with gap > -rho is the global answer: a ball
+/// of radius rho rolls inside A + (-B), so that no other normal reaches as far (docs/guide.md).
 Gap stationary_answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) {
   const GapAt at = methods::gap_at(a, b, d, normal);
   const double rho = least_radius(a) + least_radius(b);
@@ -73,8 +73,8 @@ Gap search(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
   return best;
 }
 
-/// The most by which the global gap can exceed that of an answer with gap > -rho: the ball of radius
-/// rho that touches the boundary of A + (-B) at the witness point, seen from the origin.
+/// The most by which the global gap can exceed that of an answer with gap > -rho: the ball of
+/// radius rho that touches the boundary of A + (-B) at the witness point, seen from the origin.
 double shortfall(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Gap& gap) {
   const double reach = gap.gap + least_radius(a) + least_radius(b);
   const Vec3 tangential = d + gap.arm_b - gap.arm_a - gap.gap * gap.normal;
@@ -82,8 +82,8 @@ double shortfall(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Ga
   return r2 / (std::sqrt(reach * reach + r2) + reach);
 }
 
-/// The fast path's answer where it is proven: its squares of semi-axes hide the short axes of extreme
-/// shapes, where it may take a normal for stationary that is not.
+/// The fast path's answer where it is proven: its squares of semi-axes hide the short axes of
+/// extreme shapes, where it may take a normal for stationary that is not.
 std::optional<Gap> proven(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                           const Stationary& found) {
   if (!found.accepted) return std::nullopt;
@@ -133,7 +133,8 @@ Gap follow(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& st
   if (!found.accepted) gap.status = GapStatus::not_converged;
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
   const bool in_doubt = gap.status != GapStatus::ok && gap.gap < 0.0;
-  if (in_doubt && !overlaps(a.moved_to(Vec3::Zero()), b.moved_to(d))) return search_globally(a, b, d);
+  if (in_doubt && !overlaps(a.moved_to(Vec3::Zero()), b.moved_to(d)))
+    return search_globally(a, b, d);
   return gap;
 }
 

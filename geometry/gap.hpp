@@ -29,10 +29,10 @@ enum class GapStatus {
 
 /// Gap, normal and witness points of an ordered pair (A, B).
 struct Gap {
-  double gap;        ///< signed gap, in the unit of length of the bodies
-  Vec3 normal;       ///< unit, from A to B
-  Vec3 arm_a;        ///< p_A - c_A: A's witness point relative to its centre
-  Vec3 arm_b;        ///< p_B - c_B: B's witness point relative to its centre
+  double gap;   ///< signed gap, in the unit of length of the bodies
+  Vec3 normal;  ///< unit, from A to B
+  Vec3 arm_a;   ///< p_A - c_A: A's witness point relative to its centre
+  Vec3 arm_b;   ///< p_B - c_B: B's witness point relative to its centre
   GapStatus status;
 };
 
@@ -43,22 +43,24 @@ struct Gap {
 /// the search: the Perram-Wertheim direction, then the axes of A, then those of B, each pointing
 /// with d (or along its positive body axis where d is normal to it).
 ///
-/// `ok` where the answer is known to be the global one, which a stationary answer with gap > -rho is
-/// (and more than rounding above it), rho = a_min^2/a_max of A plus that of B; deeper pairs are
+/// `ok` where the answer is known to be the global one, which a stationary answer with gap > -rho
+/// is (and more than rounding above it), rho = a_min^2/a_max of A plus that of B; deeper pairs are
 /// searched from several starts and the best is returned as `local`.
 ///
-/// @return where `ok`, gap within 8 u L of the true one, u = 2^-53, L = |d| + largest semi-axis of A +
-///         that of B (measured for aspect ratios to 1e8, tests/geometry/gap_test.cpp); infinite where
-///         the true one is beyond the range of doubles.
+/// @return where `ok`, gap within 8 u L of the true one, u = 2^-53, L = |d| + largest semi-axis of
+/// A +
+///         that of B (measured for aspect ratios to 1e8, tests/geometry/gap_test.cpp); infinite
+///         where the true one is beyond the range of doubles.
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
-/// and stays with the stationary answer it leads to. `ok` where that is known to be global, and then
-/// the same as signed_gap; `local` where not: a shorter way out may exist. Never < 0 for solids that
-/// are apart. Allocates only where a `local` answer has to be held against the exact relation.
+/// and stays with the stationary answer it leads to. `ok` where that is known to be global, and
+/// then the same as signed_gap; `local` where not: a shorter way out may exist. Never < 0 for
+/// solids that are apart. Allocates only where a `local` answer has to be held against the exact
+/// relation.
 /// @param previous_normal  from A to B; not zero, of moderate length
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;

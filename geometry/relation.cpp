@@ -44,9 +44,12 @@ Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                       const SeparationError& d_low) {
   const OverlapFilter filter(a, b, d);
   switch (settled(filter, a, b, d, d_low)) {
-    case Filtered::apart: return Found::apart;
-    case Filtered::unknown: return Found::unknown;
-    case Filtered::interiors_meet: break;
+    case Filtered::apart:
+      return Found::apart;
+    case Filtered::unknown:
+      return Found::unknown;
+    case Filtered::interiors_meet:
+      break;
   }
   const Vec3 n = filter.normal();
   if (!methods::proves_sticking_out(a, b, d, n)) {
@@ -62,14 +65,20 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
   constexpr Tier tier = Tier::exact;
   if (exact::equal(a, b)) return {Relation::equal, Inner::none, tier};
   switch (exact::containment(a, b, quartic)) {
-    case Containment::interior: return {Relation::a_in_b, Inner::none, tier};
-    case Containment::touching: return {Relation::internal_touch, Inner::a, tier};
-    case Containment::none: break;
+    case Containment::interior:
+      return {Relation::a_in_b, Inner::none, tier};
+    case Containment::touching:
+      return {Relation::internal_touch, Inner::a, tier};
+    case Containment::none:
+      break;
   }
   switch (exact::containment(b, a, exact::pair_quartic(b, a))) {
-    case Containment::interior: return {Relation::b_in_a, Inner::none, tier};
-    case Containment::touching: return {Relation::internal_touch, Inner::b, tier};
-    case Containment::none: break;
+    case Containment::interior:
+      return {Relation::b_in_a, Inner::none, tier};
+    case Containment::touching:
+      return {Relation::internal_touch, Inner::b, tier};
+    case Containment::none:
+      break;
   }
   return {Relation::overlap, Inner::none, tier};
 }
@@ -78,47 +87,61 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
 
 std::string_view to_string(Relation relation) noexcept {
   switch (relation) {
-    case Relation::separate: return "separate";
-    case Relation::external_touch: return "external_touch";
-    case Relation::overlap: return "overlap";
-    case Relation::internal_touch: return "internal_touch";
-    case Relation::a_in_b: return "a_in_b";
-    case Relation::b_in_a: return "b_in_a";
-    case Relation::equal: break;
+    case Relation::separate:
+      return "separate";
+    case Relation::external_touch:
+      return "external_touch";
+    case Relation::overlap:
+      return "overlap";
+    case Relation::internal_touch:
+      return "internal_touch";
+    case Relation::a_in_b:
+      return "a_in_b";
+    case Relation::b_in_a:
+      return "b_in_a";
+    case Relation::equal:
+      break;
   }
   return "equal";
 }
 
 OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   const Filtered found =
-      filtered(a, b, Filtered::unknown, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
-                                           const auto& d_low) {
-        return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
-      });
+      filtered(a, b, Filtered::unknown,
+               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
+                 return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
+               });
   if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   const exact::Position position = exact::position(exact::pair_quartic(a, b));
   return {position == exact::Position::interiors_meet, Tier::exact};
 }
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  const Found found =
-      filtered(a, b, Found::unknown, [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
-                                        const auto& d_low) {
-        return filter_relation(pa, pb, d, d_low);
-      });
+  const Found found = filtered(a, b, Found::unknown,
+                               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
+                                  const auto& d_low) { return filter_relation(pa, pb, d, d_low); });
   switch (found) {
-    case Found::apart: return {Relation::separate, Inner::none, Tier::filter};
-    case Found::overlapping: return {Relation::overlap, Inner::none, Tier::filter};
-    case Found::a_inside: return {Relation::a_in_b, Inner::none, Tier::filter};
-    case Found::b_inside: return {Relation::b_in_a, Inner::none, Tier::filter};
-    case Found::meeting: return exact_containment(a, b, exact::pair_quartic(a, b));
-    case Found::unknown: break;
+    case Found::apart:
+      return {Relation::separate, Inner::none, Tier::filter};
+    case Found::overlapping:
+      return {Relation::overlap, Inner::none, Tier::filter};
+    case Found::a_inside:
+      return {Relation::a_in_b, Inner::none, Tier::filter};
+    case Found::b_inside:
+      return {Relation::b_in_a, Inner::none, Tier::filter};
+    case Found::meeting:
+      return exact_containment(a, b, exact::pair_quartic(a, b));
+    case Found::unknown:
+      break;
   }
   const exact::IntegerPolynomial quartic = exact::pair_quartic(a, b);
   switch (exact::position(quartic)) {
-    case exact::Position::apart: return {Relation::separate, Inner::none, Tier::exact};
-    case exact::Position::touching: return {Relation::external_touch, Inner::none, Tier::exact};
-    case exact::Position::interiors_meet: break;
+    case exact::Position::apart:
+      return {Relation::separate, Inner::none, Tier::exact};
+    case exact::Position::touching:
+      return {Relation::external_touch, Inner::none, Tier::exact};
+    case exact::Position::interiors_meet:
+      break;
   }
   return exact_containment(a, b, quartic);
 }

@@ -5,8 +5,8 @@
 ///
 /// A filter in double answers where a proven error bound leaves no doubt
 /// (docs/derivations/relation-filter.md: valid in all four rounding modes and where subnormal
-/// numbers are flushed or read as zero); everything else goes to exact integers. The answers hold for
-/// every ellipsoid that can be constructed.
+/// numbers are flushed or read as zero); everything else goes to exact integers. The answers hold
+/// for every ellipsoid that can be constructed.
 ///
 /// (1) relation(b, a) is relation(a, b) with a_in_b and b_in_a, and the inner body, exchanged.
 /// (2) overlaps(a, b) if and only if the relation is neither separate nor external_touch.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Symmetric 3x3 matrices by their six entries, and the adjugates that pairs of shape matrices need.
+/// Symmetric 3x3 matrices by their six entries, and the adjugates that pairs of shape matrices
+/// need.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,8 +41,7 @@ inline Symmetric3 square(const Eigen::Vector3d& v) noexcept {
 
 /// tr(A B); v' S v is that of S and square(v).
 inline double trace_of_product(const Symmetric3& a, const Symmetric3& b) noexcept {
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz +
-         2.0 * (a.yz * b.yz + a.zx * b.zx + a.xy * b.xy);
+  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.yz * b.yz + a.zx * b.zx + a.xy * b.xy);
 }
 
 /// The X of adj(A + l B) = adj A + l X + l^2 adj B; adj A is mixed_adjugate(A, A) / 2.

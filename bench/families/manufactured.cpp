@@ -10,7 +10,8 @@ namespace tangency::families {
 namespace {
 
 using Real = long double;
-static_assert(std::numeric_limits<Real>::digits >= 64, "the truth needs more digits than the kernel");
+static_assert(std::numeric_limits<Real>::digits >= 64,
+              "the truth needs more digits than the kernel");
 using Vector = std::array<Real, 3>;
 
 Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -66,8 +67,8 @@ std::array<double, 3> ManufacturedContacts::semi_axes(Real size) {
   if (family_.shape == ContactFamily::Shape::drawn) aspect = std::exp(uniform(0, std::log(aspect)));
   const Real middle =
       family_.shape == ContactFamily::Shape::spheroid ? 1 : std::exp(uniform(0, std::log(aspect)));
-  std::array<double, 3> axes = {static_cast<double>(size * aspect), static_cast<double>(size * middle),
-                                static_cast<double>(size)};
+  std::array<double, 3> axes = {static_cast<double>(size * aspect),
+                                static_cast<double>(size * middle), static_cast<double>(size)};
   for (std::size_t i = 2; i > 0; --i) std::swap(axes[i], axes[random_() % (i + 1)]);
   return axes;
 }
@@ -103,7 +104,8 @@ ManufacturedContact ManufacturedContacts::next() {
   const auto [min_b, max_b] = std::minmax_element(b.semi_axes.begin(), b.semi_axes.end());
   contact.smallest_semi_axis = std::min(*min_a, *min_b);
   const Real rho = Real(*min_a) * *min_a / *max_a + Real(*min_b) * *min_b / *max_b;
-  const Real unit = family_.gap_unit == ContactFamily::GapUnit::rho ? rho : contact.smallest_semi_axis;
+  const Real unit =
+      family_.gap_unit == ContactFamily::GapUnit::rho ? rho : contact.smallest_semi_axis;
   const Real largest = unit * family_.largest_gap;
   const Real wanted = uniform(-std::min(largest, rho), largest);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Manufactured contacts: pairs of ellipsoids whose gap, normal and witness points are known without
-/// a solver. Choose A, B's shape, a unit normal n and a gap g and put
+/// Manufactured contacts: pairs of ellipsoids whose gap, normal and witness points are known
+/// without a solver. Choose A, B's shape, a unit normal n and a gap g and put
 ///     c_B = c_A + x_A(n) + g n + x_B(n);
 /// then n is stationary with gap g, and it is the global answer for g > -rho, rho the sum of the
-/// least radii of curvature a_min^2 / a_max. Computed in long double; after rounding c_B to double g
-/// is corrected by n . (rounding), exact to second order in rounding / radius of curvature.
+/// least radii of curvature a_min^2 / a_max. Computed in long double; after rounding c_B to double
+/// g is corrected by n . (rounding), exact to second order in rounding / radius of curvature.
 #pragma once
 
 #include <cstdint>

@@ -28,8 +28,8 @@ mpq_class root_bound(const IntegerPolynomial& p) {
   return bound;
 }
 
-/// The bounds of an interval low < x <= high with low > 0 that holds just the largest positive root,
-/// low being no root. Requires a positive root.
+/// The bounds of an interval low < x <= high with low > 0 that holds just the largest positive
+/// root, low being no root. Requires a positive root.
 struct Isolated {
   mpq_class low, high;
 };

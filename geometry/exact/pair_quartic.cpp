@@ -84,7 +84,8 @@ IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b) {
     d[static_cast<std::size_t>(i)] =
         to_integer(b.centre()[i], unit) - to_integer(a.centre()[i], unit);
   }
-  const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2], d[1] * d[2], d[2] * d[0], d[0] * d[1]};
+  const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2],
+                        d[1] * d[2], d[2] * d[0], d[0] * d[1]};
 
   // |q_A|^4 |q_B|^4 (l N - (1 + l) D)
   const mpz_class norms = ba.norm2 * bb.norm2;
@@ -104,9 +105,12 @@ Position position(const IntegerPolynomial& quartic) {
   if (discriminant > 0) return Position::apart;
   if (discriminant < 0) return Position::interiors_meet;
   switch (SturmSequence(quartic).roots_above(0)) {
-    case 0: return Position::interiors_meet;
-    case 1: return Position::touching;
-    default: return Position::apart;
+    case 0:
+      return Position::interiors_meet;
+    case 1:
+      return Position::touching;
+    default:
+      return Position::apart;
   }
 }
 

@@ -21,9 +21,9 @@ double length(const Vec3& y) {
 }
 
 struct Bodyside {
-  Vec3 y;         ///< unit vector diag(a) R' n / h
-  double h;       ///< support function
-  Vec3 point;     ///< support point
+  Vec3 y;      ///< unit vector diag(a) R' n / h
+  double h;    ///< support function
+  Vec3 point;  ///< support point
 };
 
 Bodyside side(const Mat3& factor, const Vec3& n) {
@@ -96,7 +96,7 @@ Vec3 FactoredPair::perram_wertheim_normal() const noexcept {
     return (factor_a_.transpose() * v).norm() <
            std::exp2(log2_l) * (factor_b_.transpose() * v).norm();
   };
-  constexpr double kWidest = 1000.0;   // of log2 l: beyond it exp2 leaves the range of doubles
+  constexpr double kWidest = 1000.0;      // of log2 l: beyond it exp2 leaves the range of doubles
   constexpr double kNarrowest = 0x1p-10;  // chosen: the ascent that follows does the rest
   double width = 4.0, low = -width, high = width;
   while (low > -kWidest && beyond(low)) high = low, low -= (width *= 2.0);
@@ -144,8 +144,7 @@ Stationary FactoredPair::climb(const Vec3& start) const noexcept {
     Vec3 move = Vec3::Zero();
     double gain = 0.0;
     for (int i = 0; i < 2; ++i) {
-      const double length =
-          t.slope[i] / std::max(std::abs(t.curvature[i]), t.curvature_noise);
+      const double length = t.slope[i] / std::max(std::abs(t.curvature[i]), t.curvature_noise);
       gain += 0.5 * t.slope[i] * length;
       const bool saddle = t.curvature[i] < -t.curvature_noise && std::abs(length) < kEscape;
       move += (saddle ? std::copysign(kEscape, length) : length) * t.direction[i];

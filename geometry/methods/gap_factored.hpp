@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The gap from the factors A = R diag(a) of the shape matrices M = A A': the robust path. No product
-/// of semi-axes is formed before a norm is, so that the condition of a shape is its aspect ratio and
-/// not the square of it.
+/// The gap from the factors A = R diag(a) of the shape matrices M = A A': the robust path. No
+/// product of semi-axes is formed before a norm is, so that the condition of a shape is its aspect
+/// ratio and not the square of it.
 #pragma once
 
 #include <tangency/geometry/gap.hpp>

@@ -12,9 +12,7 @@ constexpr int kPerramWertheimSteps = 4;  // measured: more do not shorten what f
 constexpr int kNewtonSteps = 12;         // measured: ordinary pairs need 2 to 4
 
 /// n' adj(S) n
-double adjugate_form(const Symmetric3& s, const Vec3& n) {
-  return adjugate(s).form(n);
-}
+double adjugate_form(const Symmetric3& s, const Vec3& n) { return adjugate(s).form(n); }
 
 }  // namespace
 
@@ -31,8 +29,8 @@ Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
     const Vec3 r = rest - gap * n;
     // The tangent Hessian of -(n.d - h_A - h_B) is H + gap I with adj H = P jc P on the tangent
     // plane; its determinant and trace are kappa + gap tau + gap^2 and tau + 2 gap.
-    const Symmetric3 jc = a.shape_adjugate() * (1.0 / (ha * ha * ha)) +
-                          b.shape_adjugate() * (1.0 / (hb * hb * hb));
+    const Symmetric3 jc =
+        a.shape_adjugate() * (1.0 / (ha * ha * ha)) + b.shape_adjugate() * (1.0 / (hb * hb * hb));
     const double tau = jc.trace() - jc.form(n);
     const double determinant = adjugate_form(jc, n) + gap * (tau + gap);
     if (!(determinant > 0.0) || !(tau + 2.0 * gap > 0.0)) return {n, false};

@@ -9,8 +9,9 @@ namespace tangency::methods {
 
 /// Where a search stopped, and whether it may be believed.
 struct Stationary {
-  Vec3 normal;    ///< unit
-  bool accepted;  ///< a strict local maximum of n.d - h_A - h_B, reached through concave ground only
+  Vec3 normal;  ///< unit
+  bool
+      accepted;  ///< a strict local maximum of n.d - h_A - h_B, reached through concave ground only
 };
 
 /// Newton's method from a unit normal. Accepted where the tangent Hessian was negative definite at

@@ -108,16 +108,16 @@ bool meet_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& 
   return inside(a, point, 0.0) && inside(b, beyond, error);
 }
 
-/// The tests of the polynomials again, at one normal and a point between its witness points, from the
-/// factors of the shapes: their errors grow with the aspect ratio, those of the polynomials with its
-/// square.
+/// The tests of the polynomials again, at one normal and a point between its witness points, from
+/// the factors of the shapes: their errors grow with the aspect ratio, those of the polynomials
+/// with its square.
 Filtered decide_by_factors(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& n) {
   if (separates(a, b, d, n)) return Filtered::apart;
   const Vec3 ya = stretched(a, n), yb = stretched(b, n);
   const Vec3 from_a = a.rotation() * (a.semi_axes().cwiseProduct(ya) / ya.norm());
   const Vec3 from_b = b.rotation() * (b.semi_axes().cwiseProduct(yb) / -yb.norm());
   return meet_at(a, b, d, 0.5 * (from_a + (d + from_b))) ? Filtered::interiors_meet
-                                                          : Filtered::unknown;
+                                                         : Filtered::unknown;
 }
 
 }  // namespace
@@ -158,8 +158,8 @@ Vec3 OverlapFilter::scaled_normal() const noexcept {
 }
 
 void OverlapFilter::settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
-  normal_ = with_largest_component_near_1(
-      newton_from(a, b, d, scaled_normal().normalized()).normal);
+  normal_ =
+      with_largest_component_near_1(newton_from(a, b, d, scaled_normal().normalized()).normal);
   settled_ = true;
   answer_ = decide_by_factors(a, b, d, normal_);
 }

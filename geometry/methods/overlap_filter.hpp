@@ -34,8 +34,8 @@ class OverlapFilter {
   Vec3 normal_;
 };
 
-/// True only where some point of A is outside B. Tried are the axes of both bodies and a normal from A
-/// to B, each the way that leads away from B. Requires as OverlapFilter.
+/// True only where some point of A is outside B. Tried are the axes of both bodies and a normal
+/// from A to B, each the way that leads away from B. Requires as OverlapFilter.
 bool proves_sticking_out(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                          const Vec3& normal) noexcept;
 

@@ -20,8 +20,8 @@ constexpr double kTurned = 64 * exact::kDoubleDoubleEpsilon;     // E6
 
 /// R(q/|q|), each entry within 20 units of kDoubleDoubleEpsilon.
 Matrix rotation(const Eigen::Quaterniond& q) {
-  const int exponent = std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()),
-                                 exponent_of(q.z())});
+  const int exponent =
+      std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()), exponent_of(q.z())});
   const double w = scaled_by_power(q.w(), -exponent), x = scaled_by_power(q.x(), -exponent);
   const double y = scaled_by_power(q.y(), -exponent), z = scaled_by_power(q.z(), -exponent);
   using exact::two_product;
@@ -111,8 +111,8 @@ Filtered filter_overlap_in_double_double(const Ellipsoid& a, const Ellipsoid& b,
     point[i] = DoubleDouble(0.5) * (from_a[i] + (between[i] - from_b[i]));
     beyond[i] = point[i] - between[i];
   }
-  const double error = 2.0 * exact::kDoubleDoubleEpsilon *
-                       (sum_of_absolutes(between) + sum_of_absolutes(point));
+  const double error =
+      2.0 * exact::kDoubleDoubleEpsilon * (sum_of_absolutes(between) + sum_of_absolutes(point));
   const bool meet = inside(sa, point, 0.0) && inside(sb, beyond, error);
   return meet ? Filtered::interiors_meet : Filtered::unknown;
 }

@@ -40,7 +40,8 @@ class PerramWertheimSearch {
     const double slope = s + p - q;
     const double curvature = (n * at.num2() - p * p) - (d * at.det2() - q * q) - at.l * s * s;
     (slope > 0.0 ? low_ : high_) = at.l;
-    // exp(x) by (1 + x/2) / (1 - x/2), |x| <= 1.8, a factor of up to 19: no more is needed of a step.
+    // exp(x) by (1 + x/2) / (1 - x/2), |x| <= 1.8, a factor of up to 19: no more is needed of a
+    // step.
     constexpr double kLongest = 0.9;
     double half = slope > 0.0 ? kLongest : -kLongest;
     if (-2.0 * kLongest * curvature > (slope < 0.0 ? -slope : slope)) {
@@ -87,7 +88,8 @@ class PerramWertheimForm {
   /// where the last step changed l by less than a hundredth.
   double maximise(int steps) const noexcept;
 
-  /// A multiple > 0 of (M_A + l M_B)^-1 d, the direction of the normal at l, namely det(l) times it.
+  /// A multiple > 0 of (M_A + l M_B)^-1 d, the direction of the normal at l, namely det(l) times
+  /// it.
   Vec3 normal_direction(double l) const noexcept {
     return a_.shape_adjugate() * d_ + l * (mixed_ * d_ + l * (b_.shape_adjugate() * d_));
   }

@@ -99,12 +99,9 @@ Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
   const bool representable = std::isfinite(found.gap) && found.normal.allFinite() &&
                              point_a.allFinite() && point_b.allFinite();
   if (!representable) return without_numbers(exact, "not_applicable");
-  return {exact,
-          found.status == GapStatus::ok ? "ok" : "local",
-          true,
-          found.gap,
-          found.normal,
-          point_a,
+  return {exact,        found.status == GapStatus::ok ? "ok" : "local",
+          true,         found.gap,
+          found.normal, point_a,
           point_b};
 }
 
@@ -121,9 +118,15 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
   out.empty();  // gap_error
   out.text(answer.status);
   switch (answer.relation.inner) {
-    case Inner::none: out.empty(); break;
-    case Inner::a: out.text("a"); break;
-    case Inner::b: out.text("b"); break;
+    case Inner::none:
+      out.empty();
+      break;
+    case Inner::a:
+      out.text("a");
+      break;
+    case Inner::b:
+      out.text("b");
+      break;
   }
   return answer.has_numbers ? RowOutcome::answered : RowOutcome::unanswered;
 }

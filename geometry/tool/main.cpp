@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
   program.footer(kProgramHelp);
   program.require_subcommand(1);
   const std::vector<Subcommand> subcommands{add_contact(program), add_overlap(program),
-                                             add_classify(program)};
+                                            add_classify(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

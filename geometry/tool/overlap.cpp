@@ -39,8 +39,8 @@ RowFunction bind(const csv::Header& header) {
   return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const csv::RowCursor& row,
                                                                       csv::RowText& out) {
     const RelationAnswer answer = relation(a.read(row), b.read(row));
-    const bool meet = answer.relation != Relation::separate &&
-                      answer.relation != Relation::external_touch;
+    const bool meet =
+        answer.relation != Relation::separate && answer.relation != Relation::external_touch;
     out.text(to_string(answer.relation));
     out.text(meet ? "1" : "0");
     out.text(to_string(answer.tier));

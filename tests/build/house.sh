@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: house.sh SOURCE
-# Every text file names its licence, and every [Key2001] that is cited stands in the bibliography.
+# Every text file names its licence, and every [Key and year] that is cited stands in the bibliography.
 set -euo pipefail
 cd "$1"
 status=0

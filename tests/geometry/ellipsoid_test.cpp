@@ -54,15 +54,16 @@ TEST(Ellipsoid, ConstructorThrowsWithFieldValueAndRule) {
 }
 
 TEST(Ellipsoid, AcceptsTheSmallestAndLargestDoubles) {
-  for (const double r : {std::numeric_limits<double>::denorm_min(),
-                         std::numeric_limits<double>::max()}) {
+  for (const double r :
+       {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()}) {
     EXPECT_EQ(fault_field({-r, r, 0}, {r, r, r}, {r, r, r, r}), "");
     EXPECT_TRUE(rotation_of({r, r, r, r}).allFinite());
   }
 }
 
 TEST(Ellipsoid, OrientationMeansTheRotationOfTheNormalisedQuaternion) {
-  const Mat3 expected = Eigen::AngleAxisd(2 * M_PI / 3, Vec3(1, 1, 1).normalized()).toRotationMatrix();
+  const Mat3 expected =
+      Eigen::AngleAxisd(2 * M_PI / 3, Vec3(1, 1, 1).normalized()).toRotationMatrix();
   for (const double length : {1.0, 0.5, 3.0, 1e-300, 1e300}) {
     const Mat3 r = rotation_of({length, length, length, length});
     EXPECT_LE((r - expected).cwiseAbs().maxCoeff(), 12 * kU) << length;
@@ -100,7 +101,8 @@ RC_GTEST_PROP(EllipsoidProperty, SupportPointIsOnTheSurfaceAndNoPointOfTheSolidR
   RC_ASSERT(n.dot(e.support_point(m)) <= e.support(n) + bound);
 }
 
-RC_GTEST_PROP(EllipsoidProperty, SolidDependsOnNeitherSignNorLengthOfTheQuaternionNorOrderOfAxes, ()) {
+RC_GTEST_PROP(EllipsoidProperty, SolidDependsOnNeitherSignNorLengthOfTheQuaternionNorOrderOfAxes,
+              ()) {
   const Ellipsoid e = *testing::ellipsoid(100);
   const Vec3 n = *testing::direction();
   const Quaterniond q = e.orientation();

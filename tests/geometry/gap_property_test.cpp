@@ -137,7 +137,8 @@ struct Motion {
   Vec3 shape() { return {std::exp(draw(-1, 1)), std::exp(draw(-1, 1)), std::exp(draw(-1, 1))}; }
 
   Ellipsoid at(double time) const {
-    const Vec3 c = centre + 3 * swing.cwiseProduct((4 * phase + Vec3::Constant(time)).array().sin().matrix());
+    const Vec3 c =
+        centre + 3 * swing.cwiseProduct((4 * phase + Vec3::Constant(time)).array().sin().matrix());
     const double angle = spin.norm() * time;
     return {c, b, Eigen::Quaterniond(Eigen::AngleAxisd(angle, spin.normalized())) * start};
   }
@@ -191,7 +192,8 @@ TEST(GapAlongMotions, NeverChangesFasterThanTheMotion) {
       // A turn by w moves no point of B by more than w times its largest semi-axis.
       const double moved = (now.centre() - before.centre()).norm() +
                            motion.spin.norm() * kStep * now.largest_semi_axis();
-      ASSERT_LE(std::abs(next.gap - gap), moved + rounding({a, now})) << "motion " << m << " step " << k;
+      ASSERT_LE(std::abs(next.gap - gap), moved + rounding({a, now}))
+          << "motion " << m << " step " << k;
       fastest = std::max(fastest, std::abs(next.gap - gap) / moved);
       overlapping += next.gap < 0;
       deep += next.status == GapStatus::local;
@@ -199,8 +201,8 @@ TEST(GapAlongMotions, NeverChangesFasterThanTheMotion) {
       before = now;
     }
   }
-  std::printf("%d motions of %d steps, %d overlapping, %d deep: at most %.4f of the motion\n", kMotions,
-              kSteps, overlapping, deep, fastest);
+  std::printf("%d motions of %d steps, %d overlapping, %d deep: at most %.4f of the motion\n",
+              kMotions, kSteps, overlapping, deep, fastest);
   EXPECT_GT(overlapping, kMotions * kSteps / 10);
   EXPECT_GT(deep, 1000);
 }

@@ -50,19 +50,24 @@ Worst run(const ContactFamily& family, int count) {
   }
   const auto& [ac, ar, aq] = worst.row.a;
   const auto& [bc, br, bq] = worst.row.b;
-  std::printf("%s aspect %g, %d contacts, seed %llu: wrong signs %d, not ok %d, largest error %.3g of "
-              "the smallest semi-axis, %.3g u L\n  worst row: "
-              "%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a gap %a\n",
-              family.name.c_str(), family.aspect, count, static_cast<unsigned long long>(kSeed),
-              worst.wrong_sign, worst.not_ok, worst.error_over_smallest_axis, worst.error_over_u_size,
-              ac[0], ac[1], ac[2], ar[0], ar[1], ar[2], aq[0], aq[1], aq[2], aq[3], bc[0], bc[1], bc[2],
-              br[0], br[1], br[2], bq[0], bq[1], bq[2], bq[3], worst.row.gap);
+  std::printf(
+      "%s aspect %g, %d contacts, seed %llu: wrong signs %d, not ok %d, largest error %.3g of "
+      "the smallest semi-axis, %.3g u L\n  worst row: "
+      "%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a,%a gap %a\n",
+      family.name.c_str(), family.aspect, count, static_cast<unsigned long long>(kSeed),
+      worst.wrong_sign, worst.not_ok, worst.error_over_smallest_axis, worst.error_over_u_size,
+      ac[0], ac[1], ac[2], ar[0], ar[1], ar[2], aq[0], aq[1], aq[2], aq[3], bc[0], bc[1], bc[2],
+      br[0], br[1], br[2], bq[0], bq[1], bq[2], bq[3], worst.row.gap);
   return worst;
 }
 
 ContactFamily one_percent(double aspect) {
-  return {"one percent", ContactFamily::Shape::triaxial, aspect, 3,
-          ContactFamily::GapUnit::smallest_semi_axis, 0.01};
+  return {"one percent",
+          ContactFamily::Shape::triaxial,
+          aspect,
+          3,
+          ContactFamily::GapUnit::smallest_semi_axis,
+          0.01};
 }
 
 TEST(GapOfManufacturedContacts, IsWithin1e12OfTheSmallestSemiAxisAtOrdinaryAspects) {
@@ -139,8 +144,8 @@ TEST(Gap, SmallBodyDeepInsideALargeOneLeavesByTheNearestSide) {
 }
 
 ContactFamily extreme(double aspect, double largest_gap_over_rho) {
-  return {"extreme", ContactFamily::Shape::drawn, aspect, 1e4, ContactFamily::GapUnit::rho,
-          largest_gap_over_rho};
+  return {"extreme", ContactFamily::Shape::drawn, aspect,
+          1e4,       ContactFamily::GapUnit::rho, largest_gap_over_rho};
 }
 
 TEST(Gap, IsRightForEveryAspectRatioTo1e8) {
@@ -191,8 +196,10 @@ TEST(Gap, OfScaledPairsScales) {
       ASSERT_LE(std::abs(scaled.gap / scale - gap.gap), bound) << scale;
       // The points move as fast as the normal, whose error is amplified by the shape: as in the
       // property tests, along n they are as good as the gap.
-      ASSERT_LE(std::abs(scaled.normal.dot(scaled.arm_a / scale) - a.support(scaled.normal)), bound);
-      ASSERT_LE(std::abs(scaled.normal.dot(scaled.arm_b / scale) + b.support(scaled.normal)), bound);
+      ASSERT_LE(std::abs(scaled.normal.dot(scaled.arm_a / scale) - a.support(scaled.normal)),
+                bound);
+      ASSERT_LE(std::abs(scaled.normal.dot(scaled.arm_b / scale) + b.support(scaled.normal)),
+                bound);
     }
   }
 }

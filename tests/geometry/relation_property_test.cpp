@@ -26,9 +26,7 @@ bool same(const RelationAnswer& x, const RelationAnswer& y) {
   return x.relation == y.relation && x.inner == y.inner;
 }
 
-bool interiors_meet(Relation r) {
-  return r != Relation::separate && r != Relation::external_touch;
-}
+bool interiors_meet(Relation r) { return r != Relation::separate && r != Relation::external_touch; }
 
 /// Pairs whose coordinates are small integers, among which exact touches, nesting and equality are
 /// frequent.
@@ -75,8 +73,9 @@ RC_GTEST_PROP(RelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
 
 RC_GTEST_PROP(RelationProperty, PermutingAndReflectingCoordinatesLeavesIt, ()) {
   const Pair p = *any_pair();
-  // A cyclic permutation of the coordinates, which is a rotation, then the reflection x -> -x, which
-  // takes the rotation of (w, x, y, z) to that of (w, x, -y, -z) up to the body's own symmetry.
+  // A cyclic permutation of the coordinates, which is a rotation, then the reflection x -> -x,
+  // which takes the rotation of (w, x, y, z) to that of (w, x, -y, -z) up to the body's own
+  // symmetry.
   const auto moved = [](const Ellipsoid& e) {
     const Vec3& c = e.centre();
     const Eigen::Quaterniond& q = e.orientation();
@@ -117,8 +116,8 @@ RC_GTEST_PROP(RelationProperty, GrowingABodyNeverTurnsOverlapsOff, ()) {
 RC_GTEST_PROP(RelationProperty, AgreesWithTheSignOfTheGap, ()) {
   const Pair p = *any_pair();
   const Gap gap = signed_gap(p.a, p.b);
-  const double size = (p.b.centre() - p.a.centre()).norm() + p.a.largest_semi_axis() +
-                      p.b.largest_semi_axis();
+  const double size =
+      (p.b.centre() - p.a.centre()).norm() + p.a.largest_semi_axis() + p.b.largest_semi_axis();
   const bool meet = interiors_meet(relation(p.a, p.b).relation);
   // Within the error that gap.hpp states the sign of the gap is not known.
   if (gap.gap < -0x1p-49 * size) RC_ASSERT(meet);

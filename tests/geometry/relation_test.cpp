@@ -73,10 +73,12 @@ TEST(Relation, HoldsAtTheEndsOfTheRangeOfDoubles) {
   }
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double huge = std::numeric_limits<double>::max();
-  expect_relation(sphere({0, 0, 0}, tiny), sphere({2 * tiny, 0, 0}, tiny), Relation::external_touch);
+  expect_relation(sphere({0, 0, 0}, tiny), sphere({2 * tiny, 0, 0}, tiny),
+                  Relation::external_touch);
   expect_relation(sphere({0, 0, 0}, tiny), sphere({3 * tiny, 0, 0}, tiny), Relation::separate);
   expect_relation(sphere({-huge, 0, 0}, 1), sphere({huge, 0, 0}, 1), Relation::separate);
-  expect_relation(sphere({-huge, 0, 0}, huge), sphere({huge, 0, 0}, huge), Relation::external_touch);
+  expect_relation(sphere({-huge, 0, 0}, huge), sphere({huge, 0, 0}, huge),
+                  Relation::external_touch);
   expect_relation(sphere({0, 0, 0}, tiny), sphere({0, 0, 0}, huge), Relation::a_in_b);
 }
 
@@ -114,8 +116,8 @@ TEST(Relation, IsTheSameInEveryRoundingModeAndWithSubnormalsFlushed) {
   const auto add = [&](const verify::RawEllipsoid& a, const verify::RawEllipsoid& b) {
     cases.push_back({a, b, relation(testing::to_ellipsoid(a), testing::to_ellipsoid(b))});
   };
-  verify::for_each_adversarial_pair(
-      2, 1900, [&](const verify::AdversarialPair& p) { add(p.a, p.b); });
+  verify::for_each_adversarial_pair(2, 1900,
+                                    [&](const verify::AdversarialPair& p) { add(p.a, p.b); });
   for (const auto& family : families::contact_classes()) {
     families::ManufacturedContacts contacts(family, 3);
     for (int i = 0; i < 300; ++i) {

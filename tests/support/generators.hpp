@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// rapidcheck generators of bodies and pairs. Its own generator of doubles makes none of what breaks
-/// contact codes: these make log-uniform shapes and sizes, equal and nearly equal semi-axes, zero
-/// components, quaternions of any length, centres that coincide, and gaps near zero.
+/// rapidcheck generators of bodies and pairs. Its own generator of doubles makes none of what
+/// breaks contact codes: these make log-uniform shapes and sizes, equal and nearly equal semi-axes,
+/// zero components, quaternions of any length, centres that coincide, and gaps near zero.
 #pragma once
 
 #include <rapidcheck.h>
@@ -20,8 +20,9 @@ struct Pair {
 
 /// Uniform in [low, high]; shrinks towards low.
 inline rc::Gen<double> uniform(double low, double high) {
-  return rc::gen::map(rc::gen::inRange<std::int64_t>(0, (std::int64_t{1} << 53) + 1),
-                      [=](std::int64_t k) { return low + (high - low) * (static_cast<double>(k) * 0x1p-53); });
+  return rc::gen::map(
+      rc::gen::inRange<std::int64_t>(0, (std::int64_t{1} << 53) + 1),
+      [=](std::int64_t k) { return low + (high - low) * (static_cast<double>(k) * 0x1p-53); });
 }
 
 inline rc::Gen<double> log_uniform(double low, double high) {
@@ -30,16 +31,17 @@ inline rc::Gen<double> log_uniform(double low, double high) {
 
 /// A unit vector; now and then along a coordinate axis, in a coordinate plane or on a diagonal.
 inline rc::Gen<Vec3> direction() {
-  const auto any = rc::gen::map(rc::gen::pair(uniform(-1, 1), uniform(-M_PI, M_PI)),
-                                [](const std::pair<double, double>& p) {
-                                  const double s = std::sqrt(1 - p.first * p.first);
-                                  return Vec3(s * std::cos(p.second), s * std::sin(p.second), p.first);
-                                });
+  const auto any = rc::gen::map(
+      rc::gen::pair(uniform(-1, 1), uniform(-M_PI, M_PI)), [](const std::pair<double, double>& p) {
+        const double s = std::sqrt(1 - p.first * p.first);
+        return Vec3(s * std::cos(p.second), s * std::sin(p.second), p.first);
+      });
   const auto small = rc::gen::suchThat(
-      rc::gen::map(rc::gen::tuple(rc::gen::inRange(-1, 2), rc::gen::inRange(-1, 2), rc::gen::inRange(-1, 2)),
-                   [](const std::tuple<int, int, int>& t) {
-                     return Vec3(std::get<0>(t), std::get<1>(t), std::get<2>(t));
-                   }),
+      rc::gen::map(
+          rc::gen::tuple(rc::gen::inRange(-1, 2), rc::gen::inRange(-1, 2), rc::gen::inRange(-1, 2)),
+          [](const std::tuple<int, int, int>& t) {
+            return Vec3(std::get<0>(t), std::get<1>(t), std::get<2>(t));
+          }),
       [](const Vec3& v) { return v != Vec3::Zero(); });
   return rc::gen::weightedOneOf<Vec3>(
       {{3, any}, {1, rc::gen::map(small, [](const Vec3& v) { return Vec3(v.normalized()); })}});
@@ -62,8 +64,8 @@ inline rc::Gen<Vec3> semi_axes(double aspect) {
       });
 }
 
-/// Quaternions not 0: generic and of any length, of few non-zero components, the identity, and close
-/// to it.
+/// Quaternions not 0: generic and of any length, of few non-zero components, the identity, and
+/// close to it.
 inline rc::Gen<Eigen::Quaterniond> orientation() {
   const auto c = uniform(-1, 1);
   const auto some = rc::gen::map(
@@ -84,19 +86,20 @@ inline rc::Gen<Eigen::Quaterniond> orientation() {
 
 /// A body near the origin, sizes within a ratio of `size_ratio`.
 inline rc::Gen<Ellipsoid> ellipsoid(double aspect, double size_ratio = 10) {
-  const auto centre = rc::gen::map(rc::gen::pair(direction(), uniform(0, 3)),
-                                   [](const std::pair<Vec3, double>& p) { return Vec3(p.second * p.first); });
-  return rc::gen::map(
-      rc::gen::tuple(centre, semi_axes(aspect), orientation(),
-                     log_uniform(1 / std::sqrt(size_ratio), std::sqrt(size_ratio))),
-      [](const std::tuple<Vec3, Vec3, Eigen::Quaterniond, double>& t) {
-        return Ellipsoid(std::get<0>(t), std::get<3>(t) * std::get<1>(t), std::get<2>(t));
-      });
+  const auto centre =
+      rc::gen::map(rc::gen::pair(direction(), uniform(0, 3)),
+                   [](const std::pair<Vec3, double>& p) { return Vec3(p.second * p.first); });
+  return rc::gen::map(rc::gen::tuple(centre, semi_axes(aspect), orientation(),
+                                     log_uniform(1 / std::sqrt(size_ratio), std::sqrt(size_ratio))),
+                      [](const std::tuple<Vec3, Vec3, Eigen::Quaterniond, double>& t) {
+                        return Ellipsoid(std::get<0>(t), std::get<3>(t) * std::get<1>(t),
+                                         std::get<2>(t));
+                      });
 }
 
 /// A pair whose centres are `fraction` times as far apart as those of a pair that touches with the
-/// same normal: 0 concentric, below 1 overlapping with that normal stationary or better, 1 a touch up
-/// to rounding, above 1 apart.
+/// same normal: 0 concentric, below 1 overlapping with that normal stationary or better, 1 a touch
+/// up to rounding, above 1 apart.
 inline rc::Gen<Pair> pair_at(double aspect, rc::Gen<double> fraction) {
   return rc::gen::map(
       rc::gen::tuple(ellipsoid(aspect), ellipsoid(aspect), direction(), std::move(fraction)),
@@ -109,14 +112,12 @@ inline rc::Gen<Pair> pair_at(double aspect, rc::Gen<double> fraction) {
 
 /// Pairs at every distance: concentric, deep, nearly touching from either side, apart.
 inline rc::Gen<Pair> pair(double aspect) {
-  const auto near = rc::gen::map(rc::gen::pair(log_uniform(1e-16, 1e-2), rc::gen::inRange(0, 2)),
-                                 [](const std::pair<double, int>& p) {
-                                   return p.second == 0 ? 1 - p.first : 1 + p.first;
-                                 });
-  return pair_at(aspect, rc::gen::weightedOneOf<double>({{1, rc::gen::just(0.0)},
-                                                         {3, uniform(0, 1)},
-                                                         {3, near},
-                                                         {2, uniform(1, 5)}}));
+  const auto near = rc::gen::map(
+      rc::gen::pair(log_uniform(1e-16, 1e-2), rc::gen::inRange(0, 2)),
+      [](const std::pair<double, int>& p) { return p.second == 0 ? 1 - p.first : 1 + p.first; });
+  return pair_at(aspect,
+                 rc::gen::weightedOneOf<double>(
+                     {{1, rc::gen::just(0.0)}, {3, uniform(0, 1)}, {3, near}, {2, uniform(1, 5)}}));
 }
 
 }  // namespace tangency::testing
@@ -127,8 +128,8 @@ struct Arbitrary<tangency::Ellipsoid>;  // no default: say which shapes
 
 inline void showValue(const tangency::Ellipsoid& e, std::ostream& os) {
   const auto& q = e.orientation();
-  os << std::hexfloat << "{c " << e.centre().transpose() << " r " << e.semi_axes().transpose() << " q "
-     << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '}';
+  os << std::hexfloat << "{c " << e.centre().transpose() << " r " << e.semi_axes().transpose()
+     << " q " << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '}';
 }
 inline void showValue(const tangency::testing::Pair& p, std::ostream& os) {
   os << "a ";

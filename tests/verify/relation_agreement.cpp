@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies by
-// family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
+// Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies
+// by family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -53,8 +53,8 @@ void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_v
   const auto truth = tangency::verify::exact_relation(raw_a, raw_b);
 
   using TrueRelation = tangency::verify::Relation;
-  const bool meet = truth.relation != TrueRelation::separate &&
-                    truth.relation != TrueRelation::external_touch;
+  const bool meet =
+      truth.relation != TrueRelation::separate && truth.relation != TrueRelation::external_touch;
   const bool same_inner =
       (relation.inner == tangency::Inner::a) == (truth.inner == tangency::verify::Inner::a) &&
       (relation.inner == tangency::Inner::b) == (truth.inner == tangency::verify::Inner::b);
@@ -140,8 +140,8 @@ int main(int argc, char** argv) {
   for (std::thread& thread : pool) thread.join();
 
   Tally all;
-  std::printf("seed %llu\n%-28s %9s %13s %16s %16s\n", static_cast<unsigned long long>(seed), "family",
-              "pairs", "disagreements", "overlaps filter", "relation filter");
+  std::printf("seed %llu\n%-28s %9s %13s %16s %16s\n", static_cast<unsigned long long>(seed),
+              "family", "pairs", "disagreements", "overlaps filter", "relation filter");
   const auto print = [](const char* name, const Tally& t) {
     std::printf("%-28s %9ld %13ld %14.3f %% %14.3f %%\n", name, t.pairs, t.disagreements,
                 100.0 * static_cast<double>(t.overlaps_filter) / static_cast<double>(t.pairs),
