@@ -31,7 +31,7 @@ struct Cell {
   Image image_of(const Vec3& x) const;
 
   /// One step of the homogeneous strain, as the particles take it: length *= 1 + rate dt
-  /// [Ouadfel, eq. 3.33].
+  /// [Ouadfel1998, eq. 3.33].
   void strain(double dt) { length.array() *= 1.0 + rate.array() * dt; }
 
   /// Logarithmic strain from the reference, extension positive.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The linear contact law [Ouadfel, eq. 3.3-3.12].
+/// The linear contact law [Ouadfel1998, eq. 3.3-3.12].
 ///
 /// Signs: a contact force is what particle a does to particle b; the normal points from a to b; so
 /// a normal force > 0 is a push. The shear force is the part in the tangent plane.

@@ -32,7 +32,7 @@ std::optional<Gap> gap_unless_apart(const Ellipsoid& a, const Ellipsoid& b, Cont
   return signed_gap(a, b, contact.branch);
 }
 
-/// Velocity of b relative to a at the contact point, the cell's strain included [Ouadfel,
+/// Velocity of b relative to a at the contact point, the cell's strain included [Ouadfel1998,
 /// eq. 3.1, 3.35].
 Vec3 relative_velocity(const Particles& particles, const Cell& cell, const Pair& pair,
                        const Contact& contact) {

@@ -2,10 +2,11 @@
 /// @file
 /// The servo that strains the cell until the assembly bears the wanted stress.
 ///
-/// The thesis adds gain (p_measured - p_wanted) to the strain rate every cycle [Ouadfel, eq. 3.36];
-/// over a stiffness that is an integral controller on an integrator, which rings for ever. Here the
-/// rate is proportional to the error, with a slow integral part that takes up what creep leaves,
-/// and the error is taken as the strain that would remove it, so that gains need no unit.
+/// The thesis adds gain (p_measured - p_wanted) to the strain rate every cycle [Ouadfel1998,
+/// eq. 3.36]; over a stiffness that is an integral controller on an integrator, which rings for
+/// ever. Here the rate is proportional to the error, with a slow integral part that takes up what
+/// creep leaves, and the error is taken as the strain that would remove it, so that gains need no
+/// unit.
 #pragma once
 
 #include <tangency/dem/observe.hpp>

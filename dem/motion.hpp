@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The law of motion: leapfrog with mass-proportional damping [Ouadfel, eq. 3.15-3.34].
+/// The law of motion: leapfrog with mass-proportional damping [Ouadfel1998, eq. 3.15-3.34].
 ///
 /// Damping acts on the fluctuation, not on the affine motion, so that a strained assembly is not
 /// held back. Rotation follows the simplified Euler equations I w' = M, whose quadratic terms
@@ -36,7 +36,7 @@ void move(Particles& particles, Cell& cell, const Resultants& resultants, double
 Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Vec3& rotation_vector);
 
 /// sqrt(m_min / K_max): the time to which the step is compared. The critical step of one particle
-/// on one spring is twice this [Ouadfel, eq. 3.24].
+/// on one spring is twice this [Ouadfel1998, eq. 3.24].
 double characteristic_time(const Particles& particles, double largest_stiffness);
 
 }  // namespace tangency::dem

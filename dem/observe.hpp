@@ -41,7 +41,7 @@ struct Balance {
   double largest_unbalanced_ratio = 0.0;
   /// Largest moment about the centre over the particle's largest semi-axis, alike.
   double largest_unbalanced_moment_ratio = 0.0;
-  /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton 2000].
+  /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton2000].
   std::int64_t rattlers = 0;
 };
 Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list);

@@ -14,7 +14,7 @@
 
 namespace tangency::dem {
 
-/// The shape of a particle by the thesis' three parameters [Ouadfel, eq. 3.37-3.39].
+/// The shape of a particle by the thesis' three parameters [Ouadfel1998, eq. 3.37-3.39].
 struct Shape {
   double mean_radius;  ///< geometric mean of the semi-axes, > 0, length
   double elongation;   ///< a / b >= 1
@@ -44,7 +44,7 @@ struct Particles {
 /// Volume of an ellipsoid: 4/3 pi a b c.
 double volume_of(const Vec3& semi_axes);
 
-/// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel,
+/// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel1998,
 /// eq. 3.19].
 Vec3 principal_inertia(double mass, const Vec3& semi_axes);
 

@@ -50,7 +50,7 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const LatticePlace
 /// everywhere.
 double uniform(std::mt19937_64& random);
 
-/// A rotation drawn uniformly [Shoemake 1992].
+/// A rotation drawn uniformly [Shoemake1992].
 Eigen::Quaterniond uniform_rotation(std::mt19937_64& random);
 
 }  // namespace tangency::dem

@@ -2,6 +2,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -32,9 +34,18 @@ bool is_name(std::string_view text) {
   });
 }
 
+/// The shortest text that reads back to x: toml++ writes 0.05 with 17 digits.
+std::string text_of(double x) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
+  const std::string text(buffer.data(), end.ptr);
+  return text.find_first_not_of("-0123456789") == text.npos ? text + ".0" : text;
+}
+
 /// A value on one line, as TOML writes it.
 std::string text_of(const toml::node& node) {
   if (node.is_table()) return "a table";
+  if (node.is_floating_point()) return text_of(*node.value<double>());
   std::ostringstream out;
   if (const auto* array = node.as_array()) {
     if (array->is_array_of_tables()) return "a list of tables";
@@ -306,7 +317,8 @@ class Reader {
 
   void read_stages() {
     const toml::node* node = root_.get("stage");
-    if (!node) source_.fail("stage is missing: a list of [[stage]] tables, the first of kind place");
+    if (!node)
+      source_.fail("stage is missing: a list of [[stage]] tables, the first of kind place");
     const toml::array* list = node->as_array();
     if (!list || list->empty() || !list->is_homogeneous<toml::table>())
       source_.fail(node->source(), "stage = " + text_of(*node) + ": a list of [[stage]] tables");
@@ -365,16 +377,16 @@ class Reader {
 
   void check_step(const Section& section, const Compress& stage) const {
     if (stage.damping * stage.time_step_factor > 2.0)
-      section.fail("damping", "with time_step_factor = " + short_text(stage.time_step_factor) +
-                                  " a finite number <= " +
-                                  short_text(2.0 / stage.time_step_factor) +
-                                  ": a step that damps more would turn velocities round");
+      section.fail("damping",
+                   "with time_step_factor = " + short_text(stage.time_step_factor) +
+                       " a finite number <= " + short_text(2.0 / stage.time_step_factor) +
+                       ": a step that damps more would turn velocities round");
     double lightest = std::numeric_limits<double>::infinity();
     for (const Batch& batch : scene_.batches())
       lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes()));
-    const double largest = largest_strain_of_a_step /
-                           (stage.time_step_factor *
-                            std::sqrt(lightest / scene_.laws.largest_stiffness()));
+    const double largest =
+        largest_strain_of_a_step /
+        (stage.time_step_factor * std::sqrt(lightest / scene_.laws.largest_stiffness()));
     if (!(stage.servo.max_strain_rate < largest))
       section.fail("max_strain_rate", "a finite number < " + short_text(largest) +
                                           " (1/s), a strain of " +

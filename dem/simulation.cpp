@@ -26,8 +26,8 @@ constexpr double same_particle = 1e-9;
 void require_equal(const std::string& key, double in_state, double in_scene) {
   if (std::abs(in_state - in_scene) <= same_particle * in_scene) return;
   std::ostringstream text;
-  text << std::setprecision(10) << "a state with " << key << " = " << in_state
-       << "; the scene has " << in_scene;
+  text << std::setprecision(10) << "a state with " << key << " = " << in_state << "; the scene has "
+       << in_scene;
   throw std::invalid_argument(text.str());
 }
 

@@ -83,6 +83,18 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
   return {Relation::overlap, Inner::none, tier};
 }
 
+/// Whatever the filter in double does not tell at once.
+OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
+  const Filtered found =
+      filtered(a, b, Filtered::unknown,
+               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
+                 return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
+               });
+  if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
+  const exact::Position position = exact::position(exact::pair_quartic(a, b));
+  return {position == exact::Position::interiors_meet, Tier::exact};
+}
+
 }  // namespace
 
 std::string_view to_string(Relation relation) noexcept {
@@ -106,14 +118,12 @@ std::string_view to_string(Relation relation) noexcept {
 }
 
 OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  const Filtered found =
-      filtered(a, b, Filtered::unknown,
-               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
-                 return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
-               });
-  if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
-  const exact::Position position = exact::position(exact::pair_quartic(a, b));
-  return {position == exact::Position::interiors_meet, Tier::exact};
+  const Vec3 d = b.centre() - a.centre();
+  if (methods::moderate(a, b, d)) {
+    const Filtered found = OverlapFilter(a, b, d).answer();
+    if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
+  }
+  return doubtful_overlap(a, b);
 }
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {

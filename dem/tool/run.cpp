@@ -16,8 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Above it the motion is no longer slow, and the stresses are not those of a sound run: measured on
-/// shear tests of one sample at growing strain rates.
+/// Above it the motion is no longer slow, and the stresses are not those of a sound run: measured
+/// on shear tests of one sample at growing strain rates.
 constexpr double sound_inertial_fraction = 0.015;
 
 /// In mean radii. Particles stand for rigid ones: the worst case of the published tests is a mean

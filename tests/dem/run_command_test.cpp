@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem` from outside: refusals, results, interruption, resumption.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tangency/dem/observe.hpp>
 #include <thread>
 
 #include "../tool/process.hpp"
@@ -62,7 +65,7 @@ TEST(RunCommand, RefusesAnUnknownKey) {
 
 TEST(RunCommand, RefusesAMissingKey) {
   EXPECT_EQ(refused_change("mean_radius = 10.0\n", ""),
-            ":3: particles.grain.mean_radius is missing: a finite number > 0 (m)");
+            ":3: particles.grain.mean_radius is missing: a finite number from 1e-30 to 1e+30 (m)");
 }
 
 TEST(RunCommand, RefusesWhatIsNoToml) {
@@ -96,6 +99,103 @@ TEST(RunCommand, RefusesAStateThatIsNone) {
             scene + ": no state of tangency-dem: final.state or checkpoint.state of a run");
 }
 
+TEST(RunCommand, RefusesAStateOfOtherParticles) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("first"), "--quiet"}).status, 0);
+  const std::string state = folder.path("first/final.state");
+  const std::string other =
+      folder.write("other.toml", with(small_scene(), "mean_radius = 10.0", "mean_radius = 12.0"));
+  EXPECT_EQ(refused_message(folder, other, {"--resume", state}),
+            state + ": a state with particles.grain.mean_radius = 10; the scene has 12");
+}
+
+TEST(RunCommand, SaysWhereHelpIsWhenTheCommandLineIsRefused) {
+  EXPECT_EQ(
+      run_tool({}).err,
+      "tangency-dem: A subcommand is required (`tangency-dem --help` says what is allowed)\n");
+}
+
+TEST(RunCommand, HelpNamesTheProgramTheFilesAndEveryColumn) {
+  const std::string help = run_tool({"run", "--help"}).out;
+  for (const auto& field : dem::history_fields(0, 0.0, "", dem::Observation{}))
+    EXPECT_NE(help.find(field.name), help.npos) << field.name;
+  for (const char* word :
+       {"history.csv", "summary.json", "final.state", "checkpoint.state", "frames.pvd",
+        "frames.xyz", "wall_seconds", "ns_per_listed_pair_per_cycle", "listed_pairs", "threads",
+        "state_hash", "rattlers", "largest_unbalanced_moment_ratio", "128 + N"})
+    EXPECT_NE(help.find(word), help.npos) << word;
+  EXPECT_EQ(help.find(TANGENCY_TOOL), help.npos) << "the plain name of the program";
+  EXPECT_EQ(run_tool({"--help"}).out.find(TANGENCY_TOOL), std::string::npos);
+}
+
+TEST(RunCommand, VersionAndHelpThatCannotBeWrittenAreNoSuccess) {
+  const Finished version = run_tool({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "tangency-dem " TANGENCY_VERSION "\n");
+  Process::Place full;
+  full.standard_output = "/dev/full";
+  for (const char* argument : {"--version", "--help", "schema"})
+    EXPECT_EQ(run_tool({argument}, "", full).status, 2) << argument;
+}
+
+/// As on a full disk: no file grows beyond `bytes` while this lives, in tools started here too.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, action_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*action_)(int);
+  rlimit before_{};
+};
+
+std::map<std::string, std::string> files_below(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path()] = read_file(entry.path());
+  return files;
+}
+
+TEST(RunCommand, ResumedOnAFullDiskLeavesEveryEarlierResult) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  const std::string out = folder.path("out");
+  ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  const auto before = files_below(out);
+  ASSERT_GT(before.at(out + "/frames.xyz").size(), 4096u);
+  for (const rlim_t bytes : {rlim_t{0}, rlim_t{4096}}) {
+    const auto resumed = [&] {
+      const FileSizeLimit full(bytes);
+      return run_tool({"run", scene, "--out", out, "--quiet", "--resume", out + "/final.state"});
+    }();
+    EXPECT_EQ(resumed.status, 2);
+    EXPECT_EQ(lines_in(resumed.err), 1u) << resumed.err;
+    EXPECT_NE(resumed.err.find(": cannot be written"), resumed.err.npos) << resumed.err;
+    EXPECT_TRUE(files_below(out) == before) << bytes;
+  }
+}
+
+TEST(RunCommand, WarnsOfParticlesThatOverlapTooMuch) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("scene.toml", with(small_scene(), "stiffness = 1.5e10", "stiffness = 1e9"));
+  const Finished run = run_tool({"run", scene, "--out", folder.path("out"), "--quiet"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("tangency-dem: stage relax ended with mean overlap 0."), run.err.npos)
+      << run.err;
+  EXPECT_NE(run.err.find("; sound are at most 0.1 and at least 0"), run.err.npos) << run.err;
+}
+
 TEST(RunCommand, RefusesABadCommandLine) {
   for (const Arguments& arguments : {Arguments{}, Arguments{"run"}, Arguments{"walk"},
                                      Arguments{"run", "a.toml", "--threads", "0"}})
@@ -123,7 +223,10 @@ TEST(RunCommand, LeavesHistorySummaryStatesAndFrames) {
   std::istringstream history(read_file(out + "/history.csv"));
   std::string header, line, row;
   std::getline(history, header);
-  while (std::getline(history, line)) row = line;
+  while (std::getline(history, line)) {
+    EXPECT_EQ(line.find(",-0,"), line.npos) << line;
+    row = line;
+  }
   std::istringstream names(header), values(row);
   std::string name, value;
   while (std::getline(names, name, ',') && std::getline(values, value, ',')) {

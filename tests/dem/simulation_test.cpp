@@ -133,6 +133,7 @@ struct Recount {
   Mat3 stress = Mat3::Zero();
   double mean_force = 0.0, worst = 0.0;
   std::size_t contacts = 0;
+  std::int64_t rattlers = 0;
 
   explicit Recount(const Simulation& simulation) {
     const State& state = simulation.state();
@@ -160,19 +161,29 @@ struct Recount {
     mean_force /= static_cast<double>(contacts);
     for (std::size_t i = 0; i < p.size(); ++i)
       if (touching[i] > 0) worst = std::max(worst, resultant[i].norm());
+    rattlers = std::count_if(touching.begin(), touching.end(), [](int count) { return count < 2; });
   }
 };
 
-TEST(Simulation, BringsAssembly125ToItsStressAndIntoBalance) {
-  Simulation simulation(load_scene(std::string(TANGENCY_SCENES) + "/assembly-125.toml"));
+class Assembly : public testing::TestWithParam<const char*> {};
+
+TEST_P(Assembly, ComesToItsStressAndIntoBalance) {
+  Simulation simulation(load_scene(std::string(TANGENCY_SCENES) + "/" + GetParam()));
   run_to_end(simulation);
   const Recount recount(simulation);
   EXPECT_NEAR(recount.stress.trace() / 3.0, 10e6, 0.01 * 10e6);
   EXPECT_LT(recount.worst, 0.01 * recount.mean_force);
   const Observation seen = simulation.observe();
   EXPECT_EQ(static_cast<std::size_t>(seen.contacts), recount.contacts);
+  EXPECT_EQ(seen.balance.rattlers, recount.rattlers);
   EXPECT_NEAR(seen.balance.largest_unbalanced_ratio, recount.worst / recount.mean_force, 1e-6);
   EXPECT_GT(seen.coordination_number, 4.0) << "what stands has at least four contacts";
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, Assembly, testing::Values("assembly-125.toml", "assembly-1000.toml"),
+                         [](const auto& one) {
+                           const std::string file = one.param;
+                           return file.substr(9, file.find('.') - 9);
+                         });
 
 }  // namespace

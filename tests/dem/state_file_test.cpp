@@ -84,6 +84,59 @@ TEST(StateFile, OfAnotherSceneIsRefused) {
                std::invalid_argument);
 }
 
+TEST(StateFile, OfOtherParticlesIsRefusedWithWhatDiffers) {
+  const auto refusal = [](const std::string& before, const std::string& after) -> std::string {
+    try {
+      Simulation(parse_scene(with(small_scene(), before, after), "scene.toml"), half_way().state());
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string state = "a state with particles.grain.";
+  EXPECT_EQ(refusal("radius = 10.0", "radius = 10.1"),
+            state + "mean_radius = 10; the scene has 10.1");
+  EXPECT_EQ(refusal("elongation = 1.4", "elongation = 1.5"),
+            state + "elongation = 1.4; the scene has 1.5");
+  EXPECT_EQ(refusal("elongation = 1.4", "elongation = 1.4\nflatness = 1.2"),
+            state + "flatness = 1; the scene has 1.2");
+  EXPECT_EQ(refusal("count = 27", "density = 1001.0\ncount = 27"),
+            state + "density = 1000; the scene has 1001");
+  EXPECT_EQ(refusal("count = 27", "count = 28"), state + "count = 27; the scene has 28");
+  EXPECT_EQ(refusal("count = 27\nmean_radius = 10.0\nelongation = 1.4\n",
+                    "count = 26\nmean_radius = 10.0\nelongation = 1.4\n"
+                    "[particles.other]\ncount = 1\nmean_radius = 10.0\nelongation = 1.4\n"),
+            state + "count = 27; the scene has 26");
+  EXPECT_EQ(refusal("friction_coefficient = 0.5", "friction_coefficient = 0.4"), "");
+}
+
+TEST(StateFile, WithAnImpossibleNumberIsRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path("a.state");
+  const auto refusal = [&](auto&& change) {
+    State state = half_way().state();
+    change(state);
+    save_state(state, file);
+    return failure(file);
+  };
+  const std::string damaged = file + ": damaged: it holds a ";
+  EXPECT_EQ(refusal([](State& s) { s.stage = 0; }),
+            file + ": damaged: its stage is 0, and a run's are counted from 1");
+  EXPECT_EQ(refusal([](State& s) { s.particles.velocity[3][1] = NAN; }),
+            damaged + "number that is not finite");
+  EXPECT_EQ(refusal([](State& s) { s.time = INFINITY; }), damaged + "number that is not finite");
+  EXPECT_EQ(refusal([](State& s) { s.particles.semi_axes[3][1] = 0.0; }),
+            damaged + "length that is not > 0");
+  EXPECT_EQ(refusal([](State& s) { s.cell.length[2] = -1.0; }), damaged + "length that is not > 0");
+  EXPECT_EQ(refusal([](State& s) { s.particles.mass[0] = 0.0; }), damaged + "mass that is not > 0");
+}
+
+TEST(StateFile, AfterTheLastStageOfItsSceneIsRefused) {
+  State state = half_way().state();
+  state.stage = 4;
+  EXPECT_THROW(Simulation(parse_scene(small_scene(), "scene.toml"), state), std::invalid_argument);
+}
+
 TEST(StateFile, ThatCannotBeWrittenLeavesTheOldOneAndNothingElse) {
   const TemporaryFolder folder;
   // A directory in the file's place: the rename fails after all has been written.
