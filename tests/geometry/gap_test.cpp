@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
@@ -179,6 +180,27 @@ TEST(Gap, FastPathRefusesWhatItWouldGetWrong) {
     }
   }
   EXPECT_GT(refused, 0);
+}
+
+TEST(Gap, OfCentresFurtherApartThanTheLargestDoubleIsInfiniteAlongTheirLine) {
+  const double far = 1.5e308;
+  const Gap gap = signed_gap(Ellipsoid({-far, 0, 0}, {1, 2, 3}), Ellipsoid({far, 0, 0}, {3, 2, 1}));
+  EXPECT_EQ(gap.gap, std::numeric_limits<double>::infinity());
+  EXPECT_LE((gap.normal - Vec3(1, 0, 0)).norm(), 16 * kU);
+  EXPECT_LE((gap.arm_a - Vec3(1, 0, 0)).norm(), 16 * kU);
+  EXPECT_EQ(gap.status, GapStatus::ok);
+}
+
+TEST(Gap, AscentLeavesASaddleAndAMinimum) {
+  // Concentric with parallel axes: -(h_A + h_B) is least along x, a saddle along z, greatest along
+  // y.
+  const Ellipsoid a({0, 0, 0}, {4, 2, 3}), b({0, 0, 0}, {5, 1, 2});
+  const methods::FactoredPair pair(a, b, Vec3::Zero());
+  for (const Vec3& start : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
+    const methods::Stationary found = pair.climb(start);
+    ASSERT_TRUE(found.accepted);
+    EXPECT_NEAR(pair.value(found.normal), -3, 64 * kU);
+  }
 }
 
 TEST(Gap, OfScaledPairsScales) {
