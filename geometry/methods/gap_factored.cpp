@@ -116,12 +116,12 @@ FactoredPair::Tangent FactoredPair::tangent(const Vec3& n) const noexcept {
   // Hess h = (A P A')/h with P = I - y y'; on the tangent basis E that is |P A' E|^2 / h, which
   // keeps its relative accuracy where M/h - x x'/h would cancel.
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(n);
-  const auto half_hessian = [&](const Mat3& factor, const Bodyside& s) {
+  const auto hessian_of = [&](const Mat3& factor, const Bodyside& s) {
     Eigen::Matrix<double, 3, 2> e = factor.transpose() * basis;
     e -= s.y * (s.y.transpose() * e).eval();
     return Eigen::Matrix2d(e.transpose() * e / s.h);
   };
-  const Eigen::Matrix2d hessian = half_hessian(factor_a_, a) + half_hessian(factor_b_, b);
+  const Eigen::Matrix2d hessian = hessian_of(factor_a_, a) + hessian_of(factor_b_, b);
   const double mean = 0.5 * hessian.trace();
   const double difference = 0.5 * (hessian(0, 0) - hessian(1, 1));
   const double spread = std::hypot(difference, hessian(0, 1));

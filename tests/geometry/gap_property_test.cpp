@@ -24,6 +24,17 @@ double rounding(const Pair& p) {
   return 32 * kU * size;
 }
 
+/// Least and largest radius of curvature of a body's surface.
+double least_radius(const Ellipsoid& e) {
+  return e.smallest_semi_axis() * (e.smallest_semi_axis() / e.largest_semi_axis());
+}
+double largest_radius(const Ellipsoid& e) {
+  return e.largest_semi_axis() * (e.largest_semi_axis() / e.smallest_semi_axis());
+}
+
+/// rad; chosen: normals that rounding may turn by more are too close to a tie to be compared.
+constexpr double kComparable = 1e-3;
+
 RC_GTEST_PROP(GapProperty, ConvergesForEveryPairAndPointsAreOnTheCommonNormal, ()) {
   const Pair p = *testing::pair(100);
   const Gap g = signed_gap(p.a, p.b);
@@ -34,9 +45,6 @@ RC_GTEST_PROP(GapProperty, ConvergesForEveryPairAndPointsAreOnTheCommonNormal, (
   // sqrt(2 curvature loss), where the loss is rounding and the curvature that of A + (-B).
   const Vec3 between = d + g.arm_b - g.arm_a;
   RC_ASSERT(std::abs(between.dot(g.normal) - g.gap) <= rounding(p));
-  const auto largest_radius = [](const Ellipsoid& e) {
-    return e.largest_semi_axis() * (e.largest_semi_axis() / e.smallest_semi_axis());
-  };
   const double curvature = largest_radius(p.a) + largest_radius(p.b) + std::abs(g.gap);
   RC_ASSERT((between - g.gap * g.normal).norm() <= std::sqrt(2 * curvature * rounding(p)));
   RC_ASSERT(std::abs(g.normal.dot(g.arm_a) - p.a.support(g.normal)) <= rounding(p));
@@ -49,10 +57,6 @@ double normal_tolerance(const Pair& p, double margin) {
   return std::sqrt(4 * rounding(p) / margin) + 16 * kU;
 }
 
-double least_radius(const Ellipsoid& e) {
-  return e.smallest_semi_axis() * (e.smallest_semi_axis() / e.largest_semi_axis());
-}
-
 RC_GTEST_PROP(GapProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   const Pair p = *testing::pair(100);
   const Gap ab = signed_gap(p.a, p.b), ba = signed_gap(p.b, p.a);
@@ -61,12 +65,9 @@ RC_GTEST_PROP(GapProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
     RC_ASSERT(std::abs(ab.gap - ba.gap) <= rounding(p));
     const double margin = ab.gap + least_radius(p.a) + least_radius(p.b);
     const double turn = normal_tolerance(p, margin);
-    if (turn < 1e-3) {
+    if (turn < kComparable) {
       RC_ASSERT((ab.normal + ba.normal).norm() <= turn);
       // A support point moves at most a_max^2 / a_min times as far as the normal turns.
-      const auto largest_radius = [](const Ellipsoid& e) {
-        return e.largest_semi_axis() * (e.largest_semi_axis() / e.smallest_semi_axis());
-      };
       RC_ASSERT((ab.arm_a - ba.arm_b).norm() <= 2 * turn * largest_radius(p.a) + rounding(p));
       RC_ASSERT((ab.arm_b - ba.arm_a).norm() <= 2 * turn * largest_radius(p.b) + rounding(p));
       RC_TAG("normal compared");
@@ -110,7 +111,7 @@ RC_GTEST_PROP(GapProperty, TurningAndMovingBothBodiesLeavesTheGap, ()) {
   RC_ASSERT(std::abs(before.gap - after.gap) <= rounding(p) + rounding(q));
   const double margin = before.gap + least_radius(p.a) + least_radius(p.b);
   const double tolerance = normal_tolerance(p, margin) + normal_tolerance(q, margin);
-  if (tolerance < 1e-3) RC_ASSERT((turn * before.normal - after.normal).norm() <= tolerance);
+  if (tolerance < kComparable) RC_ASSERT((turn * before.normal - after.normal).norm() <= tolerance);
 }
 
 RC_GTEST_PROP(GapProperty, FollowingFromTheOwnNormalStaysThere, ()) {
