@@ -59,20 +59,28 @@ Triple<T> normalised(Triple<T> a) {
   return scaled(T(1 / sqrt(dot(a, a))), a);
 }
 
-// Right-handed with the unit vector n.
+// Right-handed with the unit vector n, which is not along space axis k.
 template <class T>
-std::array<Triple<T>, 2> tangents(const Triple<T>& n) {
-  using std::abs, std::sqrt;
-  std::size_t k = 0;  // the space axis most nearly normal to n
+std::array<Triple<T>, 2> tangents(const Triple<T>& n, std::size_t k) {
+  using std::sqrt;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  const T scale = 1 / sqrt(T(n[i] * n[i] + n[j] * n[j]));
+  Triple<T> s;
+  s[i] = -n[j] * scale;
+  s[j] = n[i] * scale;
+  s[k] = 0;
+  return {s, cross(n, s)};
+}
+
+// The space axis most nearly normal to n.
+template <class T>
+std::size_t most_normal_axis(const Triple<T>& n) {
+  using std::abs;
+  std::size_t k = 0;
   for (std::size_t i = 1; i < 3; ++i) {
     if (abs(n[i]) < abs(n[k])) k = i;
   }
-  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  const T scale = 1 / sqrt(n[i] * n[i] + n[j] * n[j]);
-  Triple<T> s{};
-  s[i] = -n[j] * scale;
-  s[j] = n[i] * scale;
-  return {s, cross(n, s)};
+  return k;
 }
 
 // h and its derivatives at a unit n; e = s, t.
@@ -132,7 +140,7 @@ struct Value {
 template <class T>
 Value<T> value(const Separation<T>& pair, const Triple<T>& unit) {
   using std::sqrt;
-  const auto [s, t] = tangents(unit);
+  const auto [s, t] = tangents(unit, most_normal_axis(unit));
   const Support<T> a = support(pair.a, unit, s, t), b = support(pair.b, unit, s, t);
   const T f = dot(unit, pair.d) - a.h - b.h;
   const T rs = dot(s, pair.d) - a.slope_s - b.slope_s;

@@ -16,8 +16,10 @@
 //  (2) Separate bodies: the normal n ~ ((1-s) M_A + s M_B)^-1 d of the greatest Perram-Wertheim
 //      function F has f(n) = (1 - 1/sqrt F) n.d > 0 [PerramWertheim1985], and ascent never goes
 //      down: it ends in (1).
-//  (3) Deeper pairs: the enclosure (gap_enclosure.hpp) has discarded every normal outside caps on
-//      which f is concave, and the highest of their stationary points is taken.
+//  (3) Two spheres: f differs from n.d by a constant.
+//  (4) Deeper pairs: the enclosure (gap_enclosure.hpp) has discarded every normal outside caps on
+//      which f is concave, and the highest of their stationary points is taken. Where maxima tie
+//      along a curve this proves no more than `unproven`.
 //
 // Identities: (a) signed_gap(b, a).gap == signed_gap(a, b).gap up to the error; (b) so under a
 // common motion, and under a common scaling in proportion; (c) p_B - p_A = gap n, that is d + arm_b
@@ -48,5 +50,10 @@ GapTruth stationary_gap(const RealEllipsoid& a, const RealEllipsoid& b,
 // The global answer. Where several normals tie, one of them. Throws as above.
 GapTruth signed_gap(const RealEllipsoid& a, const RealEllipsoid& b);
 GapTruth signed_gap(const RawEllipsoid& a, const RawEllipsoid& b);
+
+// The global answer and after it, best first, every maximum whose gap is lower by up to `within`
+// >= 0 (in the unit of length); none is left out if the first is `global`, and only the first is
+// marked so. Where normals tie along a curve some of them. Throws as above.
+std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within);
 
 }  // namespace tangency::verify
