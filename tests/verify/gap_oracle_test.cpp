@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The gap oracle against pairs worked out by hand, against contacts manufactured in 200 digits by
+// The gap oracle against pairs worked out by hand, against contacts manufactured in 150 digits by
 // formulas of this file, against the exact relation, and against itself.
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@ namespace tangency::verify {
 namespace {
 
 // What gap.hpp promises, in units of the extent of a pair.
-const Real kGapError("1e-145");
+const Real kGapError("1e-140");
 // Chosen: the normal and the witness points have no bound of their own.
-const Real kNormalError("1e-100");
+const Real kNormalError("1e-90");
 
 Real dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -199,7 +199,7 @@ std::array<RawEllipsoid, 2> near_touch(Sampler& sample, double hard) {
 
 TEST(GapOracle, HasTheSignOfTheExactRelation) {
   Sampler sample(20261123);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const auto [a, b] = near_touch(sample, i % 2 == 0 ? 10 : 1e8);
     const Real gap = signed_gap(a, b).gap;
     const Relation relation = exact_relation(a, b).relation;
@@ -209,7 +209,7 @@ TEST(GapOracle, HasTheSignOfTheExactRelation) {
 
 TEST(GapOracle, KeepsItsIdentities) {
   Sampler sample(20261124);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const auto [a, b] = near_touch(sample, i % 2 == 0 ? 5 : 1e8);
     const RealEllipsoid ra = real(a), rb = real(b);
     const Real size = extent(ra, rb), error = 2 * kGapError * size;
@@ -220,7 +220,7 @@ TEST(GapOracle, KeepsItsIdentities) {
 
     const Real3 d = plus(rb.centre, -1, ra.centre);
     const Real3 between = plus(plus(d, 1, truth.arm_b), -1, truth.arm_a);
-    EXPECT_LE(length(plus(between, -truth.gap, truth.normal)), Real("2e-150") * size);
+    EXPECT_LE(length(plus(between, -truth.gap, truth.normal)), Real("2e-130") * size);
 
     const double factor = i % 4 < 2 ? 0x1p-500 : 0x1p498;  // 1e-150, 1e150
     RawEllipsoid sa = a, sb = b;

@@ -16,7 +16,7 @@ using ascent::cross;
 using ascent::dot;
 
 // Chosen: in units of L; gap.hpp says what follows from it.
-const Real kTolerance("1e-150");
+const Real kTolerance("1e-130");
 // Chosen: a degenerate maximum takes 300 steps, a needle of aspect 1e8 from afar 200.
 constexpr int kMostSteps = 2000;
 constexpr int kMostGuessSteps = 300;
@@ -133,9 +133,9 @@ class Search {
 
   const Separation<Real>& pair() const { return pair_; }
   // Of a gap: gap.hpp.
-  Real error() const { return Real("1e-145") * size_; }
+  Real error() const { return Real("1e-140") * size_; }
 
-  // Where the ascent from `start` leads that begins in long doubles, or all in 200 digits.
+  // Where the ascent from `start` leads that begins in long doubles, or all in 150 digits.
   std::optional<GapTruth> answer(const Real3& start, bool guess) const {
     Real3 from = start;
     if (guess) {

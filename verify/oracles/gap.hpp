@@ -4,9 +4,9 @@
 //
 //     g(A,B) = max over unit n of f(n) = n.d - h_A(n) - h_B(n),   d = c_B - c_A,
 //
-// h the support functions. Found by Newton ascent in 200 digits, which ends only where the gradient
-// of f on the sphere is below 1e-150 L and f is at no saddle, L = |d| + largest semi-axis of A +
-// that of B. Error of `gap` below 1e-145 L.
+// h the support functions. Found by Newton ascent in 150 digits, which ends only where the gradient
+// of f on the sphere is below 1e-130 L and f is at no saddle, L = |d| + largest semi-axis of A +
+// that of B. Error of `gap` below 1e-140 L.
 //
 // Why an answer is the global one (GapTruth::global):
 //
@@ -23,7 +23,7 @@
 //
 // Identities: (a) signed_gap(b, a).gap == signed_gap(a, b).gap up to the error; (b) so under a
 // common motion, and under a common scaling in proportion; (c) p_B - p_A = gap n, that is d + arm_b
-// - arm_a = gap n, to 1e-150 L.
+// - arm_a = gap n, to 1e-130 L.
 #pragma once
 
 #include <array>

@@ -29,10 +29,10 @@ Interval around(const Real& v, const Real& error) {
 
 double middle(const Interval& v) { return v.inf() + (v.sup() - v.inf()) / 2; }
 
-// Lengths in units of 2^unit. The rotation is right to 1e-195, d to 1e-199 of itself; the error
+// Lengths in units of 2^unit. The rotation is right to 1e-145, d to 1e-149 of itself; the error
 // allowed for is greater, but for semi-axes, which are exact, and for d = 0.
 Separation<Interval> enclosed(const Separation<Real>& pair, int unit) {
-  const Real of_axes("1e-150"), of_d("1e-190");
+  const Real of_axes("1e-140"), of_d("1e-140");
   Separation<Interval> result;
   const auto enclose = [&](const Shape<Real>& from, Shape<Interval>& to) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -175,31 +175,44 @@ double upper_bound(const Point& at, double sine) {
          greatest_of_parabola(x * at.rt - y * at.rs, qvv, sine) + mixed;
 }
 
-// A point of the body for (3): the support point of n with those long axes left out whose sign may
-// change on the cap.
-std::array<Interval, 3> point_at_crease(const Shape<Interval>& body, const Side& side,
-                                        const std::array<Interval, 3>& n, double sine) {
-  Interval squares = 0;
-  std::array<Interval, 3> x{0, 0, 0};
+// Takes a point of the body from v, for (3): the support point of n, but along those long axes
+// whose sign may change on the cap whatever leaves least of v.
+void take_point_at_crease(const Shape<Interval>& body, const Side& side,
+                          const std::array<Interval, 3>& n, double sine,
+                          std::array<Interval, 3>& v) {
+  const auto take = [&](const Interval& share, std::size_t k) {
+    for (std::size_t i = 0; i < 3; ++i) v[i] -= share * body.semi_axes[k] * body.axes[k][i];
+  };
+  std::array<Interval, 3> along;
+  std::array<bool, 3> creased;
+  Interval squares = 0, room = 1;  // 1 less the squares of the shares taken
   for (std::size_t k = 0; k < 3; ++k) {
-    const Interval share = dot(body.axes[k], n);
-    const double edge = body.semi_axes[k].sup() * sine;
-    if (abs(share).inf() < sine && edge > side.at.h.inf()) continue;
-    const Interval along = body.semi_axes[k] * share;
-    squares += square(along);
-    for (std::size_t i = 0; i < 3; ++i) x[i] += body.semi_axes[k] * along * body.axes[k][i];
+    const Interval cosine = dot(body.axes[k], n);
+    along[k] = body.semi_axes[k] * cosine;
+    creased[k] = abs(cosine).inf() < sine && body.semi_axes[k].sup() * sine > side.at.h.inf();
+    if (!creased[k]) squares += square(along[k]);
   }
-  if (!(squares.inf() > 0)) return {0, 0, 0};
-  for (Interval& v : x) v /= sqrt(squares);
-  return x;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!creased[k]) continue;
+    // Chosen: what leaves a tenth for the other axes.
+    const double most = std::sqrt(std::max(0.0, room.inf() - 0.01));
+    const double best = middle(dot(body.axes[k], v)) / middle(body.semi_axes[k]);
+    const Interval share = std::clamp(best, -most, most);
+    take(share, k);
+    room -= square(share);
+  }
+  if (!(squares.inf() > 0)) return;
+  const Interval per = Interval(sqrt(room).inf()) / sqrt(squares);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!creased[k]) take(along[k] * per, k);
+  }
 }
 
 // (3): an upper bound of f on the cap of sine `sine` about the point.
 double upper_bound_by_plane(const Separation<Interval>& pair, const Point& at, double sine) {
-  const auto xa = point_at_crease(pair.a, at.a, at.n, sine);
-  const auto xb = point_at_crease(pair.b, at.b, at.n, sine);
-  std::array<Interval, 3> v;
-  for (std::size_t i = 0; i < 3; ++i) v[i] = pair.d[i] - xa[i] - xb[i];
+  std::array<Interval, 3> v = pair.d;
+  take_point_at_crease(pair.a, at.a, at.n, sine, v);
+  take_point_at_crease(pair.b, at.b, at.n, sine, v);
   const double level = dot(at.n, v).sup();
   const Interval slope = sqrt(square(dot(at.s, v)) + square(dot(at.t, v)));
   const Interval flat = level < 0 ? Interval(level) * cosine_of(sine) : Interval(level);

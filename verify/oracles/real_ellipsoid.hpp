@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Ellipsoids in 200-digit arithmetic: the stored doubles exactly, or bodies that no double can
+// Ellipsoids in 150-digit arithmetic: the stored doubles exactly, or bodies that no double can
 // store.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace tangency::verify {
 
-// MPFR, 200 decimal digits, round to nearest, no overflow within reach of doubles. Chosen: 100
-// digits more than are promised, for shapes and sizes that take 1e50 from them at the worst.
+// MPFR, 150 decimal digits, round to nearest, no overflow within reach of doubles. Chosen: 50 digits
+// more than are promised, for the shapes, sizes and depths that take some away.
 using Real = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<200, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::mpfr_float_backend<150, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
 using Real3 = std::array<Real, 3>;
 
@@ -41,7 +41,7 @@ struct Separation {
   Shape<T> a, b;
 };
 
-// R(q/|q|) and d to 199 digits of themselves. Throws std::invalid_argument as real() does.
+// R(q/|q|) and d to 149 digits of themselves. Throws std::invalid_argument as real() does.
 Separation<Real> separation(const RealEllipsoid& a, const RealEllipsoid& b);
 
 }  // namespace tangency::verify
