@@ -17,6 +17,9 @@
 //
 //  (3) f(n) <= n.(d - x_A - x_B) for any points x_A of A, x_B of B; the points are chosen for the
 //      creases of long bodies, where h turns within a cap.
+//  (4) where |r| > theta max |f + R| on a cap it holds no stationary point; where f + R < 0 for
+//  some
+//      direction at each of its normals it holds no maximum.
 //
 // A box (of a cube's face, seen from its centre, in a cap) is discarded if (1) or (3) lies below a
 // value of f that is reached, or if it lies in a cap by (2) about a maximum that Newton's method
@@ -24,7 +27,7 @@
 // tie along a curve (coaxial spheroids), and then the answer is a width.
 //
 // Identities: (a) lower <= gap <= upper, whatever the budget; (b) `isolated` implies that every
-// normal with f >= lower - within is in one of `caps`, each with at most one stationary normal.
+// local maximum with f >= lower - within is in one of `caps`, each with at most one.
 #pragma once
 
 #include <array>

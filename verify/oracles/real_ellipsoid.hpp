@@ -10,8 +10,8 @@
 
 namespace tangency::verify {
 
-// MPFR, 150 decimal digits, round to nearest, no overflow within reach of doubles. Chosen: 50 digits
-// more than are promised, for the shapes, sizes and depths that take some away.
+// MPFR, 150 decimal digits, round to nearest, no overflow within reach of doubles. Chosen: 50
+// digits more than are promised, for the shapes, sizes and depths that take some away.
 using Real = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<150, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
