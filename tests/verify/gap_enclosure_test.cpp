@@ -121,6 +121,30 @@ TEST(GapEnclosure, KeepsTheMaximaThatAreLowerByWhatIsAskedFor) {
   EXPECT_EQ(gaps[1].gap, -4.125);
 }
 
+TEST(GapEnclosure, MissesNoMaximumWithinWhatIsAskedFor) {
+  Sampler sample(20261130);
+  std::size_t several = 0;
+  for (int i = 0; i < 60; ++i) {
+    auto [a, b] = sample.pair(5, 3);
+    if (i % 2 == 0) b.centre = a.centre;
+    const RealEllipsoid ra = real(a), rb = real(b);
+    const double within = sample.log_uniform(0.01, 1);
+    const auto gaps = highest_gaps(ra, rb, within);
+    ASSERT_TRUE(gaps.front().global);
+    EXPECT_LE(abs(gaps.front().gap - signed_gap(a, b).gap), Real("1e-138"));
+    if (gaps.size() > 1) ++several;
+    for (int k = 0; k < 40; ++k) {
+      const Real found = stationary_gap(ra, rb, sample.vector()).gap;
+      EXPECT_LE(found, gaps.front().gap + Real("1e-138"));
+      if (found < gaps.front().gap - within) continue;
+      EXPECT_TRUE(std::ranges::any_of(
+          gaps, [&](const GapTruth& known) { return abs(known.gap - found) < Real("1e-138"); }))
+          << "pair " << i;
+    }
+  }
+  EXPECT_GE(several, 30U);  // all concentric pairs, and some others
+}
+
 // By the formula of the gap oracle's test; the normals tie on a circle.
 TEST(GapEnclosure, HonoursTheWidthWhereMaximaTieAlongACurve) {
   const double d = 0.5;

@@ -15,7 +15,8 @@ Interval cosine_of(double sine) { return sqrt(Interval(1) - square(Interval(sine
 // Greatest of r x - q x^2 / 2 for |x| <= most.
 double greatest_of_parabola(const Interval& r, const Interval& q, double most) {
   const Interval slope = std::max(-r.inf(), r.sup()), bend = q.inf(), end = most;
-  if (bend.inf() > 0 && slope.sup() < Interval(bend * end).inf()) {
+  // Without the limit where it is not certain to be the end: never less.
+  if (bend.inf() > 0 && !(slope.inf() >= Interval(bend * end).sup())) {
     return Interval(square(slope) / (2 * bend)).sup();
   }
   return Interval(end * (slope - bend * end / 2)).sup();

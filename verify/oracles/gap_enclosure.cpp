@@ -115,7 +115,7 @@ class Search {
     start();
     while (!boxes_.empty() && spent_ < limits_.most_boxes) {
       const Box box = boxes_.front();
-      if (box.upper < wanted() || upper() - lower_ <= limits_.width) break;
+      if (box.upper < wanted() || upper() - lower_ <= limits_.width || box.half < kLeast) break;
       std::ranges::pop_heap(boxes_, by_upper);
       boxes_.pop_back();
       for (const double du : {-box.half / 2, box.half / 2}) {
@@ -128,6 +128,9 @@ class Search {
   }
 
  private:
+  // Where centres and corners of boxes are still exact.
+  static constexpr double kLeast = 0x1p-48;
+
   static bool by_upper(const Box& a, const Box& b) { return a.upper < b.upper; }
 
   // No maximum below is asked for.
@@ -201,6 +204,7 @@ class Search {
     if (box.upper >= wanted()) {
       box.upper = std::min(box.upper, cap::upper_bound_by_plane(pair_, point, radius));
     }
+    if (std::isnan(box.upper)) box.upper = std::numeric_limits<double>::infinity();
     if (box.upper < wanted() || covered(point.n, radius)) return;
     if (limits_.within > 0 && cap::holds_no_maximum(pair_, point, radius)) return;
     // Chosen: where maxima tie along a curve none is alone, and no more are tried.
@@ -247,11 +251,12 @@ GapEnclosure gap_enclosure(const RealEllipsoid& a, const RealEllipsoid& b,
   const Separation<Real> pair = separation(a, b);
   int unit = 0;
   frexp(ascent::extent(pair), &unit);
+  const Separation<Interval> intervals = enclosed(pair, unit);
   const CGAL::Protect_FPU_rounding<true> rounding_up;
   EnclosureLimits scaled = limits;
   scaled.width = std::ldexp(limits.width, -unit);
   scaled.within = std::ldexp(limits.within, -unit);
-  GapEnclosure found = Search(enclosed(pair, unit), scaled).run();
+  GapEnclosure found = Search(intervals, scaled).run();
   found.lower = -std::ldexp(-found.lower, unit);  // rounded up, as all here
   found.upper = std::ldexp(found.upper, unit);
   for (NormalCap& cap : found.caps) cap.upper = std::ldexp(cap.upper, unit);
