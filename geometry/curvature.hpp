@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Curvature of ellipsoids where they touch: what a Hertz law needs [Johnson1985, sec. 4.1].
+///
+/// Curvatures in 1/length, positive (an ellipsoid is convex); directions in space, unit. Where the
+/// outer normal of { c + y : y' M^-1 y <= 1 } is n the surface lies t' K t / 2 below its tangent
+/// plane at a small distance t from the point of touch, K = h M^-1 restricted to the plane, h the
+/// support function.
+///
+/// (1) curvature[0] curvature[1] = h(n)^4 / (a_1 a_2 a_3)^2.
+/// (2) Points where the normals are n and -n have the same curvatures and directions.
+/// (3) A rotation turns the directions; a scaling by s divides the curvatures by s.
+#pragma once
+
+#include <tangency/geometry/ellipsoid.hpp>
+
+namespace tangency {
+
+/// Principal curvatures and directions of a surface, or of the distance between two.
+struct PrincipalCurvatures {
+  double curvature[2];  ///< 1/length, the larger first
+  /// Unit and tangent; direction[0], direction[1] and the normal are a right-handed frame.
+  /// direction[0] is one of two opposite ones, and any tangent where the curvatures are equal
+  /// (umbilics; every point of a sphere).
+  Vec3 direction[2];
+};
+
+/// Of a body's surface where its outer normal is `normal`: at support_point(normal).
+///
+/// Each curvature to a relative error of about 32 u beta, u = 2^-53, beta = a_max / h(n): that is
+/// how much the rounding of n and of the rotation matter, small curvatures included. Directions to
+/// that error times (k_0 + k_1) / (k_0 - k_1). For aspect ratios to 1e70.
+/// @param normal  unit
+PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept;
+
+/// Curvatures at a contact.
+struct ContactCurvature {
+  PrincipalCurvatures a;  ///< of A at its witness point, with its outer normal n
+  PrincipalCurvatures b;  ///< of B at its witness point, with its outer normal -n
+  /// Of the distance between the surfaces, gap + t' (K_A + K_B) t / 2 across the tangent plane,
+  /// with the normal n. In Hertz theory: curvature[0] = 1/R' = 2B and curvature[1] = 1/R'' = 2A,
+  /// the contact ellipse is longest along direction[1], and sqrt(R' R'') is the equivalent radius.
+  PrincipalCurvatures relative;
+};
+
+/// (4) Exchange, contact_curvature(b, a, -normal), exchanges a and b and leaves the relative
+///     curvatures.
+/// (5) The relative curvatures add up to the four of the bodies.
+///
+/// Errors as surface_curvature's, with the larger beta. For pairs whose longest semi-axis is up to
+/// 1e70 times the shortest.
+/// @param normal  unit, from A to B: Gap::normal
+ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
+                                   const Vec3& normal) noexcept;
+
+}  // namespace tangency
