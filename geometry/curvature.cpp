@@ -14,8 +14,8 @@ namespace {
 using methods::PlaneBasis;
 using methods::PlaneTensor;
 
-/// n is unit to rounding; chosen far wider than that and far narrower than a mistake.
-bool is_unit(const Vec3& n) { return std::abs(n.squaredNorm() - 1.0) <= 0x1p-40; }
+// Of |n|^2 from 1: chosen, far wider than rounding and far narrower than a mistake.
+[[maybe_unused]] constexpr double kUnitTolerance = 0x1p-40;
 
 /// Exponent of the largest semi-axis.
 int size_exponent(const Ellipsoid& body) { return exponent_of(body.largest_semi_axis()); }
@@ -45,7 +45,7 @@ PrincipalCurvatures principal(const PlaneTensor& k, const PlaneBasis& basis, dou
 }  // namespace
 
 PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept {
-  assert(is_unit(normal));
+  assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
   const PlaneBasis basis = methods::tangent_basis(normal);
   const int exponent = size_exponent(body);
   return principal(tensor_of(body, basis, normal, exponent), basis, 1.0, exponent);
@@ -53,7 +53,7 @@ PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal)
 
 ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
                                    const Vec3& normal) noexcept {
-  assert(is_unit(normal));
+  assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
   const PlaneBasis basis = methods::tangent_basis(normal);
   const int exponent = std::max(size_exponent(a), size_exponent(b));
   const PlaneTensor ka = tensor_of(a, basis, normal, exponent);

@@ -19,7 +19,7 @@ using Mat218 = Eigen::Matrix<double, 2, 18>;
 
 constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kRounding = 16.0 * kUnitRoundoff;  // of two gaps of 8 u L each
-constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa beta; three digits are left
+constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa' beta; three digits are left
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // of a pair in the unit of its caller
 constexpr int kPolishingSteps = 2;  // a Gap's normal is off by sqrt(u kappa) at most: one may do
 
@@ -75,7 +75,9 @@ struct Expansion {
 
   bool safe(double size) const {
     const double beta = std::max(a.sharpness, b.sharpness);
-    return least > 0.0 && kUnitRoundoff * (size / least) * beta <= kWorstConditioned;
+    const double deep = 1.0 + std::max(0.0, -gap / least);
+    const double kappa = 1.0 + size / least;
+    return least > 0.0 && kUnitRoundoff * kappa * deep * beta <= kWorstConditioned;
   }
 
   Vec3 n;
@@ -99,8 +101,7 @@ void add_body(const Ellipsoid& body, const Side& side, const Expansion& f, doubl
   const Vec3& y = side.y;
   const Vec3& w = side.w;
 
-  // d(support point)/da = R [diag(y) + diag(a) (I - y y') diag(w) / h], diag(a) diag(w) / h =
-  // diag(y)
+  // d(support point)/da = R [diag(y) + diag(a) (I - y y') diag(w) / h], where a_k w_k / h = y_k
   Mat3 shift;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
