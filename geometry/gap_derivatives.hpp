@@ -68,8 +68,8 @@ struct GapDerivatives {
 /// angle; s = 1, t = beta for a semi-axis, for a support point moves beta times as fast. Measured
 /// for aspect ratios to 1000 (tests/geometry/gap_derivatives_test.cpp):
 ///
-///     errors of the gradient  <= 32 u kappa s_i,
-///     errors of the Hessian   <= 32 u kappa' beta t_i t_j / least_radius.
+///     errors of the gradient  <= 16 u kappa s_i,
+///     errors of the Hessian   <= 16 u kappa' beta t_i t_j / least_radius.
 ///
 /// A pair is `degenerate` where u kappa' beta > 2^-10. Where g > -rho, least_radius >= g + rho, rho
 /// the sum of the bodies' a_min^2 / a_max. Ties between *separate* local maxima are known to the

@@ -257,8 +257,8 @@ TEST(GapDerivatives, AreWithinTheirPublishedBoundsAtEveryAspectTo1000) {
   for (const double aspect : {5.0, 100.0, 1000.0}) {
     for (const ContactFamily& family : {touching(aspect, 10), apart(aspect, 10)}) {
       const Worst worst = compare(family, 360);
-      EXPECT_LT(worst.gradient_conditioned, 32) << family.name << aspect;
-      EXPECT_LT(worst.hessian_conditioned, 32) << family.name << aspect;
+      EXPECT_LT(worst.gradient_conditioned, 16) << family.name << aspect;
+      EXPECT_LT(worst.hessian_conditioned, 16) << family.name << aspect;
     }
   }
 }
@@ -268,8 +268,8 @@ TEST(GapDerivatives, OfDeepPairsAreThoseOfTheirBranchWithinTheSameBounds) {
     const Worst worst = compare(touching(20, 3), 270, closer);
     EXPECT_GT(worst.count, 260) << closer;
     EXPECT_EQ(worst.overlapping, worst.count) << closer;
-    EXPECT_LT(worst.gradient_conditioned, 32) << closer;
-    EXPECT_LT(worst.hessian_conditioned, 32) << closer;
+    EXPECT_LT(worst.gradient_conditioned, 16) << closer;
+    EXPECT_LT(worst.hessian_conditioned, 16) << closer;
   }
 }
 
