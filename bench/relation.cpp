@@ -6,7 +6,6 @@
 // pair is in its range), and what the exact tier costs.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 
 #include <tangency/bench/families/adversarial.hpp>
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/exact/pair_quartic.hpp>
 #include <tangency/geometry/methods/overlap_filter.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -28,7 +28,7 @@ using tangency::Ellipsoid;
 using tangency::Tier;
 using tangency::testing::to_ellipsoid;
 
-constexpr std::size_t kInCache = 1024;
+using tangency::bench::kInCache;
 constexpr std::uint64_t kSeed = 20261122;
 
 struct Family {
@@ -71,51 +71,15 @@ std::vector<Family> make_families() {
   return families;
 }
 
-/// The least of several runs is what repeats on a machine that others use too.
-void least_of_repetitions(benchmark::internal::Benchmark* b) {
-  b->MinTime(0.05)->Repetitions(15)->ReportAggregatesOnly(true)->ComputeStatistics(
-      "min", [](const std::vector<double>& times) {
-        return *std::min_element(times.begin(), times.end());
-      });
-}
-
 /// Registers a benchmark of one call per pair of the family.
 template <class Call>
 void add(const std::string& name, const Family& family, const Call& call, double exact_share) {
-  benchmark::RegisterBenchmark(name.c_str(), [&family, call, exact_share](benchmark::State& state) {
-    std::size_t i = 0;
-    for (auto _ : state) {
-      benchmark::DoNotOptimize(call(family.a[i], family.b[i]));
-      if (++i == family.a.size()) i = 0;
-    }
-    state.counters["exact_%"] = 100.0 * exact_share;
-  })->Apply(least_of_repetitions);
+  std::printf("%-44s %.1f %% of the answers from the exact tier\n", name.c_str(),
+              100.0 * exact_share);
+  tangency::bench::add_calls(name, family.a.size(), [&family, call](std::size_t i) {
+    return call(family.a[i], family.b[i]);
+  });
 }
-
-/// Prints each time as a ratio to that of "inverse".
-class RatioReporter : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "min") continue;
-      times_.emplace_back(run.run_name.function_name, run.GetAdjustedCPUTime());
-    }
-  }
-  void Finalize() override {
-    double inverse = 0;
-    for (const auto& [name, time] : times_) {
-      if (name == "inverse") inverse = time;
-    }
-    if (inverse == 0) return;
-    std::printf("\nratio to Eigen's 3x3 inverse (%.2f ns)\n", inverse);
-    for (const auto& [name, time] : times_)
-      std::printf("%-44s %8.1f x\n", name.c_str(), time / inverse);
-  }
-
- private:
-  std::vector<std::pair<std::string, double>> times_;
-};
 
 }  // namespace
 
@@ -123,19 +87,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
 
-  std::vector<Eigen::Matrix3d> matrices(kInCache);
-  std::srand(1);  // Eigen's Random draws from it
-  for (auto& m : matrices) m = Eigen::Matrix3d::Random();
-  benchmark::RegisterBenchmark("inverse", [&](benchmark::State& state) {
-    std::size_t i = 0;
-    for (auto _ : state) {
-      const Eigen::Matrix3d inverse = matrices[i].inverse();
-      benchmark::DoNotOptimize(inverse.data());
-      benchmark::ClobberMemory();
-      if (++i == kInCache) i = 0;
-    }
-  })->Apply(least_of_repetitions);
-
+  tangency::bench::add_inverse();
   const std::vector<Family> families = make_families();
   std::vector<Family> distant;
   for (const Family& family : families) {
@@ -174,7 +126,7 @@ int main(int argc, char** argv) {
         },
         1);
   }
-  RatioReporter reporter;
+  tangency::bench::RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   return 0;
 }

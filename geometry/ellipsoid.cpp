@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include <tangency/geometry/exact/double_double_body.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
@@ -64,17 +65,14 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
 }
 
 Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
-  // A power of two brings the largest component to [1, 2), so that squares stay in range.
-  const int exponent =
-      std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()), exponent_of(q.z())});
-  const double w = scaled_by_power(q.w(), -exponent), x = scaled_by_power(q.x(), -exponent);
-  const double y = scaled_by_power(q.y(), -exponent), z = scaled_by_power(q.z(), -exponent);
-  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-  const double s = 1.0 / (ww + xx + yy + zz), t = 2.0 * s;
-  return (Mat3() << s * (ww + xx - yy - zz), t * (x * y - w * z), t * (z * x + w * y),  //
-          t * (x * y + w * z), s * (ww - xx + yy - zz), t * (y * z - w * x),            //
-          t * (z * x - w * y), t * (y * z + w * x), s * (ww - xx - yy + zz))
-      .finished();
+  const exact::DoubleDoubleMatrix r = exact::double_double_rotation(q);
+  Mat3 rounded;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      rounded(i, j) = r[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].high;
+    }
+  }
+  return rounded;
 }
 
 Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
@@ -86,7 +84,11 @@ Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
   shape_ = with_eigenvalues(rotation_, a2);
   shape_adjugate_ = with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
   shape_determinant_ = a2[0] * a2[1] * a2[2];
-  moderate_ = semi_axes.maxCoeff() <= kModerateLargest && semi_axes.minCoeff() >= kModerateSmallest;
+  largest_ = semi_axes.maxCoeff();
+  smallest_ = semi_axes.minCoeff();
+  least_radius_ = smallest_ * (smallest_ / largest_);
+  is_sphere_ = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
+  moderate_ = largest_ <= kModerateLargest && smallest_ >= kModerateSmallest;
 }
 
 Ellipsoid Ellipsoid::moved_to(const Vec3& centre) const noexcept {

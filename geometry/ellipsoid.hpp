@@ -63,8 +63,8 @@ class Ellipsoid {
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
   const Eigen::Quaterniond& orientation() const noexcept { return orientation_; }
-  /// R(q/|q|), each entry within 12 u of its true value (u = 2^-53; 24 u in a directed rounding
-  /// mode): docs/derivations/relation-filter.md.
+  /// R(q/|q|), each entry r within u |r| + 2^-96 of its true value (u = 2^-53; 2.2 u in a directed
+  /// rounding mode): docs/derivations/relation-filter.md.
   const Mat3& rotation() const noexcept { return rotation_; }
   /// M = R diag(a^2) R', which is (x - c)' M^-1 (x - c) <= 1 as a solid, rounded. Like adjugate and
   /// determinant it overflows or underflows unless moderate().
@@ -76,8 +76,11 @@ class Ellipsoid {
   /// Are all semi-axes within [2^-60, 2^60], so that products of up to ten of them and squares of
   /// distances as moderate neither overflow nor underflow?
   bool moderate() const noexcept { return moderate_; }
-  double largest_semi_axis() const noexcept { return semi_axes_.maxCoeff(); }
-  double smallest_semi_axis() const noexcept { return semi_axes_.minCoeff(); }
+  double largest_semi_axis() const noexcept { return largest_; }
+  double smallest_semi_axis() const noexcept { return smallest_; }
+  /// The least radius of curvature of the surface, smallest^2 / largest, rounded.
+  double least_radius() const noexcept { return least_radius_; }
+  bool is_sphere() const noexcept { return is_sphere_; }
 
   /// The same solid elsewhere, sharing the work of the constructor.
   /// @param centre  finite (asserted)
@@ -107,6 +110,8 @@ class Ellipsoid {
   Symmetric3 shape_;
   Symmetric3 shape_adjugate_;
   double shape_determinant_;
+  double largest_, smallest_, least_radius_;
+  bool is_sphere_;
   bool moderate_;
 };
 

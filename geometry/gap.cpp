@@ -9,6 +9,8 @@
 
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
+#include <tangency/geometry/methods/gap_proof.hpp>
+#include <tangency/geometry/methods/gap_search.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -16,148 +18,264 @@ namespace tangency {
 namespace {
 
 using methods::FactoredPair;
-using methods::GapAt;
+using methods::Finish;
+using methods::GapProof;
+using methods::Pair;
 using methods::Stationary;
 
 constexpr double kUnitRoundoff = 0x1p-53;
-constexpr double kRounding = 16.0 * kUnitRoundoff;  // twice the error of a value, per size of pair
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
+constexpr double kThinnest = 0x1p-300;                    // of the size: Pair's requirement
+// Patches of the sphere: chosen, a hundred times what pairs of aspect 5 need.
+constexpr int kBudget = 20000;
 
-double size_of(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
-  return d.norm() + a.largest_semi_axis() + b.largest_semi_axis();
-}
+struct Solved {
+  GapProof proof;
+  GapTier tier;
+  bool found = true;
+};
 
-/// The least radius of curvature of a body's surface.
-double least_radius(const Ellipsoid& body) {
-  const double smallest = body.smallest_semi_axis();
-  return smallest * (smallest / body.largest_semi_axis());
-}
+/// The bodies as the caller gave them, for the exact relation.
+struct Asked {
+  const Ellipsoid& a;
+  const Ellipsoid& b;
+  const Vec3* separation;  ///< null: that of the centres
 
-bool is_sphere(const Ellipsoid& body) {
-  const Vec3& a = body.semi_axes();
-  return a[0] == a[1] && a[1] == a[2];
-}
-
-/// Value and points at a normal. A stationary normal with gap > -rho is the global answer: a ball
-/// of radius rho rolls inside A + (-B), so that no other normal reaches as far (docs/guide.md).
-Gap stationary_answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) {
-  const GapAt at = methods::gap_at(a, b, d, normal);
-  const double rho = least_radius(a) + least_radius(b);
-  const bool light = at.gap - kRounding * size_of(a, b, d) > -rho;
-  return {at.gap, normal, at.arm_a, at.arm_b, light ? GapStatus::ok : GapStatus::local};
-}
+  Relation relation() const {
+    if (separation == nullptr) return tangency::relation(a, b).relation;
+    return tangency::relation(a.moved_to(Vec3::Zero()), b.moved_to(*separation)).relation;
+  }
+  bool overlaps() const {
+    if (separation == nullptr) return tangency::overlaps(a, b);
+    return tangency::overlaps(a.moved_to(Vec3::Zero()), b.moved_to(*separation));
+  }
+};
 
 /// Two spheres: n along d; A's first body axis where the centres coincide.
-Gap sphere_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+Solved solve_spheres(const Pair& pair) {
+  const double ra = pair.a.semi_axes()[0], rb = pair.b.semi_axes()[0];
   // Divided first: squares of a tiny d would be nothing.
-  const Vec3 n = d == Vec3::Zero() ? Vec3(a.rotation().col(0))
-                                   : Vec3((d / d.cwiseAbs().maxCoeff()).normalized());
-  const double ra = a.semi_axes()[0], rb = b.semi_axes()[0];
-  return {d.stableNorm() - ra - rb, n, ra * n, -rb * n, GapStatus::ok};
+  const double largest = pair.d.cwiseAbs().maxCoeff();
+  const Vec3 n =
+      largest == 0.0 ? Vec3(pair.a.rotation().col(0)) : Vec3((pair.d / largest).normalized());
+  const double distance = pair.d.stableNorm(), gap = (distance - ra) - rb;
+  // |d| errs by 5 u of itself (4 of the norm, one of d), the differences by at most u each.
+  const double error = kUnitRoundoff * (6.01 * distance + 2.01 * (ra + rb));
+  return {{gap, gap - error, gap + error, true, n, ra * n, -rb * n}, GapTier::fast};
 }
 
-/// The best of the ascents from the Perram-Wertheim normal and from the six axes.
-Gap search(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
-  const FactoredPair pair(a, b, d);
-  Gap best{-std::numeric_limits<double>::infinity(), a.rotation().col(0), Vec3::Zero(),
-           Vec3::Zero(), GapStatus::not_converged};
-  // A later start replaces an earlier one by more than rounding only: ties go to the first.
-  const auto consider = [&](const Vec3& start) {
-    const Stationary found = pair.climb(start);
-    if (!found.accepted) return;
-    const Gap answer = stationary_answer(a, b, d, found.normal);
-    if (answer.gap > best.gap + kRounding * pair.size()) best = answer;
-  };
-  if (d != Vec3::Zero()) consider(pair.perram_wertheim_normal());
-  for (int i = 0; i < 6 && best.status != GapStatus::ok; ++i) consider(pair.axis(i));
-  return best;
+/// Proven but for rounding, which leaves no doubt about the sign?
+bool settled(const Pair& pair, const GapProof& proof) {
+  if (!proof.global || !(proof.low > 0.0 || proof.high < 0.0)) return false;
+  return proof.high - proof.gap <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size();
 }
 
-/// The most by which the global gap can exceed that of an answer with gap > -rho: the ball of
-/// radius rho that touches the boundary of A + (-B) at the witness point, seen from the origin.
-double shortfall(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Gap& gap) {
-  const double reach = gap.gap + least_radius(a) + least_radius(b);
-  const Vec3 tangential = d + gap.arm_b - gap.arm_a - gap.gap * gap.normal;
-  const double r2 = tangential.squaredNorm();
-  return r2 / (std::sqrt(reach * reach + r2) + reach);
+Solved search(const Pair& pair, const FactoredPair& factored) {
+  const auto proof = methods::search_sphere(pair, factored, kBudget);
+  if (!proof) return {{}, GapTier::search, false};
+  return {*proof, GapTier::search};
 }
 
-/// The fast path's answer where it is proven: its squares of semi-axes hide the short axes of
-/// extreme shapes, where it may take a normal for stationary that is not.
-std::optional<Gap> proven(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
-                          const Stationary& found) {
-  if (!found.accepted) return std::nullopt;
-  const Gap gap = stationary_answer(a, b, d, found.normal);
-  if (gap.status != GapStatus::ok) return std::nullopt;
-  if (!(shortfall(a, b, d, gap) <= 2.0 * kUnitRoundoff * size_of(a, b, d))) return std::nullopt;
-  return gap;
-}
-
-/// Calls solve(a, b, d) with the pair in units of a power of two, and takes the answer back.
-template <class Solve>
-Gap in_unit_of(const methods::ScaledPair& pair, const Ellipsoid& a, const Ellipsoid& b,
-               const Solve& solve) {
-  Gap gap = solve(pair.a, pair.b, pair.d);
-  gap.gap = std::scalbn(gap.gap, pair.exponent);
-  gap.arm_a = a.support_point(gap.normal);
-  gap.arm_b = -b.support_point(gap.normal);
-  return gap;
-}
-
-/// Calls solve(a, b, d) with the pair itself or, where its size could overflow or underflow on the
-/// way, in units of a power of two.
-template <class Solve>
-Gap in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Solve& solve) {
-  const double largest =
-      std::max({d.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
-  if (largest <= kLargest && largest >= kSmallest) return solve(a, b, d);
-  return in_unit_of(methods::scaled_pair(a, b, d), a, b, solve);
-}
-
-Gap search_globally(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
-  if (is_sphere(a) && is_sphere(b)) return sphere_gap(a, b, d);
-  if (a.moderate() && b.moderate() && d.cwiseAbs().maxCoeff() >= kSmallest) {
-    if (const auto gap = proven(a, b, d, methods::newton(a, b, d))) return *gap;
+/// What is not settled in double.
+Solved solve_hard(const Pair& pair) {
+  const FactoredPair factored(pair.a, pair.b, pair.d);
+  const bool concentric = pair.d == Vec3::Zero();
+  const Stationary found =
+      factored.climb(concentric ? factored.axis(0) : factored.perram_wertheim_normal());
+  if (found.accepted) {
+    const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+    if (proof.global) return {proof, GapTier::factored};
   }
-  return search(a, b, d);
+  return search(pair, factored);
 }
 
-/// The stationary answer that an ascent from `start` leads to.
-Gap follow(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& start) {
-  if (is_sphere(a) && is_sphere(b)) return sphere_gap(a, b, d);
-  if (a.moderate() && b.moderate()) {
-    if (const auto gap = proven(a, b, d, methods::newton_from(a, b, d, start))) return *gap;
+/// Newton's method where `start(finish)` begins, first with an early finish and then, if that was
+/// not enough for the proof, on to a late one. Nothing where it does not settle the pair.
+template <class Start>
+std::optional<GapProof> fast(const Pair& pair, const Start& start) {
+  const Stationary early = start(Finish::early);
+  if (!early.accepted) return std::nullopt;
+  const GapProof proof = methods::prove_gap(pair, early.normal);
+  if (settled(pair, proof)) return proof;
+  const Stationary late = methods::newton_from(pair.a, pair.b, pair.d, early.normal, Finish::late);
+  if (!late.accepted) return std::nullopt;
+  const GapProof better = methods::prove_gap(pair, late.normal);
+  if (settled(pair, better)) return better;
+  return std::nullopt;
+}
+
+Solved solve(const Pair& pair) {
+  if (pair.a.is_sphere() && pair.b.is_sphere()) return solve_spheres(pair);
+  const double reach = pair.d.cwiseAbs().maxCoeff();
+  if (!pair.a.moderate() || !pair.b.moderate() || reach < kSmallest) return solve_hard(pair);
+  Vec3 last;
+  const auto proof = fast(pair, [&](Finish finish) {
+    const Stationary found = methods::newton(pair.a, pair.b, pair.d, finish);
+    last = found.normal;
+    return found;
+  });
+  if (proof) return {*proof, GapTier::fast};
+  if (!last.allFinite()) return solve_hard(pair);
+  const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(last);
+  if (!found.accepted) return solve_hard(pair);
+  const GapProof climbed = methods::prove_gap(pair, found.normal);
+  if (settled(pair, climbed)) return {climbed, GapTier::safeguarded};
+  return solve_hard(pair);
+}
+
+/// The branch that the ascent from `start` leads to.
+Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
+  if (pair.a.is_sphere() && pair.b.is_sphere()) return solve_spheres(pair);
+  if (pair.a.moderate() && pair.b.moderate()) {
+    const auto proof = fast(pair, [&](Finish finish) {
+      return methods::newton_from(pair.a, pair.b, pair.d, start, finish);
+    });
+    if (proof) return {*proof, GapTier::fast};
   }
-  const Stationary found = FactoredPair(a, b, d).climb(start);
-  Gap gap = stationary_answer(a, b, d, found.normal);
-  if (!found.accepted) gap.status = GapStatus::not_converged;
+  const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
+  if (!found.accepted) return solve(pair);
+  const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
-  const bool in_doubt = gap.status != GapStatus::ok && gap.gap < 0.0;
-  if (in_doubt && !overlaps(a.moved_to(Vec3::Zero()), b.moved_to(d)))
-    return search_globally(a, b, d);
+  if (!proof.global && proof.low < 0.0 && !asked.overlaps()) return solve(pair);
+  return {proof, GapTier::factored};
+}
+
+/// Where the proof leaves the sign open, the exact relation decides.
+void settle_sign(Solved& solved, const Asked& asked) {
+  GapProof& proof = solved.proof;
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
+  if (proof.high >= 0.0) solved.tier = GapTier::exact;
+  if (asked.overlaps()) {
+    proof.high = std::min(proof.high, 0.0);
+    proof.low = std::min(proof.low, -kLeast);
+    if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
+  } else if (asked.relation() == Relation::external_touch) {
+    proof.gap = proof.low = proof.high = 0.0;
+  } else {
+    proof.low = 0.0;
+    proof.high = std::max(proof.high, kLeast);
+    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * proof.high, kLeast);
+  }
+}
+
+/// The sign is that of the number before it was scaled, whatever underflows.
+double scaled(double value, int exponent) {
+  if (exponent == 0) return value;
+  const double result = std::scalbn(value, exponent);
+  if (result != 0.0 || value == 0.0) return result;
+  return std::copysign(std::numeric_limits<double>::denorm_min(), value);
+}
+
+Gap finish(Solved solved, const Asked& asked, int exponent) {
+  if (!solved.found) {
+    return {std::numeric_limits<double>::quiet_NaN(),
+            Vec3::UnitX(),
+            Vec3::Zero(),
+            Vec3::Zero(),
+            kInfinity,
+            GapStatus::not_converged,
+            solved.tier};
+  }
+  settle_sign(solved, asked);
+  const GapProof& proof = solved.proof;
+  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low);
+  Gap gap{scaled(proof.gap, exponent),
+          proof.normal,
+          proof.arm_a,
+          proof.arm_b,
+          scaled(error * (1.0 + 0x1p-50), exponent),
+          proof.global ? GapStatus::ok : GapStatus::local,
+          solved.tier};
+  if (exponent != 0) {
+    gap.arm_a = asked.a.support_point(gap.normal);
+    gap.arm_b = -asked.b.support_point(gap.normal);
+  }
   return gap;
+}
+
+/// Is the pair in its own unit what Pair asks for?
+bool in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
+  const double reach = d.cwiseAbs().maxCoeff();
+  const double largest = std::max({reach, a.largest_semi_axis(), b.largest_semi_axis()});
+  if (!(largest <= kLargest && largest >= kSmallest)) return false;
+  if (a.moderate() && b.moderate()) return true;
+  return std::min(a.smallest_semi_axis(), b.smallest_semi_axis()) >= kThinnest;
+}
+
+/// Calls use(pair, exponent) with the pair itself or, where that could overflow or underflow on the
+/// way, in units of 2^exponent.
+template <class Use>
+auto in_unit(const Asked& asked, const Use& use) {
+  const Ellipsoid &a = asked.a, &b = asked.b;
+  const Vec3 d = asked.separation != nullptr ? *asked.separation : Vec3(b.centre() - a.centre());
+  if (in_range(a, b, d)) {
+    const Vec3 low = asked.separation != nullptr
+                         ? Vec3(Vec3::Zero())
+                         : methods::separation_error(a.centre(), b.centre(), d);
+    return use(Pair{a, b, d, low}, 0);
+  }
+  const methods::ScaledPair scaled =
+      asked.separation != nullptr ? methods::scaled_pair(a, b, d) : methods::scaled_pair(a, b);
+  return use(Pair{scaled.a, scaled.b, scaled.d, scaled.d_low}, scaled.exponent);
+}
+
+template <class Solve>
+Gap answer(const Asked& asked, const Solve& solve_pair) {
+  return in_unit(asked, [&](const Pair& pair, int exponent) {
+    return finish(solve_pair(pair), asked, exponent);
+  });
+}
+
+ContactBounds bounds(const Asked& asked, const Gap& gap) {
+  const double axis_a = asked.a.largest_semi_axis(), axis_b = asked.b.largest_semi_axis();
+  if (gap.status != GapStatus::ok) return {2.0, 2.0 * axis_a, 2.0 * axis_b};
+  return in_unit(asked, [&](const Pair& pair, int exponent) -> ContactBounds {
+    // (P) of the derivation: the stored arm's own rounding beside the shift.
+    const auto bound = [&](double shift, const Ellipsoid& body) {
+      const double axis = body.largest_semi_axis(), h = body.support(gap.normal);
+      const double rounding = kUnitRoundoff * (8.0 * axis * (axis / h) + 16.0 * axis);
+      return std::min(2.0 * axis, std::scalbn(shift, exponent) + rounding);
+    };
+    if (pair.a.is_sphere() && pair.b.is_sphere()) {
+      const bool concentric = pair.d == Vec3::Zero();
+      const double turn = concentric ? 2.0 : 8.0 * kUnitRoundoff;
+      return {turn, std::min(turn, 2.0) * axis_a, std::min(turn, 2.0) * axis_b};
+    }
+    const methods::ContactShift shift = methods::bound_shift(pair, gap.normal);
+    return {std::min(2.0, shift.turn + 8.0 * kUnitRoundoff), bound(shift.shift_a, asked.a),
+            bound(shift.shift_b, asked.b)};
+  });
 }
 
 }  // namespace
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
   assert(separation.allFinite());
-  return in_range(a, b, separation, search_globally);
+  return answer({a, b, &separation}, solve);
 }
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  const Vec3 d = b.centre() - a.centre();
-  if (d.allFinite()) return in_range(a, b, d, search_globally);
-  return in_unit_of(methods::scaled_pair(a, b), a, b, search_globally);
+  return answer({a, b, nullptr}, solve);
 }
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept {
   assert(separation.allFinite() && previous_normal != Vec3::Zero());
   const Vec3 start = previous_normal.normalized();
-  return in_range(a, b, separation, [&](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d) {
-    return follow(pa, pb, d, start);
-  });
+  const Asked asked{a, b, &separation};
+  return answer(asked, [&](const Pair& pair) { return follow(pair, start, asked); });
+}
+
+ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept {
+  return bounds({a, b, nullptr}, gap);
+}
+
+ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
+                             const Gap& gap) noexcept {
+  assert(separation.allFinite());
+  return bounds({a, b, &separation}, gap);
 }
 
 }  // namespace tangency

@@ -22,9 +22,18 @@
 namespace tangency {
 
 enum class GapStatus {
-  ok,             ///< the global answer
+  ok,             ///< the global answer, proven
   local,          ///< a stationary answer; that no shorter penetration exists is not proven
   not_converged,  ///< no stationary direction was found: the numbers are not an answer
+};
+
+/// Which method gave the answer, the cheapest first.
+enum class GapTier {
+  fast,         ///< Newton's method with shape matrices, proven in double
+  safeguarded,  ///< ascent with backtracking on factors, proven in double
+  factored,     ///< the same from a start by orthogonal factors, proven in double-double
+  search,       ///< several ascents and the branch and bound over all normals
+  exact,        ///< any of these, and the exact relation decided the sign
 };
 
 /// Gap, normal and witness points of an ordered pair (A, B).
@@ -33,8 +42,17 @@ struct Gap {
   Vec3 normal;  ///< unit, from A to B
   Vec3 arm_a;   ///< p_A - c_A: A's witness point relative to its centre
   Vec3 arm_b;   ///< p_B - c_B: B's witness point relative to its centre
+  /// Proven: |gap - true gap| is at most this where `ok`. Where `local` it bounds the distance to
+  /// the value of the branch (infinite where even that is not proven), and the true gap is at least
+  /// gap - gap_error. docs/derivations/gap-certificate.md
+  double gap_error;
   GapStatus status;
+  GapTier tier;
 };
+
+/// An upper bound of gap_error over u L for bodies of aspect ratios to 100, u = 2^-53, L = |d| +
+/// largest semi-axis of A + that of B.
+inline constexpr double kOrdinaryGapErrorBound = 16.0;
 
 /// The global gap: for overlapping solids the shortest separating translation.
 ///
@@ -43,14 +61,13 @@ struct Gap {
 /// the search: the Perram-Wertheim direction, then the axes of A, then those of B, each pointing
 /// with d (or along its positive body axis where d is normal to it).
 ///
-/// `ok` where the answer is known to be the global one, which a stationary answer with gap > -rho
-/// is (and more than rounding above it), rho = a_min^2/a_max of A plus that of B; deeper pairs are
-/// searched from several starts and the best is returned as `local`.
+/// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B; deeper pairs are
+/// searched, and `ok` where the search over all normals finished within its budget.
 ///
-/// @return where `ok`, gap within 8 u L of the true one, u = 2^-53, L = |d| + largest semi-axis of
-/// A +
-///         that of B (measured for aspect ratios to 1e8, tests/geometry/gap_test.cpp); infinite
-///         where the true one is beyond the range of doubles.
+/// The sign of gap is that of the exact relation: > 0 separate, 0 external_touch, < 0 where the
+/// interiors meet. Assumes the default floating-point environment. Allocates only in tier `exact`.
+///
+/// @return infinite where the true gap is beyond the range of doubles
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
@@ -59,10 +76,24 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) n
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
 /// and stays with the stationary answer it leads to. `ok` where that is known to be global, and
 /// then the same as signed_gap; `local` where not: a shorter way out may exist. Never < 0 for
-/// solids that are apart. Allocates only where a `local` answer has to be held against the exact
-/// relation.
+/// solids that are apart. Allocates only in tier `exact` and where a `local` answer has to be held
+/// against the exact relation.
 /// @param previous_normal  from A to B; not zero, of moderate length
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;
+
+/// How far the normal and the witness points of an answer may be from those of the branch's true
+/// maximum (of the global one where `ok` and it is unique).
+struct ContactBounds {
+  double normal;  ///< of |normal - true normal|
+  double arm_a;   ///< of |arm_a - true arm_a|, in the unit of length
+  double arm_b;
+};
+
+/// @param gap  the answer of signed_gap() or follow_gap() for this pair. Where nothing can be
+///             proven (ties, a status other than ok) the bounds are 2 and the largest diameters.
+ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept;
+ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
+                             const Gap& gap) noexcept;
 
 }  // namespace tangency

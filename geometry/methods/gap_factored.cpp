@@ -53,17 +53,6 @@ struct FactoredPair::Tangent {
   double curvature_noise;
 };
 
-GapAt gap_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) noexcept {
-  const auto arm = [&](const Ellipsoid& body, double& h) -> Vec3 {
-    const Vec3 y = body.semi_axes().cwiseProduct(body.rotation().transpose() * normal);
-    h = length(y);
-    return body.rotation() * body.semi_axes().cwiseProduct(y / h);
-  };
-  double ha, hb;
-  const Vec3 arm_a = arm(a, ha), arm_b = arm(b, hb);
-  return {normal.dot(d) - ha - hb, arm_a, -arm_b};
-}
-
 FactoredPair::FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
     : factor_a_(a.rotation() * a.semi_axes().asDiagonal()),
       factor_b_(b.rotation() * b.semi_axes().asDiagonal()),

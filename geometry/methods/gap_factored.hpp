@@ -10,26 +10,17 @@
 
 namespace tangency::methods {
 
-/// Value and witness points at one normal.
-struct GapAt {
-  double gap;  ///< n.d - h_A(n) - h_B(n)
-  Vec3 arm_a;  ///< x_A(n), from A's centre
-  Vec3 arm_b;  ///< -x_B(n), from B's centre
-};
-
-/// At a unit normal; the gap's error is at most 8 u (|d| + a_A + a_B), u = 2^-53.
-GapAt gap_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal) noexcept;
-
 /// A pair whose size |d| + a_A + a_B is within [2^-60, 2^62].
 class FactoredPair {
  public:
   FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
 
-  /// n.d - h_A - h_B at a unit normal; error as gap_at().
+  /// n.d - h_A - h_B at a unit normal; within 12 u of the size.
   double value(const Vec3& normal) const noexcept;
 
-  /// |d| + a_A + a_B
-  double size() const noexcept { return size_; }
+  /// R diag(a) of A, and of B.
+  const Mat3& factor_a() const noexcept { return factor_a_; }
+  const Mat3& factor_b() const noexcept { return factor_b_; }
 
   /// The Perram-Wertheim normal, by bracketing. Requires d != 0.
   Vec3 perram_wertheim_normal() const noexcept;

@@ -158,8 +158,8 @@ Vec3 OverlapFilter::scaled_normal() const noexcept {
 }
 
 void OverlapFilter::settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
-  normal_ =
-      with_largest_component_near_1(newton_from(a, b, d, scaled_normal().normalized()).normal);
+  const Stationary found = newton_from(a, b, d, scaled_normal().normalized(), Finish::late);
+  normal_ = with_largest_component_near_1(found.normal);
   settled_ = true;
   answer_ = decide_by_factors(a, b, d, normal_);
 }

@@ -2,12 +2,13 @@
 #include <tangency/geometry/methods/scaled_pair.hpp>
 
 #include <algorithm>
-#include <limits>
 
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::methods {
 namespace {
+
+constexpr double kThinnest = 0x1p-300;  // of a size in [1, 4): what gap_cap.hpp asks of a Pair
 
 int exponent_of_all(const Vec3& v) {
   return std::max({exponent_of(v[0]), exponent_of(v[1]), exponent_of(v[2])});
@@ -22,7 +23,7 @@ ScaledPair in_unit(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const 
                    int exponent) {
   const auto body = [&](const Ellipsoid& e) {
     return Ellipsoid(Vec3::Zero(),
-                     scaled(e.semi_axes(), exponent).cwiseMax(std::numeric_limits<double>::min()),
+                     scaled(e.semi_axes(), exponent).cwiseMax(kThinnest),
                      e.orientation());
   };
   return {body(a), body(b), d, d_low, exponent};

@@ -8,8 +8,8 @@
 namespace tangency::methods {
 
 /// A and B about their own centres, and d = c_B - c_A, in units of 2^exponent: the largest of them
-/// in [1, 4). Scaling is exact but for lengths below 2^-1022 in the new unit; a semi-axis below
-/// that becomes it, which changes the gap by less than its rounding.
+/// in [1, 4). Scaling is exact but for lengths below 2^-1022 in the new unit, and for semi-axes below
+/// 2^-300, which become that: for the gap less than its rounding in double-double.
 struct ScaledPair {
   Ellipsoid a, b;
   Vec3 d;

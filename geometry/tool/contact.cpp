@@ -83,11 +83,12 @@ struct Answer {
   Vec3 normal;
   Vec3 point_a;
   Vec3 point_b;
+  double gap_error;
 };
 
 /// The answer that says nothing but why it is empty.
 Answer without_numbers(const RelationAnswer& relation, std::string_view status) {
-  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0};
 }
 
 Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
@@ -102,7 +103,7 @@ Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
   return {exact,        found.status == GapStatus::ok ? "ok" : "local",
           true,         found.gap,
           found.normal, point_a,
-          point_b};
+          point_b,      found.gap_error};
 }
 
 RowOutcome write(const Answer& answer, csv::RowText& out) {
@@ -112,10 +113,10 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
     for (const Vec3* vector : {&answer.normal, &answer.point_a, &answer.point_b}) {
       for (const double component : *vector) out.number(component);
     }
+    out.number(answer.gap_error);
   } else {
-    out.empty(10);
+    out.empty(11);
   }
-  out.empty();  // gap_error
   out.text(answer.status);
   switch (answer.relation.inner) {
     case Inner::none:

@@ -134,6 +134,7 @@ TEST(ContactCommand, NumbersAreThoseOfTheLibraryBitForBit) {
     EXPECT_EQ(cells[0], std::to_string(i));
     EXPECT_EQ(cells[13], gaps[i].status == GapStatus::ok ? "ok" : "local");
     EXPECT_EQ(bits(number(cells[2])), bits(gaps[i].gap));
+    EXPECT_EQ(bits(number(cells[12])), bits(gaps[i].gap_error));
     for (int k = 0; k < 3; ++k) {
       const auto column = static_cast<std::size_t>(k);
       EXPECT_EQ(bits(number(cells[3 + column])), bits(gaps[i].normal[k]));

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tangency/geometry/exact/double_double_body.hpp>
+#include <tangency/geometry/methods/gap_proof.hpp>
+
+namespace tangency::methods {
+namespace {
+
+using exact::DoubleDouble;
+using Vector = exact::DoubleDoubleVector;
+
+constexpr double kValueError = 0x1p-92;  // (V2) of the derivation, of the size of the pair
+constexpr double kRestError = 0x1p-92;   // (R2), of size and largest radii of curvature
+constexpr double kSlightly = 0x1p-20;    // (S)
+constexpr int kMoves = 4;                // chosen: the start is within rounding of the maximum
+
+/// f to first and second order at a normal.
+struct Local {
+  Vec3 normal;
+  DoubleDouble f;
+  Slope slope;
+  Bend bend;
+  Vec3 point_a, point_b;
+};
+
+Vec3 rounded(const Vector& v) { return {v[0].high, v[1].high, v[2].high}; }
+
+Local evaluate(const Pair& pair, const Vec3& normal) {
+  const Vector n = {normal[0], normal[1], normal[2]};
+  const exact::DoubleDoubleSide a(pair.a, n), b(pair.b, n);
+  const Vector point_a = a.support_point(), point_b = b.support_point();
+  const DoubleDouble square = dot(n, n);
+  Vector rest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<int>(i);
+    rest[i] = DoubleDouble(pair.d[k], pair.d_low[k]) - point_a[i] - point_b[i];
+  }
+  // n . rest is n.d - h_A - h_B.
+  const DoubleDouble along = dot(rest, n), part = along / square;
+  const DoubleDouble f = along / sqrt(square);
+  Vec3 r;
+  for (std::size_t i = 0; i < 3; ++i) r[static_cast<int>(i)] = (rest[i] - part * n[i]).high;
+  const auto radius = [](const Ellipsoid& body, const exact::DoubleDoubleSide& side) {
+    return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
+  };
+  const Bend bend = bend_at(pair.a, pair.b, normal, a.support.high, b.support.high);
+  const double error =
+      0x1p-50 * r.norm() + kRestError * (pair.size() + radius(pair.a, a) + radius(pair.b, b));
+  return {normal,
+          f,
+          {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},
+          bend,
+          rounded(point_a),
+          rounded(point_b)};
+}
+
+/// Newton's step towards the maximum; zero where f is not concave.
+Vec3 step(const Local& at) {
+  Vec3 move = Vec3::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double bend = at.bend.curvature[i] + at.slope.value;
+    if (!(bend > 0.0)) return Vec3::Zero();
+    move += at.slope.rest[i] / bend * at.bend.tangent[i];
+  }
+  return move;
+}
+
+/// The double above (below) a + b.
+double sum_up(double a, double b) { return std::nextafter(a + b, GapProof::kUnproven); }
+double sum_down(double a, double b) { return std::nextafter(a + b, -GapProof::kUnproven); }
+
+}  // namespace
+
+CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
+                                    double cap_width) noexcept {
+  const double error = kValueError * pair.size();
+  Local at = evaluate(pair, normal);
+  for (int move = 0; move < kMoves; ++move) {
+    const Vec3 delta = step(at);
+    if (!(delta.norm() > 0x1p-54)) break;
+    const Local next = evaluate(pair, (at.normal + delta).normalized());
+    if (!((next.f - at.f).high > error)) break;
+    at = next;
+  }
+  const Cap cap = cap_around(at.bend, at.slope, cap_width);
+  CapProof proof;
+  proof.cap = cap;
+  proof.low = sum_down(at.f.high, at.f.low - error);
+  proof.global = sum_down(proof.low, pair.least_radius()) > 0.0;
+  // (C): the cap; (B'): the ball of radius rho, which needs no cap.
+  double height = cap.proven ? cap.height : GapProof::kUnproven;
+  if (proof.global && !cap.proven) {
+    height = (std::abs(at.slope.rest[0]) + std::abs(at.slope.rest[1]) + 2.0 * at.slope.error) *
+             (1.0 + kSlightly);
+  }
+  proof.high = sum_up(at.f.high, at.f.low + (error + height * (1.0 + kSlightly)));
+  proof.gap = height < GapProof::kUnproven ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
+  proof.normal = at.normal;
+  proof.arm_a = at.point_a;
+  proof.arm_b = -at.point_b;
+  return proof;
+}
+
+ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept {
+  const Local at = evaluate(pair, normal);
+  const Cap cap = cap_around(at.bend, at.slope, 1.0 / 16);
+  const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
+  if (!cap.proven) return {std::numbers::pi, 2.0 * axis_a, 2.0 * axis_b};
+  // (P): a support point moves by A times the change of its unit vector.
+  const auto shift = [&](double axis, const SideBend& side) {
+    const double bend = in_inverse_norm(cap, side.curvature[0], side.curvature[1]);
+    return std::min(2.0 * axis, 2.5 * axis * cap.eta * std::sqrt(bend / side.h));
+  };
+  const double turn = 2.0 * cap.eta * std::sqrt(in_inverse_norm(cap, 1.0, 1.0));
+  return {(1.0 + kSlightly) * turn, shift(axis_a, at.bend.a), shift(axis_b, at.bend.b)};
+}
+
+}  // namespace tangency::methods

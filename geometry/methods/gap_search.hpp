@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The global gap of deeply overlapping pairs: ascents from several normals, then a bounded branch
+/// and bound over the sphere of normals that proves the best of them to be the greatest
+/// (docs/derivations/gap-certificate.md, section 4).
+#pragma once
+
+#include <optional>
+
+#include <tangency/geometry/methods/gap_factored.hpp>
+#include <tangency/geometry/methods/gap_proof.hpp>
+
+namespace tangency::methods {
+
+/// The best maximum found: `global` where the branch and bound finished. Ties go to the first in
+/// this order: the Perram-Wertheim normal, the axes of A, those of B, each pointing with d (along
+/// its positive direction where d is normal to it), then what the branch and bound comes upon.
+/// Nothing where no ascent ended at a maximum. Allocates nothing.
+/// @param budget  the largest number of patches of the sphere to look at
+std::optional<GapProof> search_sphere(const Pair& pair, const FactoredPair& factored,
+                                      int budget) noexcept;
+
+}  // namespace tangency::methods
