@@ -62,7 +62,7 @@ class Ellipsoid {
   const Vec3& centre() const noexcept { return centre_; }
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
-  const Eigen::Quaterniond& orientation() const noexcept { return orientation_; }
+  Eigen::Quaterniond orientation() const noexcept { return Eigen::Quaterniond(orientation_); }
   /// R(q/|q|), each entry r within u |r| + 2^-96 of its true value (u = 2^-53; 2.2 u in a directed
   /// rounding mode): docs/derivations/relation-filter.md.
   const Mat3& rotation() const noexcept { return rotation_; }
@@ -105,7 +105,9 @@ class Ellipsoid {
  private:
   Vec3 centre_;
   Vec3 semi_axes_;
-  Eigen::Quaterniond orientation_;
+  // Not aligned: the alignment of Quaterniond, and so the layout of this class, would depend on the
+  // instruction set that each of library and user is compiled for.
+  Eigen::Quaternion<double, Eigen::DontAlign> orientation_;
   Mat3 rotation_;
   Symmetric3 shape_;
   Symmetric3 shape_adjugate_;
