@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <iterator>
+
+#include <tangency/bench/peers/peer.hpp>
+
+namespace tangency::peers {
+
+std::vector<std::unique_ptr<Peer>> all_peers() {
+  std::vector<std::unique_ptr<Peer>> peers;
+  for (auto* of_one_library : {&simbody_peers, &fcl_peers, &mujoco_peers})
+    std::ranges::move(of_one_library(), std::back_inserter(peers));
+  return peers;
+}
+
+}  // namespace tangency::peers
