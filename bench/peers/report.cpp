@@ -50,16 +50,31 @@ std::string descriptions(const std::vector<Row>& rows) {
   return text;
 }
 
-std::string yes_or_no(const std::vector<Row>& rows, double inverse) {
-  std::string text =
-      "| family | code | wrong | no answer | of these, program ended | ns | / inverse |\n"
-      "|---|---|---:|---:|---:|---:|---:|\n";
+/// The rows of one code, one a family.
+std::vector<const Row*> rows_of(const std::vector<Row>& rows, const PeerDescription& peer) {
+  std::vector<const Row*> same;
   for (const Row& row : rows) {
-    text += "| " + row.family + " | " + name_of(row.peer) +
-            format(" | %zu | %zu | %zu | %.0f | %.1f |\n", row.score.wrong, row.score.unanswered,
-                   row.ended, row.time, row.time / inverse);
+    if (name_of(row.peer) == name_of(peer)) same.push_back(&row);
   }
-  return text;
+  return same;
+}
+
+std::string yes_or_no(const std::vector<Row>& rows, double inverse) {
+  std::string head = "| code |", rule = "|---|", text;
+  for (const Row* row : rows_of(rows, rows.front().peer)) {
+    head += " " + row->family + ": wrong | none | ns | / inverse |";
+    rule += "---:|---:|---:|---:|";
+  }
+  for (const Row& first : rows) {
+    if (first.family != rows.front().family) continue;
+    text += "| " + name_of(first.peer) + " |";
+    for (const Row* row : rows_of(rows, first.peer)) {
+      text += format(" %zu | %zu%s | %.0f | %.1f |", row->score.wrong, row->score.unanswered,
+                     row->ended > 0 ? "*" : "", row->time, row->time / inverse);
+    }
+    text += "\n";
+  }
+  return head + "\n" + rule + "\n" + text;
 }
 
 std::string gaps(const std::vector<Row>& rows, double inverse, Definition definition) {
