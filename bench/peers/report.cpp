@@ -112,7 +112,8 @@ std::string tables(const std::vector<Row>& rows, double inverse) {
 std::string against_simbody(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
-    if (row.peer.call != kSimbodyTracker) continue;
+    const bool timed = row.time > 0 && row.signed_gap > 0;  // --benchmark_filter leaves some out
+    if (row.peer.call != kSimbodyTracker || !timed) continue;
     text += format(
         "%s: signed_gap %.0f ns, Simbody's ConvexImplicitPair %.0f ns: %.1f x as fast; "
         "largest error %.1e against %.1e\n",
