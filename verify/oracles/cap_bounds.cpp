@@ -94,9 +94,13 @@ double upper_bound(const Point& at, double sine) {
   const Interval quu = square(x) * qss + 2 * x * y * qst + square(y) * qtt;
   const Interval qvv = square(y) * qss - 2 * x * y * qst + square(x) * qtt;
   const Interval quv = x * y * (qtt - qss) + (square(x) - square(y)) * qst;
-  const double mixed = Interval(square(Interval(sine)) * abs(quv)).sup();
-  return at.f.sup() + greatest_of_parabola(x * at.rs + y * at.rt, quu, sine) +
-         greatest_of_parabola(x * at.rt - y * at.rs, qvv, sine) + mixed;
+  // Over the square about the cap in that basis, or over the cap with the least of q.
+  const Interval mixed = square(Interval(sine)) * abs(quv);
+  const double on_square = greatest_of_parabola(x * at.rs + y * at.rt, quu, sine) +
+                           greatest_of_parabola(x * at.rt - y * at.rs, qvv, sine) + mixed.sup();
+  const Interval least_q = Interval(std::min(quu.inf(), qvv.inf())) - abs(quv);
+  const Interval gradient = sqrt(square(at.rs) + square(at.rt));
+  return at.f.sup() + std::min(on_square, greatest_of_parabola(gradient, least_q, sine));
 }
 
 double upper_bound_by_plane(const Separation<Interval>& pair, const Point& at, double sine) {
