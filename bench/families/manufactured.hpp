@@ -58,7 +58,6 @@ class ManufacturedContacts {
   Real uniform(Real low, Real high);
   Real log_uniform(Real high_over_low);  ///< in [1/sqrt, sqrt] of it
   std::array<double, 3> semi_axes(Real size);
-  std::array<double, 4> orientation();
 
   ContactFamily family_;
   std::mt19937_64 random_;

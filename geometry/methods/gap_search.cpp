@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kTie = 2.0 * kUnitRoundoff;        // of the size: the rounding of a value
-constexpr double kValueError = 20 * kUnitRoundoff;  // (T) of the derivation, of the size
+constexpr double kValueError = 32 * kUnitRoundoff;  // (G) of the derivation, of the size
 constexpr std::size_t kMostPeaks = 16;              // chosen: 2 to 6 are common
 constexpr std::size_t kMostPending = 256;  // halvings of 8 triangles to below rounding take 220
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays

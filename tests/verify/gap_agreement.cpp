@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Holds the kernel's gap, its certificate and its bounds on normal and points against the 100-digit
+// oracle, family by family. The merge gate runs a part of it; docs/guide.md names the whole.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <tangency/bench/families/extreme.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/oracles/gap.hpp>
+
+namespace {
+
+using tangency::ContactBounds;
+using tangency::Ellipsoid;
+using tangency::Gap;
+using tangency::GapStatus;
+using tangency::Vec3;
+using tangency::families::RawPair;
+using tangency::verify::GapTruth;
+using tangency::verify::Real;
+using tangency::verify::Real3;
+
+constexpr double kU = 0x1p-53;
+
+/// What is promised of a family.
+struct Limits {
+  double error_near = 4, error_far = 8;  ///< of gap, in u L
+  double gap_error = 100;                ///< in u L, on every `ok`
+  double local_share = 0;
+};
+
+struct Tally {
+  long pairs = 0, ok = 0, local = 0, failed = 0;
+  long wrong_local = 0;  ///< `local` answers that were not the global one
+  long violated = 0;     ///< certificates, signs, and `ok` that is not global
+  long outside = 0;      ///< normals and points beyond their bounds
+  long open = 0;         ///< pairs whose truth the oracle does not prove
+  double error_near = 0, error_far = 0, gap_error = 0;
+  long tiers[5] = {};
+
+  void add(const Tally& other) {
+    pairs += other.pairs, ok += other.ok, local += other.local, failed += other.failed;
+    wrong_local += other.wrong_local, violated += other.violated, outside += other.outside;
+    open += other.open;
+    error_near = std::max(error_near, other.error_near);
+    error_far = std::max(error_far, other.error_far);
+    gap_error = std::max(gap_error, other.gap_error);
+    for (std::size_t i = 0; i < 5; ++i) tiers[i] += other.tiers[i];
+  }
+};
+
+std::mutex printing;
+
+void print_pair(const char* what, const std::string& family, const RawPair& pair, const Gap& gap,
+                const GapTruth& truth) {
+  const std::lock_guard lock(printing);
+  std::printf("%s, %s: gap %a +- %a, true %.17g: ", what, family.c_str(), gap.gap, gap.gap_error,
+              truth.gap.convert_to<double>());
+  for (const auto* e : {&pair.a, &pair.b}) {
+    for (const double x : e->centre) std::printf("%a,", x);
+    for (const double x : e->semi_axes) std::printf("%a,", x);
+    for (const double x : e->orientation) std::printf("%a,", x);
+  }
+  std::printf("\n");
+}
+
+double distance(const Vec3& v, const Real3& w) {
+  Real square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Real c = Real(v[static_cast<int>(i)]) - w[i];
+    square += c * c;
+  }
+  return sqrt(square).convert_to<double>();
+}
+
+void compare(const RawPair& pair, const std::string& family, Tally& tally) {
+  const Ellipsoid a = tangency::testing::to_ellipsoid(pair.a);
+  const Ellipsoid b = tangency::testing::to_ellipsoid(pair.b);
+  const Gap gap = signed_gap(a, b);
+  const GapTruth truth = tangency::verify::signed_gap(pair.a, pair.b);
+  const double axes = a.largest_semi_axis() + b.largest_semi_axis();
+  const double size = (b.centre() - a.centre()).stableNorm() + axes;
+  ++tally.pairs;
+  ++tally.tiers[static_cast<int>(gap.tier)];
+  tally.failed += gap.status == GapStatus::not_converged || !std::isfinite(gap.gap_error);
+  const double error = abs(truth.gap - Real(gap.gap)).convert_to<double>();
+  const bool same_sign = (gap.gap > 0) == (truth.gap > 0) && (gap.gap < 0) == (truth.gap < 0);
+  bool holds = same_sign && Real(gap.gap) - Real(gap.gap_error) <= truth.gap;
+  if (!truth.global) ++tally.open;
+  if (gap.status == GapStatus::local) {
+    ++tally.local;
+    tally.wrong_local += error > 100 * kU * size;
+  } else {
+    ++tally.ok;
+    // Where the oracle has proven less than the kernel, it still knows an upper bound.
+    const Real above = Real(gap.gap) - truth.gap;
+    holds = holds && (truth.global ? error <= gap.gap_error
+                                   : above <= Real(truth.unproven) + Real(gap.gap_error));
+    double& worst = gap.gap > axes ? tally.error_far : tally.error_near;
+    if (truth.global) worst = std::max(worst, error / (kU * size));
+    tally.gap_error = std::max(tally.gap_error, gap.gap_error / (kU * size));
+    const ContactBounds bounds = contact_bounds(a, b, gap);
+    const bool inside = distance(gap.normal, truth.normal) <= bounds.normal &&
+                        distance(gap.arm_a, truth.arm_a) <= bounds.arm_a &&
+                        distance(gap.arm_b, truth.arm_b) <= bounds.arm_b;
+    // Where two normals tie there is no one true normal: gap.hpp.
+    const bool tie =
+        truth.gap < 0 && truth.global && !inside &&
+        tangency::verify::highest_gaps(tangency::verify::real(pair.a),
+                                       tangency::verify::real(pair.b), 2 * gap.gap_error)
+                .size() > 1;
+    if (!inside && !tie) ++tally.outside, print_pair("OUTSIDE", family, pair, gap, truth);
+  }
+  if (!holds) ++tally.violated, print_pair("VIOLATED", family, pair, gap, truth);
+}
+
+struct Family {
+  std::string name;
+  Limits limits;
+  std::function<void(std::uint64_t seed, long count, Tally& tally)> run;
+};
+
+template <class Pairs, class Kind>
+Family make_family(const Kind& kind, const Limits& limits) {
+  return {kind.name, limits, [kind](std::uint64_t seed, long count, Tally& tally) {
+            Pairs pairs(kind, seed);
+            for (long i = 0; i < count; ++i) compare(pairs.next(), kind.name, tally);
+          }};
+}
+
+std::vector<Family> make_families() {
+  std::vector<Family> families;
+  for (const auto& kind : tangency::families::extreme_families()) {
+    Limits limits;
+    if (kind.aspect <= 100) limits.gap_error = tangency::kOrdinaryGapErrorBound;
+    families.push_back(make_family<tangency::families::ExtremePairs>(kind, limits));
+  }
+  for (const auto& kind : tangency::families::deep_families()) {
+    Limits limits;
+    if (kind.aspect <= 100) limits.gap_error = tangency::kOrdinaryGapErrorBound;
+    if (kind.aspect > 5 || kind.within == 0) limits.local_share = 0.01;
+    if (kind.aspect > 20) limits.local_share = 1;
+    families.push_back(make_family<tangency::families::DeepPairs>(kind, limits));
+  }
+  return families;
+}
+
+bool keeps(const Family& family, const Tally& t) {
+  const Limits& limits = family.limits;
+  return t.failed == 0 && t.violated == 0 && t.outside == 0 && t.error_near <= limits.error_near &&
+         t.error_far <= limits.error_far && t.gap_error <= limits.gap_error &&
+         static_cast<double>(t.local) <= limits.local_share * static_cast<double>(t.pairs);
+}
+
+void print(const Family& family, const Tally& t) {
+  std::printf(
+      "%-34s %6ld %5ld %5ld %4ld %4ld %4ld %4ld %8.2f %8.2f %9.2f   %ld/%ld/%ld/%ld/%ld%s\n",
+      family.name.c_str(), t.pairs, t.local, t.wrong_local, t.failed, t.violated, t.outside, t.open,
+      t.error_near, t.error_far, t.gap_error, t.tiers[0], t.tiers[1], t.tiers[2], t.tiers[3],
+      t.tiers[4], keeps(family, t) ? "" : "   BROKEN");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Holds signed_gap against the 100-digit oracle"};
+  long count = 5000;
+  std::uint64_t seed = 20261122;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  std::string only;
+  app.add_option("--per-family", count, "pairs of each family")->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  app.add_option("--threads", threads)->capture_default_str();
+  app.add_option("--only", only, "families whose name contains this");
+  CLI11_PARSE(app, argc, argv);
+
+  std::vector<Family> families = make_families();
+  std::erase_if(families, [&](const Family& f) { return f.name.find(only) == std::string::npos; });
+  constexpr long kPart = 100;
+  const long parts = (count + kPart - 1) / kPart;
+  std::vector<Tally> total(families.size());
+  std::mutex adding;
+  std::atomic<std::size_t> next = 0;
+  const std::size_t jobs = families.size() * static_cast<std::size_t>(parts);
+  const auto work = [&] {
+    for (std::size_t job = next++; job < jobs; job = next++) {
+      const std::size_t f = job / static_cast<std::size_t>(parts);
+      const long part = static_cast<long>(job % static_cast<std::size_t>(parts));
+      Tally tally;
+      families[f].run(seed + job, std::min(kPart, count - part * kPart), tally);
+      const std::lock_guard lock(adding);
+      total[f].add(tally);
+      if (job % 64 == 63) std::fprintf(stderr, "%zu of %zu parts\n", job + 1, jobs);
+    }
+  };
+  std::vector<std::thread> pool;
+  for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
+  for (std::thread& thread : pool) thread.join();
+
+  std::printf(
+      "seed %llu; errors in u L; tiers fast/safeguarded/factored/search/exact\n%-34s %6s %5s %5s "
+      "%4s %4s %4s %4s %8s %8s %9s   tiers\n",
+      static_cast<unsigned long long>(seed), "family", "pairs", "local", "wrong", "fail", "viol",
+      "outs", "open", "near", "far", "gap_error");
+  bool all = !families.empty();
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    print(families[f], total[f]);
+    all = all && keeps(families[f], total[f]) && total[f].pairs == count;
+  }
+  return all ? 0 : 1;
+}
