@@ -65,10 +65,11 @@ Solved solve_spheres(const Pair& pair) {
   return {{gap, gap - error, gap + error, true, n, ra * n, -rb * n}, GapTier::fast};
 }
 
-/// Proven but for rounding, which leaves no doubt about the sign?
+/// Proven to be the maximum but for rounding, which leaves no doubt about the sign?
 bool settled(const Pair& pair, const GapProof& proof) {
   if (!proof.global || !(proof.low > 0.0 || proof.high < 0.0)) return false;
-  return proof.high - proof.gap <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size();
+  const double unit = kUnitRoundoff * pair.size, above = proof.high - proof.gap;
+  return above <= kOrdinaryGapErrorBound * unit && above - (proof.gap - proof.low) <= unit;
 }
 
 Solved search(const Pair& pair, const FactoredPair& factored) {
@@ -91,47 +92,51 @@ Solved solve_hard(const Pair& pair) {
 }
 
 /// Newton's method where `start(finish)` begins, first with an early finish and then, if that was
-/// not enough for the proof, on to a late one. Nothing where it does not settle the pair.
+/// not enough for the proof, on to a late one. False where it does not settle the pair; `normal` is
+/// where it stopped.
 template <class Start>
-std::optional<GapProof> fast(const Pair& pair, const Start& start) {
-  const Stationary early = start(Finish::early);
-  if (!early.accepted) return std::nullopt;
-  const GapProof proof = methods::prove_gap(pair, early.normal);
-  if (settled(pair, proof)) return proof;
-  const Stationary late = methods::newton_from(pair.a, pair.b, pair.d, early.normal, Finish::late);
-  if (!late.accepted) return std::nullopt;
-  const GapProof better = methods::prove_gap(pair, late.normal);
-  if (settled(pair, better)) return better;
-  return std::nullopt;
+bool fast(const Pair& pair, const Start& start, GapProof& proof, Vec3& normal) {
+  Stationary found = start(Finish::early);
+  normal = found.normal;
+  if (!found.accepted) return false;
+  methods::prove_gap(pair, normal, proof);
+  if (settled(pair, proof)) return true;
+  found = methods::newton_from(pair.a, pair.b, pair.d, normal, Finish::late);
+  normal = found.normal;
+  if (!found.accepted) return false;
+  methods::prove_gap(pair, normal, proof);
+  return settled(pair, proof);
 }
 
 Solved solve(const Pair& pair) {
   if (pair.a.is_sphere() && pair.b.is_sphere()) return solve_spheres(pair);
   const double reach = pair.d.cwiseAbs().maxCoeff();
   if (!pair.a.moderate() || !pair.b.moderate() || reach < kSmallest) return solve_hard(pair);
-  Vec3 last;
-  const auto proof = fast(pair, [&](Finish finish) {
-    const Stationary found = methods::newton(pair.a, pair.b, pair.d, finish);
-    last = found.normal;
-    return found;
-  });
-  if (proof) return {*proof, GapTier::fast};
-  if (!last.allFinite()) return solve_hard(pair);
-  const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(last);
+  Solved solved;
+  Vec3 normal;
+  solved.tier = GapTier::fast;
+  const auto start = [&](Finish finish) { return methods::newton(pair.a, pair.b, pair.d, finish); };
+  if (fast(pair, start, solved.proof, normal)) return solved;
+  if (!normal.allFinite()) return solve_hard(pair);
+  const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(normal);
   if (!found.accepted) return solve_hard(pair);
-  const GapProof climbed = methods::prove_gap(pair, found.normal);
-  if (settled(pair, climbed)) return {climbed, GapTier::safeguarded};
-  return solve_hard(pair);
+  methods::prove_gap(pair, found.normal, solved.proof);
+  if (!settled(pair, solved.proof)) return solve_hard(pair);
+  solved.tier = GapTier::safeguarded;
+  return solved;
 }
 
 /// The branch that the ascent from `start` leads to.
 Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   if (pair.a.is_sphere() && pair.b.is_sphere()) return solve_spheres(pair);
-  if (pair.a.moderate() && pair.b.moderate()) {
-    const auto proof = fast(pair, [&](Finish finish) {
-      return methods::newton_from(pair.a, pair.b, pair.d, start, finish);
-    });
-    if (proof) return {*proof, GapTier::fast};
+  Solved solved;
+  Vec3 normal;
+  const auto from_there = [&](Finish finish) {
+    return methods::newton_from(pair.a, pair.b, pair.d, start, finish);
+  };
+  if (pair.a.moderate() && pair.b.moderate() && fast(pair, from_there, solved.proof, normal)) {
+    solved.tier = GapTier::fast;
+    return solved;
   }
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
@@ -168,7 +173,7 @@ double scaled(double value, int exponent) {
   return std::copysign(std::numeric_limits<double>::denorm_min(), value);
 }
 
-Gap finish(Solved solved, const Asked& asked, int exponent) {
+Gap finish(Solved& solved, const Asked& asked, int exponent) {
   if (!solved.found) {
     return {std::numeric_limits<double>::quiet_NaN(),
             Vec3::UnitX(),
@@ -224,7 +229,8 @@ auto in_unit(const Asked& asked, const Use& use) {
 template <class Solve>
 Gap answer(const Asked& asked, const Solve& solve_pair) {
   return in_unit(asked, [&](const Pair& pair, int exponent) {
-    return finish(solve_pair(pair), asked, exponent);
+    Solved solved = solve_pair(pair);
+    return finish(solved, asked, exponent);
   });
 }
 

@@ -14,12 +14,16 @@ struct Pair {
   const Ellipsoid& a;
   const Ellipsoid& b;
   Vec3 d;
-  Vec3 d_low;  ///< c_B - c_A = d + d_low; each component at most u times that of d
+  Vec3 d_low;   ///< c_B - c_A = d + d_low; each component at most u times that of d
+  double size;  ///< |d| + a_A + a_B, the L of every bound
 
-  /// |d| + a_A + a_B, the L of every bound.
-  double size() const noexcept {
-    return d.norm() + (a.largest_semi_axis() + b.largest_semi_axis());
-  }
+  Pair(const Ellipsoid& a_, const Ellipsoid& b_, const Vec3& d_, const Vec3& d_low_) noexcept
+      : a(a_),
+        b(b_),
+        d(d_),
+        d_low(d_low_),
+        size(d_.norm() + (a_.largest_semi_axis() + b_.largest_semi_axis())) {}
+
   /// rho: a ball of this radius rolls inside A + (-B). Rounded down.
   double least_radius() const noexcept {
     return (1.0 - 0x1p-40) * (a.least_radius() + b.least_radius());

@@ -25,7 +25,7 @@ Sides sides(const Pair& pair, const Vec3& n) noexcept {
 
 }  // namespace
 
-GapProof prove_gap(const Pair& pair, const Vec3& normal) noexcept {
+void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
   const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
   const Sides at = sides(pair, normal);
   const Vec3 point_a = at.point.of_a(), point_b = at.point.of_b();
@@ -40,7 +40,6 @@ GapProof prove_gap(const Pair& pair, const Vec3& normal) noexcept {
   const double value_error =
       kUnitRoundoff *
       (6.71 * axes + 5.51 * h + 2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.61 * std::abs(gap));
-  GapProof proof;
   proof.gap = gap;
   proof.low = gap - value_error;
   proof.normal = normal;
@@ -53,7 +52,6 @@ GapProof prove_gap(const Pair& pair, const Vec3& normal) noexcept {
   proof.global = ball > 0.0;
   // (B): the ball seen from the origin.
   proof.high = proof.global ? gap + (value_error + reach2 / ball) : GapProof::kUnproven;
-  return proof;
 }
 
 }  // namespace tangency::methods

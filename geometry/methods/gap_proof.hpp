@@ -36,7 +36,8 @@ struct ContactShift {
 /// In double, by the ball of radius rho that rolls inside A + (-B). `global` where f > -rho is
 /// proven; else high is infinite. Assumes rounding to nearest. Allocates nothing.
 /// @param normal  unit, as Eigen normalises it
-GapProof prove_gap(const Pair& pair, const Vec3& normal) noexcept;
+/// @param proof   what is proven; filled in place, which the fast path is measurably quicker for
+void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept;
 
 /// What prove_gap_in_double_double() knows besides: the cap in which `high` bounds f.
 struct CapProof : GapProof {

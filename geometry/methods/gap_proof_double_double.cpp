@@ -48,7 +48,7 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
   };
   const Bend bend = bend_at(pair.a, pair.b, normal, a.support.high, b.support.high);
   const double error =
-      0x1p-50 * r.norm() + kRestError * (pair.size() + radius(pair.a, a) + radius(pair.b, b));
+      0x1p-50 * r.norm() + kRestError * (pair.size + radius(pair.a, a) + radius(pair.b, b));
   return {normal,
           f,
           {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},
@@ -76,7 +76,7 @@ double sum_down(double a, double b) { return std::nextafter(a + b, -GapProof::kU
 
 CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
                                     double cap_width) noexcept {
-  const double error = kValueError * pair.size();
+  const double error = kValueError * pair.size;
   Local at = evaluate(pair, normal);
   for (int move = 0; move < kMoves; ++move) {
     const Vec3 delta = step(at);

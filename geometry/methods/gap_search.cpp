@@ -34,7 +34,7 @@ struct Triangle {
 class SphereSearch {
  public:
   SphereSearch(const Pair& pair, const FactoredPair& factored)
-      : pair_(pair), factored_(factored), size_(pair.size()) {}
+      : pair_(pair), factored_(factored), size_(pair.size) {}
 
   void climb(const Vec3& start) {
     const Stationary found = factored_.climb(start);

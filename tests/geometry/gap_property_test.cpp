@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <random>
-
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/tests/support/generators.hpp>
 
@@ -16,7 +14,7 @@ using testing::Pair;
 
 constexpr double kU = 0x1p-53;
 
-/// A bound on the error of a reported gap: gap.hpp promises 8 u L, and the doubles of moved and
+/// A bound on the error of a reported gap: kOrdinaryGapErrorBound, and the doubles of moved and
 /// turned bodies are off by as much again.
 double rounding(const Pair& p) {
   const double size = (p.b.centre() - p.a.centre()).norm() + p.a.largest_semi_axis() +
@@ -120,92 +118,6 @@ RC_GTEST_PROP(GapProperty, FollowingFromTheOwnNormalStaysThere, ()) {
   const Gap again = follow_gap(p.a, p.b, p.b.centre() - p.a.centre(), g.normal);
   RC_ASSERT(again.status == g.status);
   RC_ASSERT(std::abs(again.gap - g.gap) <= rounding(p));
-}
-
-/// One body moving along a smooth path past another, turning as it goes.
-struct Motion {
-  explicit Motion(std::uint64_t seed) : random(seed) {
-    for (Vec3* v : {&centre, &swing, &phase, &spin}) {
-      for (double& c : *v) c = draw(-1, 1);
-    }
-    a = shape();
-    b = shape();
-    start = Eigen::Quaterniond(draw(-1, 1), draw(-1, 1), draw(-1, 1), draw(-1, 1)).normalized();
-  }
-  double draw(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  }
-  Vec3 shape() { return {std::exp(draw(-1, 1)), std::exp(draw(-1, 1)), std::exp(draw(-1, 1))}; }
-
-  Ellipsoid at(double time) const {
-    const Vec3 c =
-        centre + 3 * swing.cwiseProduct((4 * phase + Vec3::Constant(time)).array().sin().matrix());
-    const double angle = spin.norm() * time;
-    return {c, b, Eigen::Quaterniond(Eigen::AngleAxisd(angle, spin.normalized())) * start};
-  }
-
-  std::mt19937_64 random;
-  Vec3 centre, swing, phase, spin, a, b;
-  Eigen::Quaterniond start;
-};
-
-TEST(GapAlongMotions, FollowedAnswerIsTheGlobalOneWhereItSaysSoAndNeverOverlapsBodiesApart) {
-  constexpr int kMotions = 300, kSteps = 400;
-  constexpr double kStep = 2 * M_PI / kSteps;
-  int local = 0, jumps = 0;
-  for (int m = 0; m < kMotions; ++m) {
-    const Motion motion(static_cast<std::uint64_t>(m));
-    const Ellipsoid a(Vec3::Zero(), motion.a);
-    Gap followed = signed_gap(a, motion.at(0));
-    for (int k = 1; k <= kSteps; ++k) {
-      const Ellipsoid b = motion.at(k * kStep);
-      followed = follow_gap(a, b, b.centre(), followed.normal);
-      ASSERT_NE(followed.status, GapStatus::not_converged);
-      const Gap global = signed_gap(a, b);
-      const double slack = rounding({a, b});
-      if (followed.status == GapStatus::ok) {
-        ASSERT_LE(std::abs(followed.gap - global.gap), slack) << "motion " << m << " step " << k;
-      } else {
-        ++local;
-        ASSERT_LE(followed.gap, global.gap + slack);
-        jumps += followed.gap < global.gap - slack;
-      }
-      ASSERT_EQ(followed.gap < -slack, global.gap < -slack) << "motion " << m << " step " << k;
-    }
-  }
-  std::printf("%d local answers, %d of them on another branch than the global one\n", local, jumps);
-  EXPECT_GT(jumps, 0);
-}
-
-TEST(GapAlongMotions, NeverChangesFasterThanTheMotion) {
-  constexpr int kMotions = 1000, kSteps = 200;
-  constexpr double kStep = 2 * M_PI / kSteps;
-  double fastest = 0;
-  int overlapping = 0, deep = 0;
-  for (int m = 0; m < kMotions; ++m) {
-    const Motion motion(static_cast<std::uint64_t>(m));
-    const Ellipsoid a(Vec3::Zero(), motion.a);
-    Ellipsoid before = motion.at(0);
-    double gap = signed_gap(a, before).gap;
-    for (int k = 1; k <= kSteps; ++k) {
-      const Ellipsoid now = motion.at(k * kStep);
-      const Gap next = signed_gap(a, now);
-      // A turn by w moves no point of B by more than w times its largest semi-axis.
-      const double moved = (now.centre() - before.centre()).norm() +
-                           motion.spin.norm() * kStep * now.largest_semi_axis();
-      ASSERT_LE(std::abs(next.gap - gap), moved + rounding({a, now}))
-          << "motion " << m << " step " << k;
-      fastest = std::max(fastest, std::abs(next.gap - gap) / moved);
-      overlapping += next.gap < 0;
-      deep += next.status == GapStatus::local;
-      gap = next.gap;
-      before = now;
-    }
-  }
-  std::printf("%d motions of %d steps, %d overlapping, %d deep: at most %.4f of the motion\n",
-              kMotions, kSteps, overlapping, deep, fastest);
-  EXPECT_GT(overlapping, kMotions * kSteps / 10);
-  EXPECT_GT(deep, 1000);
 }
 
 }  // namespace

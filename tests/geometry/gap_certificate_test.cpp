@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the certificate is made of. That it bounds the true error is held against the 100-digit
+// oracle by tests/verify/gap_agreement.cpp.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <limits>
+
+#include <tangency/bench/families/adversarial.hpp>
+#include <tangency/bench/families/extreme.hpp>
+#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/methods/gap_proof.hpp>
+#include <tangency/geometry/methods/gap_search.hpp>
+#include <tangency/geometry/relation.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/tests/support/generators.hpp>
+
+namespace tangency {
+namespace {
+
+using testing::to_ellipsoid;
+
+constexpr double kU = 0x1p-53;
+constexpr std::uint64_t kSeed = 20261122;
+
+double size_of(const Ellipsoid& a, const Ellipsoid& b) {
+  return (b.centre() - a.centre()).stableNorm() + a.largest_semi_axis() + b.largest_semi_axis();
+}
+
+std::array<int, 5> tiers_of(const families::ExtremeFamily& family, int count) {
+  families::ExtremePairs pairs(family, kSeed);
+  std::array<int, 5> tiers{};
+  for (int i = 0; i < count; ++i) {
+    const auto pair = pairs.next();
+    ++tiers[static_cast<std::size_t>(signed_gap(to_ellipsoid(pair.a), to_ellipsoid(pair.b)).tier)];
+  }
+  return tiers;
+}
+
+TEST(GapTiers, OrdinaryContactsAreAnsweredByTheFastPath) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    families::ManufacturedContacts contacts(families::contact_classes()[k], kSeed);
+    int fast = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const auto c = contacts.next();
+      fast += signed_gap(to_ellipsoid(c.a), to_ellipsoid(c.b)).tier == GapTier::fast;
+    }
+    EXPECT_GE(fast, 1990) << families::contact_classes()[k].name;
+  }
+}
+
+TEST(GapTiers, ExtremeShapesNeedEveryTierAndAreAnswered) {
+  std::array<int, 5> total{};
+  for (const auto& family : families::extreme_families()) {
+    const auto tiers = tiers_of(family, 200);
+    for (std::size_t t = 0; t < 5; ++t) total[t] += tiers[t];
+  }
+  std::printf("fast %d, safeguarded %d, factored %d, search %d, exact %d\n", total[0], total[1],
+              total[2], total[3], total[4]);
+  for (const int count : total) EXPECT_GT(count, 0);
+}
+
+TEST(GapSign, IsThatOfTheExactRelationForHostilePairs) {
+  int touches = 0;
+  verify::for_each_adversarial_pair(kSeed, 4000, [&](const verify::AdversarialPair& p) {
+    const Ellipsoid a = to_ellipsoid(p.a), b = to_ellipsoid(p.b);
+    const Gap gap = signed_gap(a, b);
+    switch (relation(a, b).relation) {
+      case Relation::separate:
+        ASSERT_GT(gap.gap, 0.0) << p.family;
+        break;
+      case Relation::external_touch:
+        ++touches;
+        ASSERT_EQ(gap.gap, 0.0) << p.family;
+        ASSERT_EQ(gap.gap_error, 0.0) << p.family;
+        break;
+      default:
+        ASSERT_LT(gap.gap, 0.0) << p.family;
+    }
+  });
+  EXPECT_GT(touches, 100);
+}
+
+TEST(GapSign, IsThatOfTheExactRelationWithAGivenSeparationToo) {
+  verify::for_each_adversarial_pair(kSeed + 1, 2000, [&](const verify::AdversarialPair& p) {
+    const Ellipsoid a = to_ellipsoid(p.a).moved_to(Vec3::Zero());
+    const Vec3 d(p.b.centre[0], p.b.centre[1], p.b.centre[2]);
+    const Ellipsoid b = to_ellipsoid(p.b);
+    const Gap gap = signed_gap(a, b, d), other = signed_gap(a, b);
+    ASSERT_EQ(gap.gap, other.gap) << p.family;
+    const Gap followed = follow_gap(a, b, d, gap.normal);
+    ASSERT_EQ(followed.gap < 0, gap.gap < 0) << p.family;
+    ASSERT_EQ(followed.gap > 0, gap.gap > 0) << p.family;
+  });
+}
+
+TEST(GapError, IsAtMostThePublishedConstantForAspectsTo100) {
+  double largest = 0.0;
+  for (const auto& family : families::extreme_families()) {
+    if (family.aspect > 100) continue;
+    families::ExtremePairs pairs(family, kSeed);
+    for (int i = 0; i < 500; ++i) {
+      const auto pair = pairs.next();
+      const Ellipsoid a = to_ellipsoid(pair.a), b = to_ellipsoid(pair.b);
+      const Gap gap = signed_gap(a, b);
+      ASSERT_EQ(gap.status, GapStatus::ok) << family.name;
+      largest = std::max(largest, gap.gap_error / (kU * size_of(a, b)));
+    }
+  }
+  std::printf("largest gap_error %.2f u L\n", largest);
+  EXPECT_LE(largest, kOrdinaryGapErrorBound);
+  EXPECT_GT(largest, 0.5 * kOrdinaryGapErrorBound);  // a much better bound is to be published
+}
+
+/// The greatest f on a fan of normals around the proof's, out to its cap's edge.
+RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
+  const testing::Pair p = *testing::pair_at(100, testing::uniform(0, 1));
+  const methods::Pair pair{p.a, p.b, p.b.centre() - p.a.centre(), Vec3::Zero()};
+  const methods::FactoredPair factored(pair.a, pair.b, pair.d);
+  const methods::Stationary found = factored.climb(*testing::direction());
+  RC_PRE(found.accepted);
+  // Off the maximum, so that the rest is not rounding.
+  const Vec3 off = (found.normal + 1e-6 * *testing::direction()).normalized();
+  methods::GapProof at;
+  methods::prove_gap(pair, off, at);
+  const Vec3 n = off;
+  const double h_a = p.a.support(n), h_b = p.b.support(n);
+  const methods::Bend bend = methods::bend_at(p.a, p.b, n, h_a, h_b);
+  const Vec3 r = pair.d - at.arm_a + at.arm_b - at.gap * n;
+  const methods::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
+  const methods::Cap cap = methods::cap_around(bend, slope, 1.0);
+  RC_PRE(cap.proven);
+  const double slack = 64 * kU * size_of(p.a, p.b);
+  for (int i = 0; i < 64; ++i) {
+    const double angle = 2 * M_PI * i / 64;
+    const Vec3 e = std::cos(angle) * bend.tangent[0] + std::sin(angle) * bend.tangent[1];
+    const auto stretch = [&](const Ellipsoid& body) {
+      return body.semi_axes().cwiseProduct(body.rotation().transpose() * e).norm();
+    };
+    double edge = std::min(cap.width * h_a / stretch(p.a), cap.width * h_b / stretch(p.b));
+    if (at.gap > 0) edge = std::min(edge, 2 * std::sqrt(cap.width));
+    for (const double part : {1e-7, 1e-5, 1e-3, 0.1, 0.5, 1.0}) {
+      const Vec3 v = (n + part * edge * e).normalized();
+      RC_ASSERT(factored.value(v) <= at.gap + cap.height + slack);
+    }
+  }
+}
+
+TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
+  // Crossed discs about one centre: four maxima, two of them best.
+  const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
+  const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const methods::FactoredPair factored(a, b, pair.d);
+  const auto proof = methods::search_sphere(pair, factored, 20000);
+  ASSERT_TRUE(proof);
+  EXPECT_TRUE(proof->global);
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 200; ++i) {
+    for (int j = 0; j < 200; ++j) {
+      const double z = -1 + (j + 0.5) / 100, s = std::sqrt(1 - z * z), t = M_PI * i / 100;
+      best = std::max(best, factored.value({s * std::cos(t), s * std::sin(t), z}));
+    }
+  }
+  EXPECT_GE(proof->high, best);
+  EXPECT_LE(proof->gap, best + 0.01);
+}
+
+TEST(GapSearch, SaysSoWhereItsBudgetIsSpent) {
+  const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
+  const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const auto proof = methods::search_sphere(pair, methods::FactoredPair(a, b, pair.d), 3);
+  ASSERT_TRUE(proof);
+  EXPECT_FALSE(proof->global);
+}
+
+TEST(GapSearch, CallsATieAlongACurveLocalWithTheRightValue) {
+  // Coaxial and concentric: every normal across the common axis is as good, min(2 + 1, 3 + 9) = 3.
+  const Ellipsoid a({0, 0, 0}, {2, 2, 3}), b({0, 0, 0}, {1, 1, 9});
+  const Gap gap = signed_gap(a, b);
+  EXPECT_EQ(gap.status, GapStatus::local);
+  EXPECT_NEAR(gap.gap, -3, 16 * kU);
+}
+
+TEST(ContactBounds, AreTightForAnOrdinaryContactAndEverythingAtATie) {
+  const Ellipsoid a({0, 0, 0}, {1, 1.5, 2}), b({3, 1, 0.5}, {1.2, 1, 0.8}, {0.5, 0.5, 0.1, 0.3});
+  const ContactBounds bounds = contact_bounds(a, b, signed_gap(a, b));
+  EXPECT_LT(bounds.normal, 1e-14);
+  EXPECT_LT(bounds.arm_a, 2e-14);
+  EXPECT_LT(bounds.arm_b, 2e-14);
+  EXPECT_GT(bounds.normal, 0.0);
+
+  const Ellipsoid c({0, 0, 0}, {2, 2, 3}), d({0, 0, 0}, {1, 1, 9});
+  const ContactBounds tie = contact_bounds(c, d, signed_gap(c, d));
+  EXPECT_EQ(tie.normal, 2.0);
+  EXPECT_EQ(tie.arm_a, 6.0);
+  EXPECT_EQ(tie.arm_b, 18.0);
+}
+
+}  // namespace
+}  // namespace tangency
