@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/time_of_contact.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <tangency/geometry/closest_point.hpp>
+#include <tangency/geometry/methods/moving_pair.hpp>
+#include <tangency/geometry/methods/scaled_pair.hpp>
+#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/relation.hpp>
+
+namespace tangency {
+namespace {
+
+using methods::MovingPair;
+using methods::PairAt;
+
+constexpr int kMaxSteps = 2000;  // chosen: docs/derivations/time-of-contact.md, section 5
+constexpr int kProbes = 24;      // chosen: moments looked at for an overlap that is soon over
+constexpr double kNear = 0.5;    // of the tolerance: steps shorter than that look for the overlap
+
+/// Is a ball of radius `depth` around the point inside both solids? The point is relative to A.
+bool both_hold(const PairAt& now, const Vec3& point, double depth) {
+  return closest_point(now.a, point).distance < -depth &&
+         closest_point(now.b, point - now.d).distance < -depth;
+}
+
+/// Do the true solids overlap at that moment?
+bool proven_overlap(const MovingPair& pair, double t) {
+  const PairAt now = pair.at(t);
+  const Gap gap = signed_gap(now.a, now.b, now.d);
+  const double error = pair.rounding(t);
+  if (gap.status == GapStatus::ok) return gap.gap + gap.gap_error < -error;
+  if (gap.gap >= 0.0) return false;
+  const Vec3 middle = 0.5 * (gap.arm_a + now.d + gap.arm_b);
+  return both_hold(now, middle, error) || both_hold(now, Vec3::Zero(), error) ||
+         both_hold(now, now.d, error);
+}
+
+/// A moment of (from, to] at which they are proven to overlap, or -1: the ends of ever shorter
+/// parts, and then the search for the least gap.
+double overlap_within(const MovingPair& pair, double from, double to) {
+  const auto gap_at = [&](double t) {
+    const PairAt now = pair.at(t);
+    return signed_gap(now.a, now.b, now.d).gap;
+  };
+  double part = to - from;
+  for (int i = 0; i < kProbes; ++i, part *= 0.5) {
+    if (proven_overlap(pair, from + part)) return from + part;
+  }
+  constexpr double kGolden = 0.6180339887498949;
+  double low = from, high = to;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = gap_at(left), at_right = gap_at(right);
+  for (int i = 0; i < kProbes; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - kGolden * (high - low), at_left = gap_at(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + kGolden * (high - low), at_right = gap_at(right);
+    }
+  }
+  const double best = 0.5 * (low + high);
+  return proven_overlap(pair, best) ? best : -1.0;
+}
+
+Vec3 scaled(const Vec3& v, int power) {
+  return v.unaryExpr([=](double x) { return std::scalbn(x, power); });
+}
+
+Motion in_unit(const Motion& motion, int exponent) {
+  return {scaled(motion.velocity, -exponent), motion.angular_velocity,
+          scaled(motion.pivot_arm, -exponent)};
+}
+
+/// The exponent of the largest length on a body's way.
+int exponent_of_path(const Motion& motion, double horizon) {
+  int exponent = -1100;
+  for (int i = 0; i < 3; ++i) {
+    assert(std::isfinite(horizon * motion.velocity[i]) && std::isfinite(motion.pivot_arm[i]));
+    exponent = std::max(
+        {exponent, exponent_of(horizon * motion.velocity[i]), exponent_of(motion.pivot_arm[i])});
+  }
+  return exponent;
+}
+
+/// The pair in a unit of length, a power of two, in which squares of lengths on the way do not
+/// overflow, nor those of bodies underflow that are not 2^-1000 of it.
+struct Problem {
+  MovingPair pair;
+  int exponent;
+};
+
+Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                const Motion& motion_b, double horizon) {
+  const methods::ScaledPair start = methods::scaled_pair(a, b);
+  constexpr int kLongest = 500;
+  const int path =
+      std::max(exponent_of_path(motion_a, horizon), exponent_of_path(motion_b, horizon));
+  const int exponent = std::max(start.exponent, path - kLongest);
+  const int shift = start.exponent - exponent;
+  const auto body = [&](const Ellipsoid& e) {
+    constexpr double kLeast = std::numeric_limits<double>::min();
+    return Ellipsoid(Vec3::Zero(), scaled(e.semi_axes(), shift).cwiseMax(kLeast), e.orientation());
+  };
+  return {MovingPair(body(start.a), in_unit(motion_a, exponent), body(start.b),
+                     in_unit(motion_b, exponent), scaled(start.d, shift)),
+          exponent};
+}
+
+TimeOfContact answer(const MovingPair& pair, ContactTimeStatus status, double time, double latest,
+                     int steps) {
+  const PairAt now = pair.at(time);
+  return {status, time, latest, 2.0 * pair.rounding(time), signed_gap(now.a, now.b, now.d), steps};
+}
+
+TimeOfContact advance(const MovingPair& pair, double horizon, double tolerance) {
+  double t = 0.0;
+  for (int step = 1; step <= kMaxSteps; ++step) {
+    const PairAt now = pair.at(t);
+    const Gap gap = signed_gap(now.a, now.b, now.d);
+    const double move = pair.safe_step(now, gap.normal, horizon - t);
+    if (t + move >= horizon) return answer(pair, ContactTimeStatus::none, horizon, horizon, step);
+    const bool lost = gap.gap <= 2.0 * pair.rounding(t) || t + move == t;
+    t += move;
+    if (move > kNear * tolerance) continue;
+    const double end = std::min(t + tolerance, horizon);
+    if (proven_overlap(pair, end)) return answer(pair, ContactTimeStatus::contact, t, end, step);
+    if (!lost) continue;
+    const double overlap = overlap_within(pair, t, end);
+    const bool found = overlap >= 0.0;
+    return answer(pair, found ? ContactTimeStatus::contact : ContactTimeStatus::grazing, t,
+                  found ? overlap : t, step);
+  }
+  return answer(pair, ContactTimeStatus::not_converged, t, t, kMaxSteps);
+}
+
+}  // namespace
+
+Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_velocity,
+             double speed) noexcept {
+  assert(angular_velocity != Vec3::Zero());
+  return {speed * angular_velocity.stableNormalized(), angular_velocity,
+          body.centre() - axis_point};
+}
+
+Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept {
+  // A body seen from a point that stays: its separation is the displacement of its centre.
+  const PairAt now = MovingPair(body, Motion{}, body, motion, Vec3::Zero()).at(t);
+  return now.b.moved_to(body.centre() + now.d);
+}
+
+TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                              const Motion& motion_b, double horizon, double tolerance) noexcept {
+  assert(std::isfinite(horizon) && horizon >= 0.0 && tolerance > 0.0);
+  assert(motion_a.angular_velocity.allFinite() && motion_b.angular_velocity.allFinite());
+  const auto [pair, exponent] = problem(a, motion_a, b, motion_b, horizon);
+  const PairAt start = pair.at(0.0);
+  const Gap gap = signed_gap(start.a, start.b, start.d);
+  const bool in_doubt = gap.gap <= pair.rounding(0.0);
+  TimeOfContact found = in_doubt && relation(a, b).relation != Relation::separate
+                            ? answer(pair, ContactTimeStatus::touching_at_start, 0.0, 0.0, 1)
+                            : advance(pair, horizon, tolerance);
+  found.gap.gap = std::scalbn(found.gap.gap, exponent);
+  found.gap.arm_a = scaled(found.gap.arm_a, exponent);
+  found.gap.arm_b = scaled(found.gap.arm_b, exponent);
+  found.resolution = std::scalbn(found.resolution, exponent);
+  return found;
+}
+
+}  // namespace tangency

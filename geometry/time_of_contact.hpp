@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// When two ellipsoids in motion first touch.
+///
+/// A moving body turns at a constant angular velocity w about an axis in space that itself moves at
+/// a constant velocity v. With E(t) = exp(t [w]x), r = centre - pivot at t = 0:
+///
+///     c(t) = c(0) + t v + (E(t) - 1) r,      R(t) = E(t) R(0).
+///
+/// r = 0 is a body that flies straight and spins about its centre; v along w is a screw motion.
+///
+/// (1) Exchanging the bodies leaves status and times, up to the tolerance.
+/// (2) A velocity common to both bodies changes nothing, up to the tolerance.
+/// (3) The first contact is no earlier than (distance of the solids) / (greatest closing speed).
+/// (4) A longer horizon leaves a contact where it is, up to the tolerance.
+#pragma once
+
+#include <tangency/geometry/gap.hpp>
+
+namespace tangency {
+
+struct Motion {
+  Vec3 velocity = Vec3::Zero();          ///< of the pivot, length per time
+  Vec3 angular_velocity = Vec3::Zero();  ///< in space, radians per time
+  Vec3 pivot_arm = Vec3::Zero();         ///< r: the body's centre at t = 0 less the pivot
+};
+
+/// Turning about a fixed axis through a point while moving along it.
+/// @param body              at t = 0
+/// @param axis_point        a point of the axis
+/// @param angular_velocity  along the axis, radians per time; not 0
+/// @param speed             along the axis, length per time
+Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_velocity,
+             double speed) noexcept;
+
+/// The body at time t, rounded: within 16 u (1 + |w| t) of the size of its path and of itself.
+Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept;
+
+enum class ContactTimeStatus {
+  none,               ///< apart throughout [0, horizon]
+  contact,            ///< apart before `time`, in contact at some moment of [time, latest]
+  touching_at_start,  ///< the closed solids have a common point at t = 0: exact
+  grazing,            ///< apart before `time`, when they are too close for rounding to tell
+  not_converged,      ///< apart before `time`; the rest was not looked at
+};
+
+struct TimeOfContact {
+  ContactTimeStatus status;
+  double time;    ///< never after the first contact, whatever the status; the horizon for `none`
+  double latest;  ///< for `contact`: the first contact is no later; else `time`
+  double resolution;  ///< the gap, at `time`, below which rounding hides whether there is one
+  Gap gap;            ///< at `time`
+  int steps;          ///< positions looked at
+};
+
+/// First contact of the closed solids in 0 <= t <= horizon, by conservative advancement.
+///
+/// Up to `time` the solids are proven to be apart: each step keeps a direction (fixed in space, or
+/// turning with either body) along which they stay separated for the whole of the step
+/// (docs/derivations/time-of-contact.md). So `time` is never late, and for `contact` it is at most
+/// `tolerance` early, since an overlap is proven at `latest` <= time + tolerance.
+///
+/// What neither can be said of is `grazing`: at `time` the gap is below `resolution` = 128 u times
+/// the sizes of bodies and paths, and no overlap deeper than half of it occurs within the
+/// tolerance. That is a pass whose least gap or greatest depth is lost in rounding, an approach
+/// slower than 2 resolution / tolerance, or a start that is apart by less. A pass whose least gap
+/// is above `resolution` is `none`.
+///
+/// Does not allocate, but for a start that only the exact relation can tell from a touch.
+/// @param motion_a, motion_b  finite, and so the distances and angles covered in the horizon
+/// @param horizon    time, finite and >= 0 (asserted)
+/// @param tolerance  time, > 0 (asserted)
+TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                              const Motion& motion_b, double horizon, double tolerance) noexcept;
+
+}  // namespace tangency

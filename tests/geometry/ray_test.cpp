@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/geometry/ray.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include <tangency/tests/support/generators.hpp>
+
+namespace tangency {
+namespace {
+
+constexpr double kU = 0x1p-53;
+constexpr double kEver = std::numeric_limits<double>::infinity();
+
+TEST(Ray, HitsTheNearSideFirst) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const RayHit hit = intersect(e, {{-10, 0, 0}, {1, 0, 0}});
+  ASSERT_EQ(hit.status, RayStatus::hit);
+  ASSERT_EQ(hit.count, 2);
+  EXPECT_EQ(hit.points[0].t, 7);
+  EXPECT_EQ(hit.points[0].arm, Vec3(-3, 0, 0));
+  EXPECT_EQ(hit.points[0].normal, Vec3(-1, 0, 0));
+  EXPECT_EQ(hit.points[1].t, 13);
+  EXPECT_EQ(hit.points[1].normal, Vec3(1, 0, 0));
+}
+
+TEST(Ray, FromInsideHitsWhereItLeaves) {
+  const Ellipsoid e({1, 1, 1}, {3, 2, 1});
+  const RayHit hit = intersect(e, {{1, 1, 1}, {0, 0, -2}});
+  ASSERT_EQ(hit.count, 1);
+  EXPECT_EQ(hit.points[0].t, 0.5);
+  EXPECT_EQ(hit.points[0].arm, Vec3(0, 0, -1));
+  EXPECT_EQ(hit.points[0].normal, Vec3(0, 0, -1));
+}
+
+TEST(Ray, AwayFromTheBodyMisses) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  EXPECT_EQ(intersect(e, {{10, 0, 0}, {1, 0, 0}}).status, RayStatus::miss);
+  EXPECT_EQ(intersect(e, {{10, 0, 0}, {1, 0, 0}}, -kEver, kEver).count, 2);
+}
+
+TEST(Ray, FromTheSurfaceHitsAtZero) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const RayHit inwards = intersect(e, {{-3, 0, 0}, {1, 0, 0}});
+  ASSERT_EQ(inwards.count, 2);
+  EXPECT_EQ(inwards.points[0].t, 0);
+  EXPECT_EQ(inwards.points[1].t, 6);
+  const RayHit outwards = intersect(e, {{-3, 0, 0}, {-1, 0, 0}});
+  ASSERT_EQ(outwards.count, 1);
+  EXPECT_EQ(outwards.points[0].t, 0);
+}
+
+TEST(Ray, SegmentHitsOnlyBetweenItsEnds) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const Ray ray{{-10, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(intersect(e, ray, 0, 6.999).count, 0);
+  EXPECT_EQ(intersect(e, ray, 0, 6.999).status, RayStatus::miss);
+  EXPECT_EQ(intersect(e, ray, 0, 7).count, 1);
+  EXPECT_EQ(intersect(e, ray, 8, 12).count, 0);
+  EXPECT_EQ(intersect(e, ray, 8, 13).points[0].t, 13);
+}
+
+TEST(Ray, TangentIsCalledGrazingAndTouchesOnce) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const RayHit hit = intersect(e, {{-10, 2, 0}, {2, 0, 0}});
+  ASSERT_EQ(hit.status, RayStatus::grazing);
+  ASSERT_EQ(hit.count, 1);
+  EXPECT_EQ(hit.points[0].t, 5);
+  EXPECT_LE((hit.points[0].arm - Vec3(0, 2, 0)).norm(), 0x1p-90);
+  EXPECT_LE((hit.points[0].normal - Vec3(0, 1, 0)).norm(), 0x1p-90);
+}
+
+TEST(Ray, NextToATangentIsTold) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const double above = std::nextafter(2.0, 3.0), below = std::nextafter(2.0, 1.0);
+  EXPECT_EQ(intersect(e, {{-10, above, 0}, {1, 0, 0}}).status, RayStatus::miss);
+  const RayHit hit = intersect(e, {{-10, below, 0}, {1, 0, 0}});
+  ASSERT_EQ(hit.status, RayStatus::hit);
+  ASSERT_EQ(hit.count, 2);
+  // x = -+3 sqrt(1 - (1 - u)^2), u = 2^-53
+  const double half = 3 * std::sqrt(2 * kU);
+  EXPECT_NEAR(hit.points[0].t, 10 - half, 16 * kU);
+  EXPECT_NEAR(hit.points[1].t, 10 + half, 16 * kU);
+}
+
+TEST(Ray, TellsTangentsFromAFarOrigin) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  const double above = std::nextafter(2.0, 3.0), below = std::nextafter(2.0, 1.0);
+  EXPECT_EQ(intersect(e, {{-1e12, above, 0}, {1, 0, 0}}).status, RayStatus::miss);
+  EXPECT_EQ(intersect(e, {{-1e12, below, 0}, {1, 0, 0}}).count, 2);
+}
+
+TEST(Ray, HitsANeedleFromFarAway) {
+  const Ellipsoid needle({0, 0, 0}, {1, 1e-8, 1e-8});
+  EXPECT_EQ(intersect(needle, {{0, 0, -1e12}, {0, 0, 1}}).count, 2);
+  EXPECT_EQ(intersect(needle, {{-1e12, 0.999e-8, 0}, {1, 0, 0}}).count, 2);
+  EXPECT_EQ(intersect(needle, {{-1e12, 1.001e-8, 0}, {1, 0, 0}}).count, 0);
+}
+
+#ifndef NDEBUG
+TEST(RayDeathTest, ZeroDirectionIsRefused) {
+  const Ellipsoid e({0, 0, 0}, {3, 2, 1});
+  EXPECT_DEATH(intersect(e, {{0, 0, 0}, {0, 0, 0}}), "direction");
+}
+#endif
+
+rc::Gen<std::pair<Ellipsoid, Ray>> body_and_ray() {
+  return rc::gen::map(
+      rc::gen::tuple(testing::ellipsoid(1e4), testing::direction(), testing::direction(),
+                     testing::uniform(0, 1), testing::log_uniform(1e-3, 1e6)),
+      [](const std::tuple<Ellipsoid, Vec3, Vec3, double, double>& t) {
+        const auto& [e, n, along, depth, back] = t;
+        const Vec3 through = e.centre() + depth * e.support_point(n);
+        return std::pair<Ellipsoid, Ray>(e, {through - back * along, along});
+      });
+}
+
+double size_of(const Ellipsoid& e, const Ray& ray) {
+  return (ray.origin - e.centre()).norm() + e.largest_semi_axis();
+}
+
+RC_GTEST_PROP(RayProperty, EveryPointIsOnTheRayAndItsNormalIsTheSurfaces, ()) {
+  const auto [e, ray] = *body_and_ray();
+  const RayHit hit = intersect(e, ray, -kEver, kEver);
+  RC_ASSERT(hit.count > 0);
+  for (int i = 0; i < hit.count; ++i) {
+    const SurfacePoint& p = hit.points[i];
+    const Vec3 there = ray.origin - e.centre() + p.t * ray.direction;
+    RC_ASSERT((there - p.arm).norm() <= 8 * kU * (size_of(e, ray) + e.centre().norm()));
+    // The support point of the normal is the point, to the rounding of R over a needle.
+    RC_ASSERT(std::abs(p.normal.dot(p.arm) - e.support(p.normal)) <= 64 * kU * size_of(e, ray));
+  }
+}
+
+RC_GTEST_PROP(RayProperty, ReversedDirectionNegatesAndExchanges, ()) {
+  const auto [e, ray] = *body_and_ray();
+  const RayHit there = intersect(e, ray, -kEver, kEver);
+  const RayHit back = intersect(e, {ray.origin, -ray.direction}, -kEver, kEver);
+  RC_ASSERT(there.count == back.count);
+  for (int i = 0; i < there.count; ++i) {
+    const SurfacePoint &p = there.points[i], &q = back.points[there.count - 1 - i];
+    RC_ASSERT(p.t == -q.t);
+    RC_ASSERT(p.arm == q.arm);
+    RC_ASSERT(p.normal == q.normal);
+  }
+}
+
+RC_GTEST_PROP(RayProperty, LengthOfTheDirectionScalesTimeOnly, ()) {
+  const auto [e, ray] = *body_and_ray();
+  const double s = *testing::log_uniform(1e-100, 1e100);
+  const Ray longer{ray.origin, s * ray.direction};
+  const RayHit one = intersect(e, ray, -kEver, kEver), other = intersect(e, longer, -kEver, kEver);
+  // s * direction is rounded: a direction turned by u moves a hit by u L / k, k the incidence.
+  const double turned = 8 * kU * size_of(e, ray);
+  for (int i = 0; i < std::min(one.count, other.count); ++i) {
+    const SurfacePoint &p = one.points[i], &q = other.points[i];
+    const double k = std::abs(p.normal.dot(ray.direction));
+    if (k < 1e-6) continue;
+    RC_ASSERT(std::abs(s * q.t - p.t) <= turned / k);
+  }
+}
+
+RC_GTEST_PROP(RayProperty, OriginInsideHasOneHitAhead, ()) {
+  const Ellipsoid e = *testing::ellipsoid(1e4);
+  const Vec3 inside =
+      e.centre() + *testing::uniform(0, 0.99) * e.support_point(*testing::direction());
+  RC_PRE(e.level(inside) < 0.999);
+  const RayHit hit = intersect(e, {inside, *testing::direction()});
+  RC_ASSERT(hit.count == 1);
+  RC_ASSERT(hit.points[0].t > 0);
+}
+
+}  // namespace
+}  // namespace tangency
