@@ -15,6 +15,8 @@ using Both = double __attribute__((vector_size(16)));  ///< of A, of B
 
 inline Both sqrt(const Both& v) noexcept { return Both{std::sqrt(v[0]), std::sqrt(v[1])}; }
 
+inline double sum(const Both& v) noexcept { return v[0] + v[1]; }
+
 struct BothVec3 {
   Both x, y, z;
 

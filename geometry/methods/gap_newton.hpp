@@ -13,17 +13,18 @@ struct Stationary {
   bool accepted;  ///< a strict local maximum of n.d - h_A - h_B
 };
 
-/// When Newton's method stops: where its last step gained less than this, of the size of the pair.
+/// When Newton's method stops.
 enum class Finish {
-  /// 2^-26: the step squares what is left of the way, which then is rounding for shapes whose
-  /// curvature varies moderately.
+  /// Where what is left of the way, as the lengths of the steps so far tell, is below 2^-39 rad: for
+  /// shapes whose curvature varies moderately.
   early,
-  /// 2^-54, below the rounding of the lengths that are added.
+  /// Where the last step gained less than 2^-54 of the size of the pair, below the rounding of the
+  /// lengths that are added.
   late,
 };
 
 /// Newton's method from a unit normal. Accepted where the tangent Hessian was negative definite at
-/// *every* step and the last step's gain is as small as `finish` asks; "the last step was small"
+/// *every* step and the end is as near as `finish` asks; "the last step was small"
 /// alone lets wrong answers through on extreme shapes. What it returns is still to be proven:
 /// gap_proof.hpp. Requires moderate() bodies.
 Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal,

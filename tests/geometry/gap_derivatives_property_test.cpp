@@ -179,7 +179,7 @@ TEST(GapDerivatives, DoNotExistWhereTheGapIsNotAnAnswer) {
 
 TEST(GapDerivatives, OfADeepAnswerSayThatTheyAreThoseOfItsBranch) {
   const Ellipsoid a({0, 0, 0}, {4, 2, 3}), b({0.5, 0.2, 0.1}, {5, 1, 2});
-  const Gap gap = signed_gap(a, b);
+  const Gap gap = follow_gap(a, b, b.centre(), signed_gap(a, b).normal);
   ASSERT_EQ(gap.status, GapStatus::local);
   EXPECT_EQ(gap_derivatives(a, b, gap).status, DerivativeStatus::local);
 }

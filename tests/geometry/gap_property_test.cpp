@@ -116,7 +116,9 @@ RC_GTEST_PROP(GapProperty, FollowingFromTheOwnNormalStaysThere, ()) {
   const Pair p = *testing::pair(100);
   const Gap g = signed_gap(p.a, p.b);
   const Gap again = follow_gap(p.a, p.b, p.b.centre() - p.a.centre(), g.normal);
-  RC_ASSERT(again.status == g.status);
+  // What only the search over all normals proves, following does not.
+  if (g.tier != GapTier::search) RC_ASSERT(again.status == g.status);
+  RC_ASSERT(again.status != GapStatus::not_converged);
   RC_ASSERT(std::abs(again.gap - g.gap) <= rounding(p));
 }
 
