@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Speed of many pairs at once, per pair, as ratios to Eigen's 3x3 inverse: every instruction set of
+// the machine, forced one after the other. Answers are checked against the manufactured truth
+// before anything is timed.
+//
+// By class and level: cold (signed_gaps), following (follow_gaps from the normal of a moment ago),
+// and the yes/no question; gap, normal, error and status by columns unless the name says more.
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/ratio.hpp>
+#include <tangency/geometry/gap_batch.hpp>
+#include <tangency/tests/support/conversions.hpp>
+
+namespace {
+
+using tangency::BodyArray;
+using tangency::Ellipsoid;
+using tangency::Gap;
+using tangency::GapColumns;
+using tangency::GapStatus;
+using tangency::IndexedPair;
+using tangency::PairList;
+using tangency::Vec3;
+using tangency::bench::kInCache;
+
+constexpr std::uint64_t kSeed = 20261122;
+constexpr double kStep = 1e-4;  // of the smallest semi-axis, and rad: as bench/gap.cpp
+
+struct Family {
+  std::string name;
+  std::vector<Ellipsoid> bodies;  ///< A and B of every pair in turn
+  std::vector<IndexedPair> pairs;
+  std::vector<double> truth, smallest_semi_axis;
+  std::vector<Vec3> previous_normal;
+};
+
+struct Answers {
+  std::vector<double> gap, gap_error;
+  std::vector<Vec3> normal, arm_a, arm_b;
+  std::vector<GapStatus> status;
+
+  explicit Answers(std::size_t count)
+      : gap(count), gap_error(count), normal(count), arm_a(count), arm_b(count), status(count) {}
+  GapColumns usual() { return {gap, gap_error, normal, {}, {}, status}; }
+  GapColumns with_arms() { return {gap, gap_error, normal, arm_a, arm_b, status}; }
+};
+
+Ellipsoid moment_ago(const Ellipsoid& b, double smallest_semi_axis, std::size_t i) {
+  const double angle = 2.4 * static_cast<double>(i);  // any direction, another one each time
+  const Vec3 way(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
+  const Vec3 axis = way.cross(Vec3(0.3, 0.5, 0.8)).normalized();
+  return {b.centre() + kStep * smallest_semi_axis * way.normalized(), b.semi_axes(),
+          Eigen::Quaterniond(Eigen::AngleAxisd(kStep, axis)) * b.orientation()};
+}
+
+Family make_family(const tangency::families::ContactFamily& shape, std::size_t count) {
+  Family f{shape.name, {}, {}, {}, {}, {}};
+  tangency::families::ManufacturedContacts contacts(shape, kSeed);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto c = contacts.next();
+    f.bodies.push_back(tangency::testing::to_ellipsoid(c.a));
+    f.bodies.push_back(tangency::testing::to_ellipsoid(c.b));
+    f.pairs.push_back({2 * i, 2 * i + 1});
+    f.truth.push_back(c.gap);
+    f.smallest_semi_axis.push_back(c.smallest_semi_axis);
+    f.previous_normal.push_back(
+        signed_gap(f.bodies[2 * i], moment_ago(f.bodies[2 * i + 1], c.smallest_semi_axis, i))
+            .normal);
+  }
+  return f;
+}
+
+/// Prints the largest error of what a method answers; ends the program where it is wrong.
+void check(const std::string& name, const Family& f, const Answers& answers) {
+  double worst = 0.0, certified = 0.0;
+  for (std::size_t i = 0; i < f.truth.size(); ++i) {
+    worst = std::max(worst, std::abs(answers.gap[i] - f.truth[i]) / f.smallest_semi_axis[i]);
+    certified = std::max(certified, answers.gap_error[i] / f.smallest_semi_axis[i]);
+  }
+  std::printf("%-28s gap error %.2e of the smallest semi-axis, certified %.2e\n", name.c_str(),
+              worst, certified);
+  // Class 3 is of aspect and size ratio to 1000, where rounding is as many times larger.
+  if (!(worst < (f.name.find('3') == std::string::npos ? 5e-15 : 1e-9))) {
+    std::fprintf(stderr, "%s: wrong: no timing\n", name.c_str());
+    std::exit(1);
+  }
+}
+
+/// Only this level from now on; 0: the best of the machine.
+void force(std::int64_t level) {
+  hwy::SetSupportedTargetsForTest(level);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+/// Registers a benchmark of one call for all pairs, reported per pair.
+template <class Call>
+void add(const std::string& name, std::int64_t level, std::size_t count, const Call& call) {
+  benchmark::RegisterBenchmark(name.c_str(), [level, count, call](benchmark::State& state) {
+    force(level);
+    while (state.KeepRunningBatch(static_cast<std::int64_t>(count))) {
+      call();
+      benchmark::ClobberMemory();
+    }
+    force(0);
+  })->Apply(tangency::bench::least_of_repetitions);
+}
+
+void add_family(const Family& f, const BodyArray& bodies, std::int64_t level) {
+  const std::string end = "/" + f.name + "/" + hwy::TargetName(level);
+  const auto answers = std::make_shared<Answers>(f.pairs.size());
+  const auto cold = [&f, &bodies, answers] {
+    signed_gaps(bodies, {f.pairs, {}}, answers->usual());
+  };
+  const auto with_arms = [&f, &bodies, answers] {
+    signed_gaps(bodies, {f.pairs, {}}, answers->with_arms());
+  };
+  const auto following = [&f, &bodies, answers] {
+    follow_gaps(bodies, {f.pairs, {}}, f.previous_normal, answers->usual());
+  };
+  force(level);
+  cold();
+  check("cold" + end, f, *answers);
+  following();
+  check("following" + end, f, *answers);
+  force(0);
+  add("cold" + end, level, f.pairs.size(), cold);
+  add("cold_with_arms" + end, level, f.pairs.size(), with_arms);
+  add("following" + end, level, f.pairs.size(), following);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  std::vector<Family> families;
+  std::vector<BodyArray> arrays;
+  for (const auto& shape : tangency::families::contact_classes())
+    families.push_back(make_family(shape, kInCache));
+  for (const Family& f : families) arrays.emplace_back(f.bodies);
+  tangency::bench::add_inverse();
+  for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
+    for (std::size_t i = 0; i < families.size(); ++i) add_family(families[i], arrays[i], level);
+  }
+  tangency::bench::RatioReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  return 0;
+}

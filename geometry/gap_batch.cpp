@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/gap_batch.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <limits>
+
+#include <tangency/geometry/methods/gap_lanes.hpp>
+
+namespace tangency {
+namespace {
+
+using methods::LaneBlock;
+using methods::LaneBody;
+using methods::LaneIndices;
+
+constexpr std::size_t kBlock = LaneBlock::kPairs;
+// Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
+constexpr std::size_t kNear = 8192;
+
+void fill(LaneBody& lane, const Ellipsoid& body) {
+  const Vec3 &centre = body.centre(), &axes = body.semi_axes();
+  const Mat3& rotation = body.rotation();
+  for (int i = 0; i < 3; ++i) {
+    lane.centre[i] = centre[i];
+    for (int k = 0; k < 3; ++k) lane.factor[3 * k + i] = axes[k] * rotation(i, k);
+  }
+  lane.largest =
+      body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
+  lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
+}
+
+/// The pairs of one call, wherever their bodies are.
+struct Task {
+  const BodyArray* bodies = nullptr;  ///< null: plain pairs
+  const IndexedPair* pairs = nullptr;
+  const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
+  const Vec3* separations = nullptr;
+  const Vec3* previous_normals = nullptr;
+  std::size_t count = 0;
+
+  const Ellipsoid& a(std::size_t i) const { return bodies ? (*bodies)[pairs[i].a] : plain_a[i]; }
+  const Ellipsoid& b(std::size_t i) const { return bodies ? (*bodies)[pairs[i].b] : plain_b[i]; }
+
+  Gap single(std::size_t i, const Vec3* previous_normal) const {
+    if (previous_normal != nullptr) {
+      const Vec3 d = separations ? separations[i] : Vec3(b(i).centre() - a(i).centre());
+      return follow_gap(a(i), b(i), d, *previous_normal);
+    }
+    return separations ? signed_gap(a(i), b(i), separations[i]) : signed_gap(a(i), b(i));
+  }
+
+  bool overlaps(std::size_t i) const {
+    if (separations == nullptr) return tangency::overlaps(a(i), b(i));
+    return tangency::overlaps(a(i).moved_to(Vec3::Zero()), b(i).moved_to(separations[i]));
+  }
+};
+
+/// A block of pairs and copies of what belongs to them, so that the answers may be written where
+/// the questions were.
+struct Workspace {
+  LaneBlock block;
+  LaneIndices pairs[kBlock];
+  Vec3 separations[kBlock], normals[kBlock];
+  LaneBody plain_a[kBlock], plain_b[kBlock];
+  double gap[kBlock], gap_error[kBlock];
+  Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
+
+  /// The answers are to stand here.
+  void take_answers() {
+    block.gap = gap;
+    block.gap_error = gap_error;
+    block.normal = normal[0].data();
+    block.arm_a = arm_a[0].data();
+    block.arm_b = arm_b[0].data();
+  }
+};
+
+/// Copies what stands at `first` of an array, and fills the block up with its first entry.
+void copy_block(const Vec3* from, std::size_t first, std::size_t count, Vec3* to) {
+  std::copy_n(from + first, count, to);
+  std::fill(to + count, to + kBlock, from[first]);
+}
+
+/// Asks for the lines of the bodies of the pairs from `first` on before they are needed.
+void prefetch(const Task& task, std::size_t first) {
+  const std::size_t last = std::min(first + kBlock, task.count);
+  const LaneBody* lanes = task.bodies->lanes();
+  for (std::size_t i = first; i < last; ++i) {
+    for (const std::uint32_t body : {task.pairs[i].a, task.pairs[i].b}) {
+      __builtin_prefetch(lanes + body);
+      __builtin_prefetch(lanes[body].factor + 3);
+    }
+  }
+}
+
+void gather(const Task& task, std::size_t first, std::size_t count, Workspace& work) {
+  LaneBlock& block = work.block;
+  block.count = static_cast<int>(count);
+  block.pairs = work.pairs;
+  if (task.bodies != nullptr) {
+    block.bodies_a = block.bodies_b = task.bodies->lanes();
+    const auto indices = [](const IndexedPair& pair) { return LaneIndices{pair.a, pair.b}; };
+    std::transform(task.pairs + first, task.pairs + first + count, work.pairs, indices);
+    std::fill(work.pairs + count, work.pairs + kBlock, work.pairs[0]);
+    if (task.bodies->size() > kNear) prefetch(task, first + count);
+  } else {
+    block.bodies_a = work.plain_a;
+    block.bodies_b = work.plain_b;
+    for (std::uint32_t i = 0; i < kBlock; ++i) {
+      work.pairs[i] = i < count ? LaneIndices{i, i} : LaneIndices{0, 0};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      fill(work.plain_a[i], task.plain_a[first + i]);
+      fill(work.plain_b[i], task.plain_b[first + i]);
+    }
+  }
+  block.separations = nullptr;
+  block.normals = nullptr;
+  block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
+  if (task.separations != nullptr) {
+    copy_block(task.separations, first, count, work.separations);
+    block.separations = work.separations[0].data();
+  }
+  if (task.previous_normals != nullptr) {
+    copy_block(task.previous_normals, first, count, work.normals);
+    block.normals = work.normals[0].data();
+  }
+}
+
+/// Writes the answers of one block to columns: a full block directly.
+struct ToColumns {
+  const GapColumns& to;
+
+  void aim(Workspace& work, std::size_t first, std::size_t count) const {
+    if (count < kBlock) return work.take_answers();
+    const auto numbers = [&](std::span<double> c) { return c.empty() ? nullptr : &c[first]; };
+    const auto vectors = [&](std::span<Vec3> c) { return c.empty() ? nullptr : c[first].data(); };
+    work.block.gap = numbers(to.gap);
+    work.block.gap_error = numbers(to.gap_error);
+    work.block.normal = vectors(to.normal);
+    work.block.arm_a = vectors(to.arm_a);
+    work.block.arm_b = vectors(to.arm_b);
+  }
+
+  void lanes(const Workspace& work, std::size_t first, std::size_t count) const {
+    if (!to.status.empty()) std::fill_n(&to.status[first], count, GapStatus::ok);
+    if (count == kBlock) return;
+    const auto copy = [&](const auto* from, const auto& column) {
+      if (!column.empty()) std::copy_n(from, count, &column[first]);
+    };
+    copy(work.gap, to.gap);
+    copy(work.gap_error, to.gap_error);
+    copy(work.normal, to.normal);
+    copy(work.arm_a, to.arm_a);
+    copy(work.arm_b, to.arm_b);
+  }
+
+  void single(const Gap& gap, std::size_t i) const {
+    if (!to.gap.empty()) to.gap[i] = gap.gap;
+    if (!to.gap_error.empty()) to.gap_error[i] = gap.gap_error;
+    if (!to.normal.empty()) to.normal[i] = gap.normal;
+    if (!to.arm_a.empty()) to.arm_a[i] = gap.arm_a;
+    if (!to.arm_b.empty()) to.arm_b[i] = gap.arm_b;
+    if (!to.status.empty()) to.status[i] = gap.status;
+  }
+};
+
+struct ToGaps {
+  std::span<Gap> to;
+
+  void aim(Workspace& work, std::size_t, std::size_t) const { work.take_answers(); }
+  void lanes(const Workspace& work, std::size_t first, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      to[first + i] = {work.gap[i],       work.normal[i], work.arm_a[i], work.arm_b[i],
+                       work.gap_error[i], GapStatus::ok,  GapTier::fast};
+    }
+  }
+  void single(const Gap& gap, std::size_t i) const { to[i] = gap; }
+};
+
+template <class Write>
+void run(const Task& task, const Write& write) noexcept {
+  Workspace work;
+  for (std::size_t first = 0; first < task.count; first += kBlock) {
+    const std::size_t count = std::min(kBlock, task.count - first);
+    gather(task, first, count, work);
+    write.aim(work, first, count);
+    std::uint64_t open = ~methods::gap_lanes(work.block);
+    if (count < kBlock) open &= (std::uint64_t{1} << count) - 1;
+    write.lanes(work, first, count);
+    for (; open != 0; open &= open - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(open));
+      write.single(task.single(first + i, task.previous_normals ? work.normals + i : nullptr),
+                   first + i);
+    }
+  }
+}
+
+Task task_of(const BodyArray& bodies, const PairList& list) {
+  assert(list.separations.empty() || list.separations.size() == list.pairs.size());
+  Task task;
+  task.bodies = &bodies;
+  task.pairs = list.pairs.data();
+  task.separations = list.separations.empty() ? nullptr : list.separations.data();
+  task.count = list.pairs.size();
+  return task;
+}
+
+Task task_of(const BodyArray& bodies, const PairList& list, std::span<const Vec3> normals) {
+  assert(normals.size() == list.pairs.size());
+  Task task = task_of(bodies, list);
+  task.previous_normals = normals.data();
+  return task;
+}
+
+[[maybe_unused]] bool fits(const GapColumns& columns, std::size_t count) {
+  const auto fits_one = [&](const auto& c) { return c.empty() || c.size() == count; };
+  return fits_one(columns.gap) && fits_one(columns.gap_error) && fits_one(columns.normal) &&
+         fits_one(columns.arm_a) && fits_one(columns.arm_b) && fits_one(columns.status);
+}
+
+}  // namespace
+
+BodyArray::BodyArray(std::span<const Ellipsoid> bodies) : bodies_(bodies), lanes_(bodies.size()) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
+}
+BodyArray::~BodyArray() = default;
+BodyArray::BodyArray(BodyArray&&) noexcept = default;
+BodyArray& BodyArray::operator=(BodyArray&&) noexcept = default;
+
+void BodyArray::refresh(std::size_t i) noexcept {
+  assert(i < size());
+  fill(lanes_[i], bodies_[i]);
+}
+
+void signed_gaps(const BodyArray& bodies, const PairList& list,
+                 const GapColumns& answers) noexcept {
+  assert(fits(answers, list.pairs.size()));
+  run(task_of(bodies, list), ToColumns{answers});
+}
+
+void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers) noexcept {
+  assert(answers.size() == list.pairs.size());
+  run(task_of(bodies, list), ToGaps{answers});
+}
+
+void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
+                 std::span<Gap> answers) noexcept {
+  assert(a.size() == b.size() && answers.size() == a.size());
+  Task task;
+  task.plain_a = a.data();
+  task.plain_b = b.data();
+  task.count = a.size();
+  run(task, ToGaps{answers});
+}
+
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, const GapColumns& answers) noexcept {
+  assert(fits(answers, list.pairs.size()));
+  run(task_of(bodies, list, previous_normals), ToColumns{answers});
+}
+
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, std::span<Gap> answers) noexcept {
+  assert(answers.size() == list.pairs.size());
+  run(task_of(bodies, list, previous_normals), ToGaps{answers});
+}
+
+void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {
+  assert(answers.size() == list.pairs.size());
+  const Task task = task_of(bodies, list);
+  Workspace work;
+  for (std::size_t first = 0; first < task.count; first += kBlock) {
+    const std::size_t count = std::min(kBlock, task.count - first);
+    gather(task, first, count, work);
+    const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool decided = (lanes.decided >> i & 1) != 0;
+      answers[first + i] = decided ? (lanes.meet >> i & 1) != 0 : task.overlaps(first + i);
+    }
+  }
+}
+
+}  // namespace tangency

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The signed gap, and the yes/no question, for many pairs in one call: the answers of gap.hpp and
+/// relation.hpp several times as fast, by vector instructions that are chosen when the program
+/// runs. Conventions and promises are those of gap.hpp; what a lane does not prove is redone as a
+/// single pair inside the call.
+///
+/// (1) Every gap is within its gap_error of the true one, and status and sign are those of the
+///     single call, whose gap therefore differs by no more than both errors.
+/// (2) To the bit, an answer does not depend on its position, the order and number of the pairs,
+///     or the thread. It may depend, within its error, on the instruction set of the machine.
+/// (3) Yes/no answers are the same everywhere.
+/// (4) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/relation.hpp>
+
+namespace tangency {
+
+namespace methods {
+struct LaneBody;
+}
+
+/// Bodies that many pairs share, with what the batch reads of each beside each other: 128 bytes a
+/// body, for random access. Keeps the span: the ellipsoids must outlive it and stay in place.
+class BodyArray {
+ public:
+  explicit BodyArray(std::span<const Ellipsoid> bodies);
+  ~BodyArray();
+  BodyArray(BodyArray&&) noexcept;
+  BodyArray& operator=(BodyArray&&) noexcept;
+
+  std::size_t size() const noexcept { return bodies_.size(); }
+  const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
+  /// To be called after body i was changed. Different bodies may be refreshed by different threads.
+  void refresh(std::size_t i) noexcept;
+
+  const methods::LaneBody* lanes() const noexcept { return lanes_.data(); }
+
+ private:
+  std::span<const Ellipsoid> bodies_;
+  std::vector<methods::LaneBody> lanes_;
+};
+
+/// A and B of a pair by their places in a BodyArray.
+struct IndexedPair {
+  std::uint32_t a, b;
+};
+
+/// The pairs of one call.
+struct PairList {
+  std::span<const IndexedPair> pairs;
+  /// c_B - c_A of each pair, as for periodic images; empty: that of the centres.
+  std::span<const Vec3> separations = {};
+};
+
+/// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
+struct GapColumns {
+  std::span<double> gap = {};
+  std::span<double> gap_error = {};
+  std::span<Vec3> normal = {};
+  std::span<Vec3> arm_a = {};
+  std::span<Vec3> arm_b = {};
+  std::span<GapStatus> status = {};
+};
+
+/// signed_gap() of every pair. Lengths that do not match are a broken contract (asserted).
+void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers) noexcept;
+void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers) noexcept;
+/// The same for a[i] and b[i], at the cost of reading whole bodies.
+void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
+                 std::span<Gap> answers) noexcept;
+
+/// follow_gap() of every pair; where `separations` is empty, of the rounded c_B - c_A.
+/// @param previous_normals  may be the same memory as answers.normal
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, const GapColumns& answers) noexcept;
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, std::span<Gap> answers) noexcept;
+
+/// overlaps() of every pair: do the interiors meet? Exact for the stored doubles, in any
+/// floating-point environment; given separations are taken as they are.
+void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept;
+
+}  // namespace tangency

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The fast path of the gap for several pairs at once, one pair in each lane of a vector register:
+/// what gap_batch.hpp is made of. The instruction set is chosen when the program runs.
+///
+/// Every lane holds what it computed against the certificate of docs/derivations/gap-batch.md; a
+/// lane that does not prove its answer says so, and nothing else of it may be used.
+#pragma once
+
+#include <cstdint>
+
+namespace tangency::methods {
+
+/// A body as the lanes read it: two lines of cache, for random access.
+struct alignas(64) LaneBody {
+  double centre[3];
+  double largest;       ///< semi-axis; NaN where the body is not moderate(): no lane then settles
+  double least_radius;  ///< of curvature, rounded down
+  double factor[9];     ///< the columns a_k R e_k, one after the other, each product rounded once
+  double unused[2];
+};
+static_assert(sizeof(LaneBody) == 16 * sizeof(double));
+
+struct LaneIndices {
+  std::uint32_t a, b;
+};
+
+/// Up to 64 pairs, and where their answers go. Every array has kPairs entries, of which those from
+/// `count` on must be readable numbers or indices of some body, and may be written to.
+struct LaneBlock {
+  static constexpr int kPairs = 64;
+
+  const LaneBody* bodies_a;  ///< first of the array that index a counts in
+  const LaneBody* bodies_b;
+  const LaneIndices* pairs;
+  int count;
+  const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
+  const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere
+  /// Is the true separation that of the centres, not their rounded difference?
+  bool centres_are_exact;
+
+  double* gap;  ///< null, here and below: not wanted
+  double* gap_error;
+  double* normal;  ///< x y z of each
+  double* arm_a;
+  double* arm_b;
+};
+
+/// Bit i of the result: pair i is settled, with its proof. Assumes rounding to nearest.
+std::uint64_t gap_lanes(LaneBlock& block) noexcept;
+
+/// Bit i: is pair i proven either way, and do its interiors meet?
+struct LaneOverlaps {
+  std::uint64_t decided, meet;
+};
+
+/// Reads bodies, pairs, count and separations of the block. In any rounding mode.
+LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept;
+
+}  // namespace tangency::methods

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Numbers, vectors and symmetric matrices of many pairs at once, one pair in each lane; what
+/// *_lanes.cpp computes with. Compiled once for each instruction set, each copy in a namespace of
+/// its own and with internal linkage: the guard is Highway's toggle. No function of another header
+/// may be called from here: compiled for this instruction set it could be the copy that the linker
+/// keeps for all.
+#if defined(TANGENCY_PACKS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef TANGENCY_PACKS_INL
+#undef TANGENCY_PACKS_INL
+#else
+#define TANGENCY_PACKS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <tangency/geometry/methods/gap_lanes.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace tangency::methods::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<double>;
+using Register = hn::Vec<D>;
+
+/// A number of each pair, in two registers: the work of one alone is a chain in which each
+/// operation waits for the last (measured: two at a time take 1.3 to 1.7 times as long as one).
+struct Pack {
+  Register low, high;
+};
+struct PackMask {
+  hn::Mask<D> low, high;
+};
+
+HWY_INLINE std::size_t register_lanes() { return hn::Lanes(D()); }
+HWY_INLINE std::size_t pack_lanes() { return 2 * hn::Lanes(D()); }
+
+HWY_INLINE Pack all(double x) { return {hn::Set(D(), x), hn::Set(D(), x)}; }
+
+#define TANGENCY_PACK_1(name, call) \
+  HWY_INLINE Pack name(const Pack& a) { return {hn::call(a.low), hn::call(a.high)}; }
+#define TANGENCY_PACK_2(type, name, call)                      \
+  HWY_INLINE type name(const Pack& a, const Pack& b) {         \
+    return {hn::call(a.low, b.low), hn::call(a.high, b.high)}; \
+  }
+#define TANGENCY_PACK_3(name, call)                                           \
+  HWY_INLINE Pack name(const Pack& a, const Pack& b, const Pack& c) {         \
+    return {hn::call(a.low, b.low, c.low), hn::call(a.high, b.high, c.high)}; \
+  }
+TANGENCY_PACK_1(operator-, Neg)
+TANGENCY_PACK_1(absolute, Abs)
+TANGENCY_PACK_1(root, Sqrt)
+TANGENCY_PACK_2(Pack, operator+, Add)
+TANGENCY_PACK_2(Pack, operator-, Sub)
+TANGENCY_PACK_2(Pack, operator*, Mul)
+TANGENCY_PACK_2(Pack, operator/, Div)
+TANGENCY_PACK_2(Pack, larger, Max)
+TANGENCY_PACK_2(Pack, with_sign_of, CopySign)
+TANGENCY_PACK_2(PackMask, operator<, Lt)
+TANGENCY_PACK_2(PackMask, operator>, Gt)
+TANGENCY_PACK_2(PackMask, operator<=, Le)
+TANGENCY_PACK_2(PackMask, operator>=, Ge)
+TANGENCY_PACK_3(multiply_add, MulAdd)      // a b + c, rounded once where the machine can
+TANGENCY_PACK_3(multiply_take, NegMulAdd)  // c - a b
+#undef TANGENCY_PACK_1
+#undef TANGENCY_PACK_2
+#undef TANGENCY_PACK_3
+
+HWY_INLINE PackMask operator&(const PackMask& a, const PackMask& b) {
+  return {hn::And(a.low, b.low), hn::And(a.high, b.high)};
+}
+HWY_INLINE PackMask operator|(const PackMask& a, const PackMask& b) {
+  return {hn::Or(a.low, b.low), hn::Or(a.high, b.high)};
+}
+/// a and not b
+HWY_INLINE PackMask without(const PackMask& a, const PackMask& b) {
+  return {hn::AndNot(b.low, a.low), hn::AndNot(b.high, a.high)};
+}
+HWY_INLINE bool none(const PackMask& m) {
+  return hn::AllFalse(D(), m.low) && hn::AllFalse(D(), m.high);
+}
+HWY_INLINE Pack chosen(const PackMask& yes, const Pack& a, const Pack& b) {
+  return {hn::IfThenElse(yes.low, a.low, b.low), hn::IfThenElse(yes.high, a.high, b.high)};
+}
+/// Bit k is lane k.
+HWY_INLINE std::uint64_t bits(const PackMask& m) {
+  std::uint8_t low[8] = {}, high[8] = {};
+  hn::StoreMaskBits(D(), m.low, low);
+  hn::StoreMaskBits(D(), m.high, high);
+  return std::uint64_t{low[0]} | std::uint64_t{high[0]} << register_lanes();
+}
+
+/// 1 / x to a relative 2^-13.
+HWY_INLINE Pack rough_inverse(const Pack& x) {
+#if HWY_TARGET == HWY_AVX3
+  return {Register{_mm512_rcp14_pd(x.low.raw)}, Register{_mm512_rcp14_pd(x.high.raw)}};
+#else
+  return all(1.0) / x;
+#endif
+}
+
+/// 1 / sqrt(x) to a relative 2^-13.
+HWY_INLINE Pack rough_inverse_root(const Pack& x) {
+#if HWY_TARGET == HWY_AVX3
+  return {Register{_mm512_rsqrt14_pd(x.low.raw)}, Register{_mm512_rsqrt14_pd(x.high.raw)}};
+#else
+  return all(1.0) / root(x);
+#endif
+}
+
+/// 1 / sqrt(x) to a relative 2u: (I) of docs/derivations/gap-batch.md.
+HWY_INLINE Pack inverse_root(const Pack& x) {
+  Pack y = rough_inverse_root(x);
+#if HWY_TARGET == HWY_AVX3
+  for (int i = 0; i < 2; ++i) {
+    const Pack e = multiply_take(x * y, y, all(1.0));
+    y = multiply_add(y * all(0.5), e, y);
+  }
+#endif
+  return y;
+}
+
+struct PackVec3 {
+  Pack x, y, z;
+};
+
+HWY_INLINE Pack dot(const PackVec3& a, const PackVec3& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+HWY_INLINE PackVec3 operator*(const PackVec3& v, const Pack& s) {
+  return {v.x * s, v.y * s, v.z * s};
+}
+HWY_INLINE PackVec3 operator-(const PackVec3& v) { return {-v.x, -v.y, -v.z}; }
+HWY_INLINE PackVec3 operator-(const PackVec3& a, const PackVec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE PackVec3 operator+(const PackVec3& a, const PackVec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+/// s v + w
+HWY_INLINE PackVec3 multiply_add(const Pack& s, const PackVec3& v, const PackVec3& w) {
+  return {multiply_add(s, v.x, w.x), multiply_add(s, v.y, w.y), multiply_add(s, v.z, w.z)};
+}
+/// w - s v
+HWY_INLINE PackVec3 multiply_take(const Pack& s, const PackVec3& v, const PackVec3& w) {
+  return {multiply_take(s, v.x, w.x), multiply_take(s, v.y, w.y), multiply_take(s, v.z, w.z)};
+}
+HWY_INLINE Pack largest_component(const PackVec3& v) {
+  return larger(larger(absolute(v.x), absolute(v.y)), absolute(v.z));
+}
+HWY_INLINE PackVec3 normalised(const PackVec3& v) { return v * inverse_root(dot(v, v)); }
+HWY_INLINE PackVec3 chosen(const PackMask& yes, const PackVec3& v, const PackVec3& w) {
+  return {chosen(yes, v.x, w.x), chosen(yes, v.y, w.y), chosen(yes, v.z, w.z)};
+}
+
+struct PackSymmetric3 {
+  Pack xx, yy, zz, yz, zx, xy;
+};
+
+HWY_INLINE PackVec3 operator*(const PackSymmetric3& s, const PackVec3& v) {
+  return {dot({s.xx, s.xy, s.zx}, v), dot({s.xy, s.yy, s.yz}, v), dot({s.zx, s.yz, s.zz}, v)};
+}
+HWY_INLINE Pack trace(const PackSymmetric3& s) { return s.xx + s.yy + s.zz; }
+/// tr(A B)
+HWY_INLINE Pack trace_of_product(const PackSymmetric3& a, const PackSymmetric3& b) {
+  const Pack off = dot({a.yz, a.zx, a.xy}, {b.yz, b.zx, b.xy});
+  return multiply_add(all(2.0), off, dot({a.xx, a.yy, a.zz}, {b.xx, b.yy, b.zz}));
+}
+/// a b - c d
+HWY_INLINE Pack minor(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
+  return multiply_take(c, d, a * b);
+}
+HWY_INLINE PackSymmetric3 adjugate(const PackSymmetric3& s) {
+  return {minor(s.yy, s.zz, s.yz, s.yz), minor(s.zz, s.xx, s.zx, s.zx),
+          minor(s.xx, s.yy, s.xy, s.xy), minor(s.zx, s.xy, s.xx, s.yz),
+          minor(s.xy, s.yz, s.yy, s.zx), minor(s.yz, s.zx, s.zz, s.xy)};
+}
+HWY_INLINE PackSymmetric3 operator*(const PackSymmetric3& s, const Pack& w) {
+  return {s.xx * w, s.yy * w, s.zz * w, s.yz * w, s.zx * w, s.xy * w};
+}
+/// w S + T
+HWY_INLINE PackSymmetric3 multiply_add(const Pack& w, const PackSymmetric3& s,
+                                       const PackSymmetric3& t) {
+  return {multiply_add(w, s.xx, t.xx), multiply_add(w, s.yy, t.yy), multiply_add(w, s.zz, t.zz),
+          multiply_add(w, s.yz, t.yz), multiply_add(w, s.zx, t.zx), multiply_add(w, s.xy, t.xy)};
+}
+/// S + w v v'
+HWY_INLINE PackSymmetric3 with_square(const PackSymmetric3& s, const Pack& w, const PackVec3& v) {
+  const PackVec3 p = v * w;
+  return {multiply_add(p.x, v.x, s.xx), multiply_add(p.y, v.y, s.yy), multiply_add(p.z, v.z, s.zz),
+          multiply_add(p.y, v.z, s.yz), multiply_add(p.z, v.x, s.zx), multiply_add(p.x, v.y, s.xy)};
+}
+
+HWY_INLINE Pack load(const double* from) {
+  return {hn::LoadU(D(), from), hn::LoadU(D(), from + register_lanes())};
+}
+HWY_INLINE void store(const Pack& p, double* to) {
+  hn::StoreU(p.low, D(), to);
+  hn::StoreU(p.high, D(), to + register_lanes());
+}
+/// x y z of one pair after the other
+HWY_INLINE PackVec3 load_vectors(const double* from) {
+  PackVec3 v;
+  hn::LoadInterleaved3(D(), from, v.x.low, v.y.low, v.z.low);
+  hn::LoadInterleaved3(D(), from + 3 * register_lanes(), v.x.high, v.y.high, v.z.high);
+  return v;
+}
+HWY_INLINE void store(const PackVec3& v, double* to) {
+  hn::StoreInterleaved3(v.x.low, v.y.low, v.z.low, D(), to);
+  hn::StoreInterleaved3(v.x.high, v.y.high, v.z.high, D(), to + 3 * register_lanes());
+}
+
+}  // namespace
+}  // namespace tangency::methods::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
