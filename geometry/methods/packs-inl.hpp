@@ -25,7 +25,7 @@ using D = hn::ScalableTag<double>;
 using Register = hn::Vec<D>;
 
 /// A number of each pair, in two registers: the work of one alone is a chain in which each
-/// operation waits for the last (measured: two at a time take 1.3 to 1.7 times as long as one).
+/// operation waits for the last (measured: two at a time take 1.6 to 1.8 times as long as one).
 struct Pack {
   Register low, high;
 };
