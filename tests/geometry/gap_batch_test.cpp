@@ -349,6 +349,18 @@ TEST(OverlapBatch, IsTheSingleAnswerOnEveryFamilyAtEveryLevel) {
   }
 }
 
+TEST(GapBatch, BodiesBeyondTheRangeOfTheBoundsAreAnsweredOneByOne) {
+  // Far apart, so that a lane would find nothing wrong: one semi-axis is below 2^-60.
+  const double small = 0x1p-61;
+  const std::vector<Ellipsoid> a(20, Ellipsoid(Vec3::Zero(), {small, 2 * small, 3 * small}));
+  const std::vector<Ellipsoid> b(20, Ellipsoid({0x1p-50, 0x1p-51, 0}, {small, small, 2 * small}));
+  std::vector<Gap> gaps(a.size());
+  at_every_level([&] {
+    signed_gaps(a, b, gaps);
+    for (const Gap& g : gaps) ASSERT_TRUE(same_bits(g, signed_gap(a[0], b[0])));
+  });
+}
+
 TEST(GapBatch, ARefreshedBodyIsTheChangedOne) {
   Family f = contacts(families::contact_classes()[1], 20);
   Indexed in(f);
