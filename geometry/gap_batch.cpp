@@ -61,7 +61,7 @@ struct Task {
 /// the questions were.
 struct Workspace {
   LaneBlock block;
-  LaneIndices pairs[kBlock];
+  LaneIndices pairs[kBlock], next_pairs[kBlock];
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
   double gap[kBlock], gap_error[kBlock];
@@ -83,28 +83,26 @@ void copy_block(const Vec3* from, std::size_t first, std::size_t count, Vec3* to
   std::fill(to + count, to + kBlock, from[first]);
 }
 
-/// Asks for the lines of the bodies of the pairs from `first` on before they are needed.
-void prefetch(const Task& task, std::size_t first) {
-  const std::size_t last = std::min(first + kBlock, task.count);
-  const LaneBody* lanes = task.bodies->lanes();
-  for (std::size_t i = first; i < last; ++i) {
-    for (const std::uint32_t body : {task.pairs[i].a, task.pairs[i].b}) {
-      __builtin_prefetch(lanes + body);
-      __builtin_prefetch(lanes[body].factor + 3);
-    }
-  }
+/// Indices of the pairs from `first` on, filled up with those of the first of them.
+void copy_pairs(const Task& task, std::size_t first, LaneIndices* to) {
+  const std::size_t count = std::min(kBlock, task.count - first);
+  const auto indices = [](const IndexedPair& pair) { return LaneIndices{pair.a, pair.b}; };
+  std::transform(task.pairs + first, task.pairs + first + count, to, indices);
+  std::fill(to + count, to + kBlock, to[0]);
 }
 
 void gather(const Task& task, std::size_t first, std::size_t count, Workspace& work) {
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
   block.pairs = work.pairs;
+  block.next_pairs = nullptr;
   if (task.bodies != nullptr) {
     block.bodies_a = block.bodies_b = task.bodies->lanes();
-    const auto indices = [](const IndexedPair& pair) { return LaneIndices{pair.a, pair.b}; };
-    std::transform(task.pairs + first, task.pairs + first + count, work.pairs, indices);
-    std::fill(work.pairs + count, work.pairs + kBlock, work.pairs[0]);
-    if (task.bodies->size() > kNear) prefetch(task, first + count);
+    copy_pairs(task, first, work.pairs);
+    if (task.bodies->size() > kNear && first + count < task.count) {
+      copy_pairs(task, first + count, work.next_pairs);
+      block.next_pairs = work.next_pairs;
+    }
   } else {
     block.bodies_a = work.plain_a;
     block.bodies_b = work.plain_b;

@@ -33,6 +33,7 @@ struct LaneBlock {
   const LaneBody* bodies_a;  ///< first of the array that index a counts in
   const LaneBody* bodies_b;
   const LaneIndices* pairs;
+  const LaneIndices* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;
   const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
   const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere

@@ -94,6 +94,16 @@ HWY_INLINE PackBodies load_bodies(const LaneBlock& block, std::size_t i) {
       b[half].lane[k] = block.bodies_b[pair.b].centre;
     }
   }
+  if (block.next_pairs != nullptr) {
+    // Spread over the block: there are few slots for lines that are under way.
+    for (std::size_t k = i; k < i + pack_lanes(); ++k) {
+      const LaneIndices pair = block.next_pairs[k];
+      __builtin_prefetch(block.bodies_a[pair.a].centre);
+      __builtin_prefetch(block.bodies_a[pair.a].centre + 8);
+      __builtin_prefetch(block.bodies_b[pair.b].centre);
+      __builtin_prefetch(block.bodies_b[pair.b].centre + 8);
+    }
+  }
   PackBodies bodies;
   bodies.a = load_body(a[0], a[1]);
   bodies.b = load_body(b[0], b[1]);
