@@ -40,7 +40,8 @@ Output columns, in this order:
   nx ny nz         unit normal, from a to b
   pa.x pa.y pa.z   witness point on a
   pb.x pb.y pb.z   witness point on b; pb - pa = gap n
-  gap_error        empty in this version
+  gap_error        a proven bound on |gap - true gap| for the numbers as they are read; where
+                   local on the distance to the value of that stationary answer
   status           see below
   inner            a or b, the body inside, for internal_touch; else empty
   Numbers read back to the same double.
@@ -71,7 +72,7 @@ Example, a unit sphere and an ellipsoid 0.5 away from it:
   0,0,0,1,1,1,3.5,0,0,2,1,1
   $ tangency contact pairs.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
-  0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,
+  0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,
 )";
 
 /// What is known about a pair: one row of the output.

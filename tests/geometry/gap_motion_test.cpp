@@ -164,10 +164,10 @@ TEST(GapAlongMotions, NormalAndPointsJumpOnlyWhereTheGlobalAnswerChanges) {
   EXPECT_GT(changes, 100);
 }
 
-TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEnds) {
+TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) {
   constexpr int kMotions = 1000, kSteps = 400;
   constexpr double kStep = 2 * M_PI / kSteps;
-  int ends = 0, steep = 0;
+  int ends = 0, parted = 0, steep = 0;
   for (int m = 0; m < kMotions; ++m) {
     const Motion motion(static_cast<std::uint64_t>(m));
     const Ellipsoid a(Vec3::Zero(), motion.a);
@@ -183,22 +183,27 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEnds) {
         if (!close_in(jump, normal_at)) {
           ++steep;
         } else {
-          // A maximum that meets a saddle and vanishes: its sharpness goes to 0 with the root of
-          // the time that is left.
-          const Ellipsoid b = motion.at(jump.before);
-          const Vec3& n = jump.normal_before;
-          const double h_a = a.support(n), h_b = b.support(n);
-          const methods::Bend bend = methods::bend_at(a, b, n, h_a, h_b);
-          const double value = n.dot(b.centre()) - h_a - h_b;
-          const double sharpness = std::min(bend.curvature[0], bend.curvature[1]) + value;
-          ASSERT_LE(sharpness, 1e-3) << "motion " << m << " step " << k;
-          ++ends;
+          const Ellipsoid b = motion.at(jump.before), after = motion.at(jump.after);
+          if (follow_gap(a, after, after.centre(), jump.normal_before).gap > 0) {
+            // The wrong way out all along: no branch of bodies that are apart has a gap < 0.
+            ++parted;
+          } else {
+            // A maximum that meets a saddle and vanishes: its sharpness goes to 0 with the root of
+            // the time that is left.
+            const Vec3& n = jump.normal_before;
+            const double h_a = a.support(n), h_b = b.support(n);
+            const methods::Bend bend = methods::bend_at(a, b, n, h_a, h_b);
+            const double value = n.dot(b.centre()) - h_a - h_b;
+            const double sharpness = std::min(bend.curvature[0], bend.curvature[1]) + value;
+            ASSERT_LE(sharpness, 1e-3) << "motion " << m << " step " << k;
+            ++ends;
+          }
         }
       }
       last = now;
     }
   }
-  std::printf("%d branches ended, %d steep turns\n", ends, steep);
+  std::printf("%d branches ended, %d bodies parted, %d steep turns\n", ends, parted, steep);
   EXPECT_GT(ends, 10);
 }
 

@@ -50,7 +50,8 @@ TEST(ContactCommand, AnswersWithTheDocumentedColumns) {
   const std::string pairs =
       folder.write("pairs.csv", kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n");
   const Finished run = run_tool({"contact", pairs});
-  EXPECT_EQ(run.out, kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n");
+  EXPECT_EQ(run.out,
+            kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,\n");
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.status, 0);
 }
@@ -63,7 +64,8 @@ TEST(ContactCommand, HeaderAloneIsAnEmptyTable) {
 
 TEST(ContactCommand, ReadsStandardInputForADashAndForNoFile) {
   const std::string pairs = kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n";
-  const std::string answers = kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,,ok,\n";
+  const std::string answers =
+      kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,\n";
   for (const auto& arguments : {Names{"contact"}, Names{"contact", "-"}}) {
     EXPECT_EQ(run_tool(arguments, pairs).out, answers);
     const Finished refused = run_tool(arguments, pairs + "1\n");
@@ -299,7 +301,7 @@ TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
   EXPECT_EQ(run.err, "");
   std::vector<std::string> wanted{"a.qw a.qx a.qy a.qz",
                                   "relation         separate, external_touch, overlap",
-                                  "gap_error        empty in this version",
+                                  "gap_error        a proven bound",
                                   "inner            a or b, the body inside",
                                   "not available in this version",
                                   "Exit status: 0 ",
