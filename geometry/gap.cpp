@@ -73,6 +73,7 @@ bool settled(const Pair& pair, const GapProof& proof) {
 }
 
 Solved search(const Pair& pair, const FactoredPair& factored) {
+  if (const auto proof = methods::search_meridian(pair, factored)) return {*proof, GapTier::search};
   const auto proof = methods::search_sphere(pair, factored, kBudget);
   if (!proof) return {{}, GapTier::search, false};
   return {*proof, GapTier::search};

@@ -11,8 +11,7 @@ namespace {
 constexpr double kRoundings = 0x1p-20;
 constexpr double kMore = 1.0 + kRoundings, kLess = 1.0 - kRoundings;
 
-/// diag(a2 a3, a3 a1, a1 a2) R' m / h^1.5, a root of Hess h along e where m = n x e: by
-/// m' adj(M) m / h^3, which keeps its accuracy where M/h - x x'/h would cancel.
+/// diag(a2 a3, a3 a1, a1 a2) R' m / h^1.5, whose square is hessian_along().
 Vec3 hessian_root(const Ellipsoid& body, double h, const Vec3& m) {
   const Vec3& a = body.semi_axes();
   const Vec3 products(a[1] * (a[2] / h), a[2] * (a[0] / h), a[0] * (a[1] / h));
@@ -52,6 +51,10 @@ Bend bend_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& normal, double 
           std::abs(root_e.dot(root_m)) / (root_e.norm() * root_m.norm()),
           side(a, h_a, root_e.head<3>(), root_m.head<3>()),
           side(b, h_b, root_e.tail<3>(), root_m.tail<3>())};
+}
+
+double hessian_along(const Ellipsoid& body, double h, const Vec3& m) noexcept {
+  return hessian_root(body, h, m).squaredNorm();
 }
 
 Cap cap_around(const Bend& bend, const Slope& slope, double widest) noexcept {

@@ -50,6 +50,10 @@ struct Bend {
 Bend bend_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& normal, double h_a,
              double h_b) noexcept;
 
+/// e' Hess h e for unit normal n, unit tangent e and m = n x e: by m' adj(M) m / h^3, which keeps
+/// its accuracy where M/h - x x'/h would cancel.
+double hessian_along(const Ellipsoid& body, double h, const Vec3& m) noexcept;
+
 /// What is known of f at a normal to first order.
 struct Slope {
   double value;    ///< f

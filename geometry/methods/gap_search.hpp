@@ -20,4 +20,10 @@ namespace tangency::methods {
 std::optional<GapProof> search_sphere(const Pair& pair, const FactoredPair& factored,
                                       int budget) noexcept;
 
+/// The same for bodies of revolution about one axis through both centres (spheres included), whose
+/// maxima may tie along a circle: the search is along one meridian. Nothing for other pairs, and
+/// where it does not finish. The answer is the first maximum by angle from the axis of the starts
+/// 0, 1/2, 1 and pi/2 rad, in the half towards d.
+std::optional<GapProof> search_meridian(const Pair& pair, const FactoredPair& factored) noexcept;
+
 }  // namespace tangency::methods
