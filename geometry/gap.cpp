@@ -85,11 +85,16 @@ Solved solve_hard(const Pair& pair) {
   const bool concentric = pair.d == Vec3::Zero();
   const Stationary found =
       factored.climb(concentric ? factored.axis(0) : factored.perram_wertheim_normal());
-  if (found.accepted) {
-    const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
-    if (proof.global) return {proof, GapTier::factored};
-  }
-  return search(pair, factored);
+  if (!found.accepted) return search(pair, factored);
+  const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
+  if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
+  // Deep, or so flat a maximum that the curvature at it bounds little.
+  const Solved searched = search(pair, factored);
+  const bool better = searched.found && searched.proof.global &&
+                      searched.proof.high - searched.proof.low < proof.high - proof.low;
+  if (proof.global && !better) return {proof, GapTier::factored};
+  return searched;
 }
 
 /// Newton's method where `start(finish)` begins, first with an early finish and then, if that was

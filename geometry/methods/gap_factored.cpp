@@ -9,10 +9,11 @@ namespace tangency::methods {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
-constexpr int kClimbSteps = 200;    // chosen: far beyond the 5 to 30 steps seen
-constexpr int kHalvings = 50;       // a step of 2^-50 no longer moves a unit vector noticeably
-constexpr double kEscape = 0.25;    // rad; chosen: the step off a saddle, before backtracking
-constexpr double kLongestStep = 1;  // tangent of the largest turn in one step
+constexpr int kClimbSteps = 200;       // chosen: far beyond the 5 to 30 steps seen
+constexpr int kHalvings = 50;          // a step of 2^-50 no longer moves a unit vector noticeably
+constexpr double kEscape = 0.25;       // rad; chosen: the step off a saddle, before backtracking
+constexpr double kLastStep = 0x1p-20;  // rad; chosen: what a converged ascent may still move by
+constexpr double kLongestStep = 1;     // tangent of the largest turn in one step
 
 /// |y| where squares may underflow: an axis 1e-162 times as long as the pair is enough for that.
 double length(const Vec3& y) {
@@ -139,7 +140,10 @@ Stationary FactoredPair::climb(const Vec3& start) const noexcept {
       move += (saddle ? std::copysign(kEscape, length) : length) * t.direction[i];
     }
     const bool concave = t.curvature[1] > -t.curvature_noise;
-    if (concave && gain <= enough) return {(n + move).normalized(), true};
+    if (concave && gain <= enough) {
+      // Along a curve of ties a step is rounding over next to nothing: no improvement.
+      return {move.norm() < kLastStep ? Vec3((n + move).normalized()) : n, true};
+    }
     if (move.norm() > kLongestStep) move *= kLongestStep / move.norm();
     int halving = 0;
     for (; halving < kHalvings; ++halving, move *= 0.5) {

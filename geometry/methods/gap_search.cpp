@@ -54,7 +54,6 @@ class SphereSearch {
 
   /// Is every normal shown to be no better than the best, within the budget?
   bool prove(int budget) {
-    if (best().global) return true;
     // f(-n) = f(n) - 2 n.d: only the half of the sphere towards d can hold the greatest value.
     const Vec3 pole = pair_.d == Vec3::Zero() ? Vec3(Vec3::UnitZ()) : pair_.d.stableNormalized();
     const Vec3 e = pole.unitOrthogonal(), m = pole.cross(e).normalized();

@@ -50,11 +50,12 @@ class Meridian {
   bool climb(double t) {
     const Stationary found = factored_.climb(normal(t));
     if (!found.accepted || count_ == kMostPeaks) return false;
-    double along = found.normal.dot(axis_);
+    const GapProof proof = prove_gap_in_double_double(pair_, found.normal);
+    double along = proof.normal.dot(axis_);
     // Only concentric pairs look alike from both ends of the axis.
     if (pair_.d == Vec3::Zero()) along = std::abs(along);
     if (along < -0x1p-20) return false;
-    add(std::atan2(found.normal.cross(axis_).norm(), along));
+    add(proof, std::atan2(proof.normal.cross(axis_).norm(), along));
     return true;
   }
 
@@ -103,10 +104,12 @@ class Meridian {
   }
 
   /// The cap of gap_cap.cpp along one tangent only.
-  void add(double t) {
+  void add(const GapProof& proof, double t) {
     Peak& peak = peaks_[count_];
     const Vec3 n = normal(t).normalized(), e = across_ * std::cos(t) - axis_ * std::sin(t);
-    peak.proof = prove_gap_in_double_double(pair_, n);
+    peak.proof = proof;
+    // What it proves of the maximum nearby is for one that is sharp in every direction.
+    peak.proof.gap = peak.proof.low;
     peak.t = t;
     peak.width = 0.0, peak.height = 0.0;
     double h_a, h_b;
