@@ -33,7 +33,6 @@ constexpr int kBudget = 20000;
 struct Solved {
   GapProof proof;
   GapTier tier;
-  bool found = true;
 };
 
 /// The bodies as the caller gave them, for the exact relation.
@@ -46,9 +45,13 @@ struct Asked {
     if (separation == nullptr) return tangency::relation(a, b).relation;
     return tangency::relation(a.moved_to(Vec3::Zero()), b.moved_to(*separation)).relation;
   }
-  bool overlaps() const {
-    if (separation == nullptr) return tangency::overlaps(a, b);
-    return tangency::overlaps(a.moved_to(Vec3::Zero()), b.moved_to(*separation));
+  /// Sets the tier to `exact` where that is what it took.
+  bool overlaps(GapTier& tier) const {
+    const OverlapAnswer answer =
+        separation == nullptr ? overlap_answer(a, b)
+                              : overlap_answer(a.moved_to(Vec3::Zero()), b.moved_to(*separation));
+    if (answer.tier == Tier::exact) tier = GapTier::exact;
+    return answer.overlaps;
   }
 };
 
@@ -60,8 +63,8 @@ Solved solve_spheres(const Pair& pair) {
   const Vec3 n =
       largest == 0.0 ? Vec3(pair.a.rotation().col(0)) : Vec3((pair.d / largest).normalized());
   const double distance = pair.d.stableNorm(), gap = (distance - ra) - rb;
-  // |d| errs by 5 u of itself (4 of the norm, one of d), the differences by at most u each.
-  const double error = kUnitRoundoff * (6.01 * distance + 2.01 * (ra + rb));
+  // |d| errs by 7 u of itself (6 of the norm, one of d), the differences by at most u each.
+  const double error = kUnitRoundoff * (9.01 * distance + 2.01 * (ra + rb));
   return {{gap, gap - error, gap + error, true, n, ra * n, -rb * n}, GapTier::fast};
 }
 
@@ -72,29 +75,31 @@ bool settled(const Pair& pair, const GapProof& proof) {
   return above <= kOrdinaryGapErrorBound * unit && above - (proof.gap - proof.low) <= unit;
 }
 
-Solved search(const Pair& pair, const FactoredPair& factored) {
-  if (const auto proof = methods::search_meridian(pair, factored)) return {*proof, GapTier::search};
-  const auto proof = methods::search_sphere(pair, factored, kBudget);
-  if (!proof) return {{}, GapTier::search, false};
-  return {*proof, GapTier::search};
+std::optional<Solved> search(const Pair& pair, const FactoredPair& factored) {
+  if (const auto proof = methods::search_meridian(pair, factored))
+    return Solved{*proof, GapTier::search};
+  if (const auto proof = methods::search_sphere(pair, factored, kBudget))
+    return Solved{*proof, GapTier::search};
+  return std::nullopt;
 }
 
 /// What is not settled in double.
 Solved solve_hard(const Pair& pair) {
   const FactoredPair factored(pair.a, pair.b, pair.d);
   const bool concentric = pair.d == Vec3::Zero();
-  const Stationary found =
-      factored.climb(concentric ? factored.axis(0) : factored.perram_wertheim_normal());
-  if (!found.accepted) return search(pair, factored);
-  const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  const Vec3 start = concentric ? factored.axis(0) : factored.perram_wertheim_normal();
+  const Stationary found = factored.climb(start);
+  const Vec3 normal = found.normal.allFinite() ? found.normal : start;
+  const GapProof proof = methods::prove_gap_in_double_double(pair, normal);
   const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
-  const Solved searched = search(pair, factored);
-  const bool better = searched.found && searched.proof.global &&
-                      searched.proof.high - searched.proof.low < proof.high - proof.low;
+  const std::optional<Solved> searched = search(pair, factored);
+  if (!searched) return {proof, GapTier::factored};
+  const bool better =
+      searched->proof.global && searched->proof.high - searched->proof.low < proof.high - proof.low;
   if (proof.global && !better) return {proof, GapTier::factored};
-  return searched;
+  return *searched;
 }
 
 /// Newton's method where `start(finish)` begins, first with an early finish and then, if that was
@@ -148,26 +153,35 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   if (!found.accepted) return solve(pair);
   const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
-  if (!proof.global && proof.low < 0.0 && !asked.overlaps()) return solve(pair);
-  return {proof, GapTier::factored};
+  solved.tier = GapTier::factored;
+  if (!proof.global && proof.low < 0.0 && !asked.overlaps(solved.tier)) {
+    Solved global = solve(pair);
+    global.tier = std::max(global.tier, solved.tier);
+    return global;
+  }
+  solved.proof = proof;
+  return solved;
 }
 
-/// Where the proof leaves the sign open, the exact relation decides.
-void settle_sign(Solved& solved, const Asked& asked) {
+/// Where the proof leaves the sign open, the exact relation decides. No gap is above |d|.
+void settle_sign(Solved& solved, const Asked& asked, double distance) {
   GapProof& proof = solved.proof;
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
   if (proof.high >= 0.0) solved.tier = GapTier::exact;
-  if (asked.overlaps()) {
+  if (asked.overlaps(solved.tier)) {
     proof.high = std::min(proof.high, 0.0);
     proof.low = std::min(proof.low, -kLeast);
     if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
   } else if (asked.relation() == Relation::external_touch) {
     proof.gap = proof.low = proof.high = 0.0;
+    proof.global = true;
   } else {
+    // What is known of a branch below 0 says nothing about bodies that are apart.
+    if (!proof.global) proof.high = distance;
     proof.low = 0.0;
     proof.high = std::max(proof.high, kLeast);
-    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * proof.high, kLeast);
+    if (proof.gap <= 0.0) proof.gap = std::max(proof.global ? 0.5 * proof.high : 0.0, kLeast);
   }
 }
 
@@ -179,31 +193,26 @@ double scaled(double value, int exponent) {
   return std::copysign(std::numeric_limits<double>::denorm_min(), value);
 }
 
-Gap finish(Solved& solved, const Asked& asked, int exponent) {
-  if (!solved.found) {
-    return {std::numeric_limits<double>::quiet_NaN(),
-            Vec3::UnitX(),
-            Vec3::Zero(),
-            Vec3::Zero(),
-            kInfinity,
-            GapStatus::not_converged,
-            solved.tier};
-  }
-  settle_sign(solved, asked);
+/// @param in_own_unit  is the pair the one that was asked about, or one in units of 2^exponent?
+Gap finish(Solved& solved, const Asked& asked, const Pair& pair, bool in_own_unit, int exponent) {
+  // sqrt(3) times the largest component, and more than enough for rounding: |d| and above.
+  const double distance = 1.75 * pair.d.cwiseAbs().maxCoeff();
+  solved.proof.high = std::min(solved.proof.high, distance);
+  settle_sign(solved, asked, distance);
   const GapProof& proof = solved.proof;
-  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low);
-  Gap gap{scaled(proof.gap, exponent),
+  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
+  const GapStatus status = proof.global ? GapStatus::ok : GapStatus::local;
+  if (in_own_unit)
+    return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
+  // In the caller's unit both numbers may be subnormal, and so rounded.
+  constexpr double kSubnormal = 4.0 * std::numeric_limits<double>::denorm_min();
+  return {scaled(proof.gap, exponent),
           proof.normal,
-          proof.arm_a,
-          proof.arm_b,
-          scaled(error * (1.0 + 0x1p-50), exponent),
-          proof.global ? GapStatus::ok : GapStatus::local,
+          asked.a.support_point(proof.normal),
+          -asked.b.support_point(proof.normal),
+          error == 0.0 ? 0.0 : std::scalbn(error, exponent) + kSubnormal,
+          status,
           solved.tier};
-  if (exponent != 0) {
-    gap.arm_a = asked.a.support_point(gap.normal);
-    gap.arm_b = -asked.b.support_point(gap.normal);
-  }
-  return gap;
 }
 
 /// Is the pair in its own unit what Pair asks for?
@@ -215,8 +224,8 @@ bool in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
   return std::min(a.smallest_semi_axis(), b.smallest_semi_axis()) >= kThinnest;
 }
 
-/// Calls use(pair, exponent) with the pair itself or, where that could overflow or underflow on the
-/// way, in units of 2^exponent.
+/// Calls use(pair, in_own_unit, exponent) with the pair itself or, where that could overflow or
+/// underflow on the way, in units of 2^exponent.
 template <class Use>
 auto in_unit(const Asked& asked, const Use& use) {
   const Ellipsoid &a = asked.a, &b = asked.b;
@@ -225,39 +234,42 @@ auto in_unit(const Asked& asked, const Use& use) {
     const Vec3 low = asked.separation != nullptr
                          ? Vec3(Vec3::Zero())
                          : methods::separation_error(a.centre(), b.centre(), d);
-    return use(Pair{a, b, d, low}, 0);
+    return use(Pair{a, b, d, low}, true, 0);
   }
   const methods::ScaledPair scaled =
       asked.separation != nullptr ? methods::scaled_pair(a, b, d) : methods::scaled_pair(a, b);
-  return use(Pair{scaled.a, scaled.b, scaled.d, scaled.d_low}, scaled.exponent);
+  return use(Pair{scaled.a, scaled.b, scaled.d, scaled.d_low}, false, scaled.exponent);
 }
 
 template <class Solve>
 Gap answer(const Asked& asked, const Solve& solve_pair) {
-  return in_unit(asked, [&](const Pair& pair, int exponent) {
+  return in_unit(asked, [&](const Pair& pair, bool in_own_unit, int exponent) {
     Solved solved = solve_pair(pair);
-    return finish(solved, asked, exponent);
+    return finish(solved, asked, pair, in_own_unit, exponent);
   });
 }
 
 ContactBounds bounds(const Asked& asked, const Gap& gap) {
   const double axis_a = asked.a.largest_semi_axis(), axis_b = asked.b.largest_semi_axis();
-  if (gap.status != GapStatus::ok) return {2.0, 2.0 * axis_a, 2.0 * axis_b};
-  return in_unit(asked, [&](const Pair& pair, int exponent) -> ContactBounds {
-    // (P) of the derivation: the stored arm's own rounding beside the shift.
-    const auto bound = [&](double shift, const Ellipsoid& body) {
+  const ContactBounds nothing{2.0, 2.0 * axis_a, 2.0 * axis_b};
+  if (gap.status != GapStatus::ok) return nothing;
+  return in_unit(asked, [&](const Pair& pair, bool in_own_unit, int exponent) {
+    // Scaling may have changed the pair: d by underflow, the thinnest axes by their floor.
+    const double thinnest = std::min(asked.a.smallest_semi_axis(), asked.b.smallest_semi_axis());
+    const bool same = in_own_unit || (pair.d.cwiseAbs().maxCoeff() > 0x1p-900 &&
+                                      std::scalbn(thinnest, -exponent) >= kThinnest);
+    if (!same || pair.d == Vec3::Zero()) return nothing;
+    methods::ContactShift shift{0.0, 0.0, 0.0};
+    if (!pair.a.is_sphere() || !pair.b.is_sphere()) shift = methods::bound_shift(pair, gap.normal);
+    // (P) of the derivation: the stored numbers' own rounding beside the shift.
+    const auto bound = [&](double shifted, const Ellipsoid& body) {
       const double axis = body.largest_semi_axis(), h = body.support(gap.normal);
-      const double rounding = kUnitRoundoff * (8.0 * axis * (axis / h) + 16.0 * axis);
-      return std::min(2.0 * axis, std::scalbn(shift, exponent) + rounding);
+      const double rounding = kUnitRoundoff * (8.0 * axis * (axis / h) + 16.0 * axis) +
+                              8.0 * std::numeric_limits<double>::denorm_min();
+      return std::min(2.0 * axis, std::scalbn(shifted, exponent) + rounding);
     };
-    if (pair.a.is_sphere() && pair.b.is_sphere()) {
-      const bool concentric = pair.d == Vec3::Zero();
-      const double turn = concentric ? 2.0 : 8.0 * kUnitRoundoff;
-      return {turn, std::min(turn, 2.0) * axis_a, std::min(turn, 2.0) * axis_b};
-    }
-    const methods::ContactShift shift = methods::bound_shift(pair, gap.normal);
-    return {std::min(2.0, shift.turn + 8.0 * kUnitRoundoff), bound(shift.shift_a, asked.a),
-            bound(shift.shift_b, asked.b)};
+    return ContactBounds{std::min(2.0, shift.turn + 8.0 * kUnitRoundoff),
+                         bound(shift.shift_a, asked.a), bound(shift.shift_b, asked.b)};
   });
 }
 

@@ -24,7 +24,7 @@ namespace tangency {
 enum class GapStatus {
   ok,             ///< the global answer, proven
   local,          ///< a stationary answer; that no shorter penetration exists is not proven
-  not_converged,  ///< no stationary direction was found: the numbers are not an answer
+  not_converged,  ///< the numbers are not an answer; never of signed_gap() and follow_gap()
 };
 
 /// Which method gave the answer, the cheapest first.
@@ -43,8 +43,8 @@ struct Gap {
   Vec3 arm_a;   ///< p_A - c_A: A's witness point relative to its centre
   Vec3 arm_b;   ///< p_B - c_B: B's witness point relative to its centre
   /// Proven: |gap - true gap| is at most this where `ok`. Where `local` it bounds the distance to
-  /// the value of the branch (infinite where even that is not proven), and the true gap is at least
-  /// gap - gap_error. docs/derivations/gap-certificate.md
+  /// the value of the branch (as wide as |d| where even that is not proven), and the true gap is at
+  /// least gap - gap_error. docs/derivations/gap-certificate.md
   double gap_error;
   GapStatus status;
   GapTier tier;
@@ -82,8 +82,8 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) n
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;
 
-/// How far the normal and the witness points of an answer may be from those of the branch's true
-/// maximum (of the global one where `ok` and it is unique).
+/// How far the normal and the witness points of an answer may be from those of the true maximum
+/// that they are on: the global one, where that leads every other by more than gap_error.
 struct ContactBounds {
   double normal;  ///< of |normal - true normal|
   double arm_a;   ///< of |arm_a - true arm_a|, in the unit of length

@@ -59,7 +59,10 @@ double hessian_along(const Ellipsoid& body, double h, const Vec3& m) noexcept {
 
 Cap cap_around(const Bend& bend, const Slope& slope, double widest) noexcept {
   const double f = slope.value;
-  const double keep = kLess - bend.skew;
+  // A tangent is off by rounding, of which the larger curvature shows in the smaller.
+  const double mixed = 0x1p-48 * std::sqrt(std::max(bend.curvature[0] / bend.curvature[1],
+                                                    bend.curvature[1] / bend.curvature[0]));
+  const double keep = kLess - bend.skew - mixed;
   const double least = std::min(bend.curvature[0], bend.curvature[1]) * keep;
   Cap cap;
   cap.width = f < 0.0 ? std::min(widest, std::sqrt(least / -f) - 1.0) : widest;

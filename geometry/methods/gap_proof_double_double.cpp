@@ -15,6 +15,7 @@ using Vector = exact::DoubleDoubleVector;
 constexpr double kValueError = 0x1p-92;  // (V2) of the derivation, of the size of the pair
 constexpr double kRestError = 0x1p-92;   // (R2), of size and largest radii of curvature
 constexpr double kSlightly = 0x1p-20;    // (S)
+constexpr double kNarrow = 0x1p-40;      // chosen
 constexpr int kMoves = 4;                // chosen: the start is within rounding of the maximum
 
 /// f to first and second order at a normal.
@@ -47,8 +48,10 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
     return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
   };
   const Bend bend = bend_at(pair.a, pair.b, normal, a.support.high, b.support.high);
-  const double error =
-      0x1p-50 * r.norm() + kRestError * (pair.size + radius(pair.a, a) + radius(pair.b, b));
+  // A support point is never further off than its body is long.
+  const double across = std::min(kRestError * (radius(pair.a, a) + radius(pair.b, b)),
+                                 2.0 * (pair.a.largest_semi_axis() + pair.b.largest_semi_axis()));
+  const double error = 0x1p-50 * r.norm() + kRestError * pair.size + across;
   return {normal,
           f,
           {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},
@@ -97,7 +100,9 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
              (1.0 + kSlightly);
   }
   proof.high = sum_up(at.f.high, at.f.low + (error + height * (1.0 + kSlightly)));
-  proof.gap = height < GapProof::kUnproven ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
+  // In the middle of what is proven, unless that is so wide that f(n) is the better answer.
+  const bool narrow = height < kNarrow * pair.size;
+  proof.gap = narrow ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
   proof.normal = at.normal;
   proof.arm_a = at.point_a;
   proof.arm_b = -at.point_b;

@@ -47,7 +47,13 @@ class SphereSearch {
     peak.stretched_a = factored_.factor_a().transpose() * peak.proof.normal;
     peak.stretched_b = factored_.factor_b().transpose() * peak.proof.normal;
     const double width = peak.proof.cap.proven ? (1.0 - kSlightly) * peak.proof.cap.width : 0.0;
-    peak.width_a = width * peak.stretched_a.norm(), peak.width_b = width * peak.stretched_b.norm();
+    // Less what rounding and slivers beside halved sides may be off by.
+    const auto reach = [&](const Vec3& stretched, const Ellipsoid& body) {
+      return std::max(0.0,
+                      width * stretched.norm() - 64.0 * kUnitRoundoff * body.largest_semi_axis());
+    };
+    peak.width_a = reach(peak.stretched_a, pair_.a);
+    peak.width_b = reach(peak.stretched_b, pair_.b);
     if (count_ == 0 || peak.proof.gap > best().gap + kTie * size_) best_ = count_;
     ++count_;
   }
@@ -88,7 +94,9 @@ class SphereSearch {
   bool holds(const Peak& peak, const Vec3& v) const {
     const double c = v.dot(peak.proof.normal);
     // Above 0 a cap is bounded by the tilt as well: deep pairs have f < 0.
-    if (!(peak.width_a > 0.0) || !(c > 0x1p-10) || !(peak.proof.high < 0.0)) return false;
+    if (!(peak.width_a > 0.0) || !(peak.width_b > 0.0) || !(c > 0x1p-10) ||
+        !(peak.proof.high < 0.0))
+      return false;
     const Vec3 a = factored_.factor_a().transpose() * v / c - peak.stretched_a;
     const Vec3 b = factored_.factor_b().transpose() * v / c - peak.stretched_b;
     return a.norm() <= peak.width_a && b.norm() <= peak.width_b;

@@ -167,7 +167,7 @@ TEST(GapAlongMotions, NormalAndPointsJumpOnlyWhereTheGlobalAnswerChanges) {
 TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) {
   constexpr int kMotions = 1000, kSteps = 400;
   constexpr double kStep = 2 * M_PI / kSteps;
-  int ends = 0, parted = 0, steep = 0;
+  int ends = 0, parted = 0, lost = 0, steep = 0;
   for (int m = 0; m < kMotions; ++m) {
     const Motion motion(static_cast<std::uint64_t>(m));
     const Ellipsoid a(Vec3::Zero(), motion.a);
@@ -184,7 +184,11 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) 
           ++steep;
         } else {
           const Ellipsoid b = motion.at(jump.before), after = motion.at(jump.after);
-          if (follow_gap(a, after, after.centre(), jump.normal_before).gap > 0) {
+          const Gap next = follow_gap(a, after, after.centre(), jump.normal_before);
+          if ((next.normal - jump.normal_before).norm() < 1e-3) {
+            // The branch goes on: it turned too fast for one of the longer steps.
+            ++lost;
+          } else if (next.gap > 0) {
             // The wrong way out all along: no branch of bodies that are apart has a gap < 0.
             ++parted;
           } else {
@@ -203,7 +207,9 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) 
       last = now;
     }
   }
-  std::printf("%d branches ended, %d bodies parted, %d steep turns\n", ends, parted, steep);
+  std::printf("%d branches ended, %d bodies parted, %d branches lost in a step, %d steep turns\n",
+              ends, parted, lost, steep);
+  EXPECT_LE(lost, kMotions / 100);
   EXPECT_GT(ends, 10);
 }
 
