@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The gap of two solid ellipsoids by definitions other than the common normal's: what other codes
+/// call the overlap of ellipsoids, so that a difference of definition can be told from an error.
+///
+/// Both start from the Perram-Wertheim function [PerramWertheim1985]. With M the shape matrices
+/// and d = c_B - c_A,
+///     F = max over 0 < s < 1 of s (1-s) d' ((1-s) M_A + s M_B)^-1 d,
+/// and at the best s: v = ((1-s) M_A + s M_B)^-1 d, the normal n = v/|v| from A to B, and the point
+/// x = c_A + (1-s) M_A v = c_B - s M_B v, where both level functions (x - c)' M^-1 (x - c) are F
+/// and their gradients oppose each other along n. F > 1 <=> the solids are apart, and F is the
+/// square of the factor by which both must shrink or grow to touch: they then touch at x.
+///
+/// (1) Exchanging the bodies leaves the gap, reverses the normal and exchanges the points.
+/// (2) A common motion carries normal and points along; a common scaling scales gap and points.
+/// (3) The gap is > 0 where F > 1, and < 0 where F < 1: its sign is that of the signed gap.
+/// (4) For two spheres it is the signed gap; in general it differs from it by O(gap^2 / radius of
+///     curvature).
+///
+/// Every number is rounded once from double-double arithmetic: within u of itself + u L / 64,
+/// u = 2^-53, L = |d| + both largest semi-axes (the normal within 4 u), for aspect ratios and size
+/// ratios to 1e8 (tests/geometry/other_gaps_test.cpp prints the largest errors seen). Nothing here
+/// allocates. Assumes the default floating-point environment.
+#pragma once
+
+#include <tangency/geometry/ellipsoid.hpp>
+
+namespace tangency {
+
+enum class OtherGapStatus {
+  ok,
+  not_applicable,  ///< the definition says nothing about this pair
+  not_converged,   ///< not found: aspect ratios beyond 1e12
+};
+
+/// As Gap, by another definition. The numbers are 0 unless `ok`.
+struct OtherGap {
+  double gap;   ///< in the unit of length of the bodies; infinite beyond the range of doubles
+  Vec3 normal;  ///< unit, from A to B
+  Vec3 arm_a;   ///< A's witness point relative to its centre
+  Vec3 arm_b;   ///< B's
+  OtherGapStatus status;
+};
+
+/// gap = (1 - 1/sqrt F) n.d = n.d - h_A(n) - h_B(n), h the support functions: how far apart are the
+/// two tangent planes with the normal n.
+///
+/// Never above the signed gap, which is the greatest of n.d - h_A - h_B. The witness points are the
+/// support points, where those planes touch the bodies: (p_B - p_A).n = gap, but p_B - p_A is in
+/// general not along n. `not_applicable` where the centres coincide: F has no maximum.
+OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+/// The same with the separation d = c_B - c_A given, in place of the centres.
+OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
+                             const Vec3& separation) noexcept;
+
+/// Along the line x + t n: from the last point of the line in A to the first in B, t increasing
+/// from A to B, gap = t_B - t_A. Those are the witness points, p_B - p_A = gap n, for overlapping
+/// solids and for solids that are apart. This is the overlap of the discrete element codes that
+/// seek the point of equal potentials [Podlozhnyuk2017].
+///
+/// `not_applicable` where the centres coincide, and where the line misses a body: solids that are
+/// far apart for their curvature. Whether it does is known to 2^-90; gap and points lose digits
+/// where the line grazes a body, by 1 / the cosine between it and the surface's normal, and at most
+/// half of those of double-double.
+OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+/// The same with the separation d = c_B - c_A given, in place of the centres.
+OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
+                                const Vec3& separation) noexcept;
+
+}  // namespace tangency

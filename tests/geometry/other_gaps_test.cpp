@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/geometry/other_gaps.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <tangency/bench/families/extreme.hpp>
+#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/oracles/perram_wertheim.hpp>
+
+namespace tangency {
+namespace {
+
+using testing::to_ellipsoid;
+using verify::Real;
+using verify::Real3;
+
+constexpr double kU = 0x1p-53;
+constexpr std::uint64_t kSeed = 20261122;
+constexpr int kPairs = 16;  // of each family
+constexpr double kOfSize = 0x1p-6;
+
+using Definition = OtherGap (*)(const Ellipsoid&, const Ellipsoid&) noexcept;
+constexpr std::array<Definition, 2> kDefinitions{perram_wertheim_gap, midpoint_potential_gap};
+
+double size_of(const Ellipsoid& a, const Ellipsoid& b) {
+  return (b.centre() - a.centre()).stableNorm() + a.largest_semi_axis() + b.largest_semi_axis();
+}
+
+double distance(const Vec3& v, const Real3& truth) {
+  Real square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Real off = Real(v[i]) - truth[static_cast<std::size_t>(i)];
+    square += off * off;
+  }
+  return static_cast<double>(Real(sqrt(square)));
+}
+
+double difference(double value, const Real& truth) {
+  return static_cast<double>(Real(abs(Real(value) - truth)));
+}
+
+TEST(OtherGaps, OfTwoSpheresAreTheirDistanceAlongTheLineOfCentres) {
+  for (const auto& find : kDefinitions) {
+    const OtherGap found =
+        find(Ellipsoid({1, 1, 1}, {1, 1, 1}, {1, 2, 3, 4}), Ellipsoid({4, 5, 1}, {2, 2, 2}));
+    ASSERT_EQ(found.status, OtherGapStatus::ok);
+    EXPECT_EQ(found.gap, 2);
+    EXPECT_LE((found.normal - Vec3(0.6, 0.8, 0)).norm(), 2 * kU);
+    EXPECT_LE((found.arm_a - Vec3(0.6, 0.8, 0)).norm(), 2 * kU);
+    EXPECT_LE((found.arm_b - Vec3(-1.2, -1.6, 0)).norm(), 4 * kU);
+  }
+}
+
+TEST(OtherGaps, OnACommonAxisAreTheSignedGap) {
+  const Ellipsoid a({0, 0, 0}, {1, 3, 2});
+  for (const double z : {5.5, 4.5, 0.25}) {
+    for (const auto& find : kDefinitions) {
+      const OtherGap found = find(a, Ellipsoid({0, 0, z}, {4, 1, 3}));
+      EXPECT_EQ(found.gap, z - 5);
+      EXPECT_EQ(found.normal, Vec3(0, 0, 1));
+      EXPECT_EQ(found.arm_a, Vec3(0, 0, 2));
+      EXPECT_EQ(found.arm_b, Vec3(0, 0, -3));
+    }
+  }
+}
+
+TEST(OtherGaps, AreFoundWhereTheRatioOfSupportsIsTheGreatestPossible) {
+  // A's longest axis meets B's shortest, so that s/(1-s) is at the end of its range.
+  const Ellipsoid a({0, 0, 0}, {0.2, 0.3, 0.43}), ball({0, 0, -1.46}, {2.73, 2.73, 2.73});
+  for (const auto& find : kDefinitions) {
+    const OtherGap found = find(a, ball);
+    EXPECT_EQ(found.normal, Vec3(0, 0, -1));
+    EXPECT_NEAR(found.gap, 1.46 - 0.43 - 2.73, 2 * kU);
+    EXPECT_NEAR(found.arm_a[2], -0.43, kU);
+    EXPECT_NEAR(found.arm_b[2], 2.73, 2 * kU);
+  }
+}
+
+TEST(OtherGaps, OfEqualParallelBodiesAreThoseOfHalfWayBetweenThem) {
+  // s = 1/2, v = M^-1 d = (1/2, 2, 0) s, F = d'v / 4 s^2 for d = s (2, 2, 0).
+  for (const double s : {1.0, 0.75}) {
+    const Vec3 axes(2, 1, 1), d = s * Vec3(2, 2, 0), n = Vec3(1, 4, 0) / std::sqrt(17.0);
+    const double level = 1.25 * s * s;
+    const OtherGap planes = perram_wertheim_gap(Ellipsoid({0, 0, 0}, axes), Ellipsoid(d, axes));
+    EXPECT_NEAR(planes.gap, (1 - 1 / std::sqrt(level)) * 10 * s / std::sqrt(17.0), 8 * kU);
+    EXPECT_LE((planes.normal - n).norm(), 2 * kU);
+    const OtherGap midpoint =
+        midpoint_potential_gap(Ellipsoid({0, 0, 0}, axes), Ellipsoid(d, axes));
+    // (d/2 + t n)' M^-1 (d/2 + t n) = 1, and as much on the other side.
+    const double square = 65.0 / 68.0, slope = s * std::sqrt(17.0) / 4;
+    const double t = (std::sqrt(slope * slope + square * (1 - level)) - slope) / square;
+    EXPECT_NEAR(midpoint.gap, -2 * t, 8 * kU);
+    EXPECT_LE((midpoint.arm_a - (0.5 * d + t * n)).norm(), 8 * kU);
+    EXPECT_LE((midpoint.arm_a + midpoint.arm_b).norm(), 8 * kU);
+  }
+}
+
+TEST(OtherGaps, AreNotApplicableToCoincidingCentres) {
+  for (const auto& find : kDefinitions) {
+    const OtherGap found = find(Ellipsoid({1, 2, 3}, {1, 1, 1}), Ellipsoid({1, 2, 3}, {1, 2, 3}));
+    EXPECT_EQ(found.status, OtherGapStatus::not_applicable);
+    EXPECT_EQ(found.gap, 0);
+  }
+}
+
+TEST(OtherGaps, AreApplicableToCentresAsNearAsDoublesTell) {
+  const Ellipsoid a({0, 0, 0}, {2, 3, 4}), b({0, 0, 0x1p-1074}, {1e100, 2e100, 1e100});
+  for (const auto& find : kDefinitions) {
+    EXPECT_EQ(find(a, b).status, OtherGapStatus::ok);
+    EXPECT_EQ(find(a, b).normal, Vec3(0, 0, 1));
+    EXPECT_EQ(find(a, b).gap, -1e100);
+  }
+}
+
+TEST(OtherGaps, MidpointPotentialIsNotApplicableWhereTheLineMissesABody) {
+  const Ellipsoid disc({0, 0, 0}, {10, 10, 1}), ball({100, 0, 30}, {1, 1, 1});
+  EXPECT_EQ(midpoint_potential_gap(disc, ball).status, OtherGapStatus::not_applicable);
+  EXPECT_EQ(midpoint_potential_gap(ball, disc).status, OtherGapStatus::not_applicable);
+  EXPECT_EQ(perram_wertheim_gap(disc, ball).status, OtherGapStatus::ok);
+}
+
+TEST(OtherGaps, TakeAGivenSeparationForThatOfTheCentres) {
+  const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({3, 1, 2}, {3, 2, 1}, {1, 2, 3, 4});
+  const Ellipsoid elsewhere = b.moved_to({-7, 0, 1});
+  EXPECT_EQ(perram_wertheim_gap(a, elsewhere, b.centre()).gap, perram_wertheim_gap(a, b).gap);
+  EXPECT_EQ(midpoint_potential_gap(a, elsewhere, b.centre()).gap, midpoint_potential_gap(a, b).gap);
+}
+
+TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
+  families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
+  double largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto contact = contacts.next();
+    const Ellipsoid a = to_ellipsoid(contact.a), b = to_ellipsoid(contact.b);
+    const auto [x, y, z] = contact.normal;
+    const double rho = a.least_radius() + b.least_radius();
+    // The gap is 1/100 and 1/1000 of rho, of either sign.
+    const auto off = [&](const auto& find, double share) {
+      const double way = share * rho - contact.gap;
+      const Ellipsoid there = b.moved_to(b.centre() + way * Vec3(x, y, z));
+      return std::abs(find(a, there).gap - signed_gap(a, there).gap) / rho;
+    };
+    for (const auto& find : kDefinitions) {
+      for (const double sign : {1.0, -1.0}) {
+        const double far = off(find, sign * 1e-2), near = off(find, sign * 1e-3);
+        EXPECT_LE(near, 0.02 * far + 1e-12) << i;
+        largest = std::max(largest, far / 1e-4);
+      }
+    }
+  }
+  std::printf("differences to %.2f gap^2 / rho\n", largest);
+  EXPECT_LE(largest, 1);
+}
+
+/// Largest errors in units of what is promised: u of each number + u L / 64, 4 u for the normal.
+struct Errors {
+  double gap = 0, normal = 0, arms = 0;
+
+  void add(const OtherGap& found, const verify::DefinedGap& truth, double size) {
+    const auto promised = [&](double value) { return kU * (value + kOfSize * size); };
+    gap = std::max(gap, difference(found.gap, truth.gap) / promised(std::abs(found.gap)));
+    normal = std::max(normal, distance(found.normal, truth.normal) / (4 * kU));
+    arms = std::max({arms, distance(found.arm_a, truth.arm_a) / promised(found.arm_a.stableNorm()),
+                     distance(found.arm_b, truth.arm_b) / promised(found.arm_b.stableNorm())});
+  }
+};
+
+/// Both definitions of every pair that next() draws against 100 digits.
+template <class Next>
+void hold_against_oracle(const std::string& family, const Next& next) {
+  Errors planes, midpoint;
+  int along = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    const auto pair = next();
+    const Ellipsoid a = to_ellipsoid(pair.a), b = to_ellipsoid(pair.b);
+    const auto truth = verify::perram_wertheim(pair.a, pair.b);
+    const OtherGap tangent_planes = perram_wertheim_gap(a, b);
+    const OtherGap on_the_line = midpoint_potential_gap(a, b);
+    if (!truth) {
+      EXPECT_EQ(tangent_planes.status, OtherGapStatus::not_applicable);
+      EXPECT_EQ(on_the_line.status, OtherGapStatus::not_applicable);
+      continue;
+    }
+    ASSERT_EQ(tangent_planes.status, OtherGapStatus::ok) << family << ' ' << i;
+    planes.add(tangent_planes, truth->tangent_planes, size_of(a, b));
+    ASSERT_EQ(on_the_line.status == OtherGapStatus::ok, truth->midpoint.has_value())
+        << family << ' ' << i;
+    if (!truth->midpoint) continue;
+    ++along;
+    midpoint.add(on_the_line, *truth->midpoint, size_of(a, b));
+  }
+  std::printf(
+      "%-28s tangent planes: gap %.2f normal %.2f arms %.2f; midpoint (%d pairs): "
+      "gap %.2f arms %.2f of what is promised\n",
+      family.c_str(), planes.gap, planes.normal, planes.arms, along, midpoint.gap, midpoint.arms);
+  for (const Errors& errors : {planes, midpoint}) {
+    EXPECT_LE(errors.gap, 1) << family;
+    EXPECT_LE(errors.normal, 1) << family;
+    EXPECT_LE(errors.arms, 1) << family;
+  }
+}
+
+TEST(OtherGaps, OrdinaryContactsAreWhatTheOracleSaysToRounding) {
+  for (const auto& family : families::contact_classes()) {
+    families::ManufacturedContacts contacts(family, kSeed);
+    hold_against_oracle(family.name, [&] { return contacts.next(); });
+  }
+}
+
+TEST(OtherGaps, ExtremePairsAreWhatTheOracleSaysToRounding) {
+  for (const auto& family : families::extreme_families()) {
+    families::ExtremePairs pairs(family, kSeed);
+    hold_against_oracle(family.name, [&] { return pairs.next(); });
+  }
+}
+
+TEST(OtherGaps, DeepPairsAreWhatTheOracleSaysToRounding) {
+  for (const auto& family : families::deep_families()) {
+    families::DeepPairs pairs(family, kSeed);
+    hold_against_oracle(family.name, [&] { return pairs.next(); });
+  }
+}
+
+}  // namespace
+}  // namespace tangency
