@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
@@ -16,10 +20,6 @@ namespace {
 constexpr std::array<std::string_view, 15> kOutputColumns{
     "row",  "relation", "gap",  "nx",   "ny",        "nz",     "pa.x", "pa.y",
     "pa.z", "pb.x",     "pb.y", "pb.z", "gap_error", "status", "inner"};
-
-constexpr std::string_view kCommonNormal = "common-normal";
-constexpr std::array<std::string_view, 3> kLaterMethods{"trace", "perram-wertheim",
-                                                        "midpoint-potential"};
 
 constexpr const char* kHelp = R"(
 Input columns, in any order; others are ignored:
@@ -36,12 +36,13 @@ Output columns, in this order:
   relation         separate, external_touch, overlap, internal_touch, a_in_b, b_in_a or
                    equal, as point sets: exact for the numbers as they are read
   gap              > 0: the distance; < 0: minus the penetration depth, the length of the
-                   shortest translation that separates the bodies
+                   shortest translation that separates the bodies; or by another method
   nx ny nz         unit normal, from a to b
   pa.x pa.y pa.z   witness point on a
   pb.x pb.y pb.z   witness point on b; pb - pa = gap n
-  gap_error        a proven bound on |gap - true gap| for the numbers as they are read; where
-                   local on the distance to the value of that stationary answer
+  gap_error        proven: the true gap is this near to gap; on a local row it bounds the
+                   distance to the local value, and the true gap is at least
+                   gap - gap_error; empty for the methods other than common-normal
   status           see below
   inner            a or b, the body inside, for internal_touch; else empty
   Numbers read back to the same double.
@@ -50,15 +51,23 @@ Status of a row:
   ok               the global answer
   local            a stationary answer; that no shorter penetration exists elsewhere is
                    not proven
-  not_applicable   the method has no answer: some number is beyond the range of a double;
-                   numbers are empty
+  not_applicable   the method has no answer, or some number is beyond the range of a
+                   double; numbers are empty
   not_converged    no answer was found; numbers are empty
   invalid          the row was refused (only with --keep-going); numbers are empty
 
-Methods:
+Methods, definitions of gap, normal and points; the relation is the same for all:
   common-normal    the gap as defined above
-  trace, perram-wertheim, midpoint-potential
-                   not available in this version
+  perram-wertheim  at the best s of s (1-s) d'((1-s) Ma + s Mb)^-1 d, d from centre to
+                   centre, M the shape matrices: n along ((1-s) Ma + s Mb)^-1 d, gap the
+                   distance between the tangent planes with this normal, pa and pb where
+                   they touch; pb - pa is in general not along n. Not applicable to
+                   coinciding centres
+  midpoint-potential
+                   with the same n, along the line through the point where both level
+                   functions agree, from the last point in a to the first in b. Not
+                   applicable to coinciding centres and where the line misses a body
+  trace            not available in this version
 
 Exit status: 0 every row is ok or local; 1 some row is not; 2 refused command line or
 input, or a failed read or write. A refusal is one line on standard error:
@@ -84,28 +93,64 @@ struct Answer {
   Vec3 normal;
   Vec3 point_a;
   Vec3 point_b;
-  double gap_error;
+  std::optional<double> gap_error;
 };
 
 /// The answer that says nothing but why it is empty.
 Answer without_numbers(const RelationAnswer& relation, std::string_view status) {
-  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0};
+  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), std::nullopt};
 }
 
-Answer find_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
+/// The answer with the numbers of a Gap or OtherGap, unless one is beyond the range of a double.
+template <class AnyGap>
+Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
+                    std::string_view status, std::optional<double> gap_error) {
   const RelationAnswer exact = relation(a, b);
-  const Gap found = signed_gap(a, b);
-  if (found.status == GapStatus::not_converged) return without_numbers(exact, "not_converged");
   const Vec3 point_a = a.centre() + found.arm_a;
   const Vec3 point_b = b.centre() + found.arm_b;
   const bool representable = std::isfinite(found.gap) && found.normal.allFinite() &&
                              point_a.allFinite() && point_b.allFinite();
   if (!representable) return without_numbers(exact, "not_applicable");
-  return {exact,        found.status == GapStatus::ok ? "ok" : "local",
-          true,         found.gap,
-          found.normal, point_a,
-          point_b,      found.gap_error};
+  return {exact, status, true, found.gap, found.normal, point_a, point_b, gap_error};
 }
+
+Answer by_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
+  const Gap found = signed_gap(a, b);
+  switch (found.status) {
+    case GapStatus::ok:
+      return with_numbers(a, b, found, "ok", found.gap_error);
+    case GapStatus::local:
+      return with_numbers(a, b, found, "local", found.gap_error);
+    case GapStatus::not_converged:
+      break;
+  }
+  return without_numbers(relation(a, b), "not_converged");
+}
+
+template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>
+Answer by_other_definition(const Ellipsoid& a, const Ellipsoid& b) {
+  const OtherGap found = find(a, b);
+  switch (found.status) {
+    case OtherGapStatus::ok:
+      return with_numbers(a, b, found, "ok", std::nullopt);
+    case OtherGapStatus::not_applicable:
+      return without_numbers(relation(a, b), "not_applicable");
+    case OtherGapStatus::not_converged:
+      break;
+  }
+  return without_numbers(relation(a, b), "not_converged");
+}
+
+struct Method {
+  std::string_view name;
+  Answer (*answer)(const Ellipsoid&, const Ellipsoid&);  ///< null: not available
+};
+
+constexpr std::array<Method, 4> kMethods{
+    {{"common-normal", by_common_normal},
+     {"perram-wertheim", by_other_definition<perram_wertheim_gap>},
+     {"midpoint-potential", by_other_definition<midpoint_potential_gap>},
+     {"trace", nullptr}}};
 
 RowOutcome write(const Answer& answer, csv::RowText& out) {
   out.text(to_string(answer.relation.relation));
@@ -114,7 +159,11 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
     for (const Vec3* vector : {&answer.normal, &answer.point_a, &answer.point_b}) {
       for (const double component : *vector) out.number(component);
     }
-    out.number(answer.gap_error);
+    if (answer.gap_error) {
+      out.number(*answer.gap_error);
+    } else {
+      out.empty();
+    }
   } else {
     out.empty(11);
   }
@@ -133,34 +182,41 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
   return answer.has_numbers ? RowOutcome::answered : RowOutcome::unanswered;
 }
 
-RowFunction bind(const csv::Header& header) {
-  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const csv::RowCursor& row,
-                                                                      csv::RowText& out) {
-    return write(find_common_normal(a.read(row), b.read(row)), out);
+std::function<RowFunction(const csv::Header&)> bind_with(const Method& method) {
+  return [&method](const csv::Header& header) -> RowFunction {
+    return [&method, a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](
+               const csv::RowCursor& row, csv::RowText& out) {
+      return write(method.answer(a.read(row), b.read(row)), out);
+    };
   };
 }
 
-std::string check_method(const std::string& method) {
-  if (method == kCommonNormal) return {};
-  for (const std::string_view later : kLaterMethods) {
-    if (method == later) return method + " is not available in this version; common-normal is";
-  }
-  return method + " is not a method; common-normal is the one available";
+/// Requires a name that check_method() accepts.
+const Method& method_named(std::string_view name) {
+  return *std::ranges::find(kMethods, name, &Method::name);
+}
+
+std::string check_method(const std::string& name) {
+  const auto found = std::ranges::find(kMethods, name, &Method::name);
+  if (found != kMethods.end() && found->answer != nullptr) return {};
+  return name +
+         (found != kMethods.end() ? " is not available in this version" : " is not a method") +
+         "; common-normal, perram-wertheim and midpoint-potential are";
 }
 
 }  // namespace
 
 Subcommand add_contact(CLI::App& program) {
   struct Options {
-    std::string method{kCommonNormal};
+    std::string method{kMethods.front().name};
     RowStreamOptions rows;
   };
   const auto options = std::make_shared<Options>();
   CLI::App& app = *program.add_subcommand(
       "contact", "Signed gap, normal and witness points of pairs of ellipsoids");
   app.add_option("--method", options->method,
-                 "How contact is defined: common-normal (default); trace, perram-wertheim and "
-                 "midpoint-potential are not available in this version")
+                 "How contact is defined: common-normal (default), perram-wertheim or "
+                 "midpoint-potential; trace is not available in this version")
       ->check(CLI::Validator(check_method, ""))
       ->type_name("M");
   add_row_stream_options(app, options->rows);
@@ -168,7 +224,7 @@ Subcommand add_contact(CLI::App& program) {
   return {&app, [options] {
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",
-                               .bind = bind};
+                               .bind = bind_with(method_named(options->method))};
             return run_row_stream(task, options->rows);
           }};
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <ostream>
@@ -11,6 +12,7 @@
 #include <sstream>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/tool/process.hpp>
 
 namespace tangency::test {
@@ -24,6 +26,7 @@ const std::string kHeader =
     "qz\n";
 const std::string kOutHeader =
     "row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner\n";
+const std::string kPair = "0,0,0,1,1,1,3.5,0,0,2,1,1\n";  // of kNoTurnHeader
 const std::string kInvalidCells = ",,,,,,,,,,,,,invalid,\n";
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -45,13 +48,20 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// What the tool says about kPair.
+std::string answer_of_the_pair() {
+  const Gap gap = signed_gap(Ellipsoid({0, 0, 0}, {1, 1, 1}), Ellipsoid({3.5, 0, 0}, {2, 1, 1}));
+  std::array<char, 32> error;
+  const auto end = std::to_chars(error.data(), error.data() + error.size(), gap.gap_error).ptr;
+  return kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0," + std::string(error.data(), end) +
+         ",ok,\n";
+}
+
 TEST(ContactCommand, AnswersWithTheDocumentedColumns) {
   const TemporaryFolder folder;
-  const std::string pairs =
-      folder.write("pairs.csv", kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n");
+  const std::string pairs = folder.write("pairs.csv", kNoTurnHeader + kPair);
   const Finished run = run_tool({"contact", pairs});
-  EXPECT_EQ(run.out,
-            kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,\n");
+  EXPECT_EQ(run.out, answer_of_the_pair());
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.status, 0);
 }
@@ -63,9 +73,8 @@ TEST(ContactCommand, HeaderAloneIsAnEmptyTable) {
 }
 
 TEST(ContactCommand, ReadsStandardInputForADashAndForNoFile) {
-  const std::string pairs = kNoTurnHeader + "0,0,0,1,1,1,3.5,0,0,2,1,1\n";
-  const std::string answers =
-      kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,\n";
+  const std::string pairs = kNoTurnHeader + kPair;
+  const std::string answers = answer_of_the_pair();
   for (const auto& arguments : {Names{"contact"}, Names{"contact", "-"}}) {
     EXPECT_EQ(run_tool(arguments, pairs).out, answers);
     const Finished refused = run_tool(arguments, pairs + "1\n");
@@ -260,16 +269,12 @@ TEST(ContactCommand, AnswerBeyondTheRangeOfADoubleIsNotApplicable) {
 
 TEST(ContactCommand, RefusesABadCommandLineWithOneLine) {
   const std::string see = " (`tangency contact --help` says what is allowed)\n";
-  const std::string later = " is not available in this version; common-normal is";
+  const std::string which = "; common-normal, perram-wertheim and midpoint-potential are";
   const std::vector<std::pair<Names, std::string>> cases{
-      {{"contact", "--method", "trace"}, "tangency contact: --method: trace" + later + see},
-      {{"contact", "--method", "perram-wertheim"},
-       "tangency contact: --method: perram-wertheim" + later + see},
-      {{"contact", "--method", "midpoint-potential"},
-       "tangency contact: --method: midpoint-potential" + later + see},
+      {{"contact", "--method", "trace"},
+       "tangency contact: --method: trace is not available in this version" + which + see},
       {{"contact", "--method", "guess"},
-       "tangency contact: --method: guess is not a method; common-normal is the one available" +
-           see},
+       "tangency contact: --method: guess is not a method" + which + see},
       {{"contact", "--threads", "0"},
        "tangency contact: --threads: Value 0 not in range 1 to 1024" + see},
       {{"contact", "--threads", "two"},
@@ -295,13 +300,64 @@ TEST(ContactCommand, MethodCanBeNamed) {
             run_tool({"contact"}, pairs).out);
 }
 
+struct OtherMethod {
+  std::string name;
+  OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept;
+};
+const std::array<OtherMethod, 2> kOtherMethods{
+    {{"perram-wertheim", perram_wertheim_gap}, {"midpoint-potential", midpoint_potential_gap}}};
+
+TEST(ContactCommand, OtherMethodsGiveTheNumbersOfTheLibraryAndNoErrorOfTheGap) {
+  const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({3.5, 1, 2}, {3, 2, 1}, {1, 2, 3, 4});
+  const std::string text = kHeader + "0,0,0,1,2,3,1,0,0,0,3.5,1,2,3,2,1,1,2,3,4\n";
+  const std::vector<std::string> usual = cells_of(lines_of(run_tool({"contact"}, text).out)[1]);
+  for (const OtherMethod& method : kOtherMethods) {
+    const Finished run = run_tool({"contact", "--method", method.name}, text);
+    EXPECT_EQ(run.status, 0);
+    const OtherGap expected = method.find(a, b);
+    const Vec3 points[] = {expected.normal, a.centre() + expected.arm_a,
+                           b.centre() + expected.arm_b};
+    const std::vector<std::string> cells = cells_of(lines_of(run.out).at(1));
+    ASSERT_EQ(cells.size(), 15U);
+    EXPECT_EQ(cells[1], usual[1]);
+    EXPECT_EQ(bits(number(cells[2])), bits(expected.gap));
+    for (std::size_t k = 0; k < 9; ++k) {
+      EXPECT_EQ(bits(number(cells[3 + k])), bits(points[k / 3][static_cast<int>(k % 3)]));
+    }
+    EXPECT_EQ(cells[12], "");
+    EXPECT_EQ(cells[13], "ok");
+  }
+}
+
+TEST(ContactCommand, OtherMethodsAreNotApplicableToCoincidingCentresButTheRelationIsExact) {
+  for (const OtherMethod& method : kOtherMethods) {
+    const Finished run = run_tool({"contact", "--method", method.name},
+                                  kNoTurnHeader + "0,0,0,1,1,1,0,0,0,2,3,4\n" +  //
+                                      "0,0,0,1,1,1,0,0,0,1,1,2\n");
+    EXPECT_EQ(run.out, kOutHeader + "0,a_in_b,,,,,,,,,,,,not_applicable,\n" +
+                           "1,internal_touch,,,,,,,,,,,,not_applicable,a\n");
+    EXPECT_EQ(run.status, 1);
+  }
+}
+
+TEST(ContactCommand, MidpointPotentialIsNotApplicableWhereItsLineMissesABody) {
+  // A far disc across the direction to the other: the normal tilts, and the line with it.
+  const std::string far = kNoTurnHeader + "0,0,0,10,10,1,100,0,30,1,1,1\n";
+  const Finished run = run_tool({"contact", "--method", "midpoint-potential"}, far);
+  EXPECT_EQ(run.out, kOutHeader + "0,separate,,,,,,,,,,,,not_applicable,\n");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run_tool({"contact", "--method", "perram-wertheim"}, far).status, 0);
+}
+
 TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
   const Finished run = run_tool({"contact", "--help"});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   std::vector<std::string> wanted{"a.qw a.qx a.qy a.qz",
                                   "relation         separate, external_touch, overlap",
-                                  "gap_error        a proven bound",
+                                  "gap_error        proven",
+                                  "perram-wertheim  at the best s",
+                                  "midpoint-potential\n",
                                   "inner            a or b, the body inside",
                                   "not available in this version",
                                   "Exit status: 0 ",
