@@ -30,7 +30,13 @@ inline int exponent_of(double value) noexcept {
 /// Requires a finite value and a result in range.
 inline double scaled_by_power(double value, int power) noexcept {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(value) & ~(std::uint64_t{1} << 63);
-  if (bits >> 52 != 0 || bits == 0) return std::scalbn(value, power);
+  if (bits >> 52 != 0 || bits == 0) {
+    // The factor itself is a normal double: a product rounds as scalbn does, and is no call.
+    if (power > -1023 && power < 1024) {
+      return value * std::bit_cast<double>(static_cast<std::uint64_t>(power + 1023) << 52);
+    }
+    return std::scalbn(value, power);
+  }
   const double magnitude = std::scalbn(static_cast<double>(bits), power - 1074);
   return std::signbit(value) ? -magnitude : magnitude;
 }

@@ -21,7 +21,7 @@ constexpr double kSmallestSlope = 0x1p-100;  // chosen: below it rounding alone 
 constexpr double kSettled = 0x1p-75;         // no longer seen in doubles, even 2^22 times as large
 
 DoubleDouble scaled(const DoubleDouble& v, int power) {
-  return {std::scalbn(v.high, power), std::scalbn(v.low, power)};
+  return {scaled_by_power(v.high, power), scaled_by_power(v.low, power)};
 }
 
 Vector scaled(const Vector& v, int power) {

@@ -10,6 +10,7 @@
 #include <tangency/bench/families/extreme.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
 namespace {
@@ -60,6 +61,16 @@ TEST(Allocation, IsSeenByTheCounter) {
   const long before = allocations;
   delete new int(1);
   EXPECT_EQ(allocations, before + 1);
+}
+
+TEST(Allocation, HappensInNoGapOfAnotherDefinition) {
+  for (const auto& [a, b] : all_pairs()) {
+    const long before = allocations;
+    const OtherGap planes = perram_wertheim_gap(a, b), midpoint = midpoint_potential_gap(a, b);
+    ASSERT_EQ(allocations, before);
+    ASSERT_NE(planes.status, OtherGapStatus::not_converged);
+    ASSERT_NE(midpoint.status, OtherGapStatus::not_converged);
+  }
 }
 
 TEST(Allocation, HappensInNoTierOfTheGapButTheExactOne) {

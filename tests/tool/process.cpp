@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -155,7 +156,9 @@ Finished Process::wait() {
   }
   errors.join();
   int status = 0;
-  ::waitpid(std::exchange(pid_, -1), &status, 0);
+  struct rusage used {};
+  ::wait4(std::exchange(pid_, -1), &status, 0, &used);
+  finished.peak_bytes = static_cast<std::size_t>(used.ru_maxrss) * 1024;
   if (WIFEXITED(status)) finished.status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) finished.signal = WTERMSIG(status);
   return finished;

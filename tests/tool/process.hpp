@@ -33,8 +33,9 @@ class TemporaryFolder {
 std::string read_file(const std::string& path);
 
 struct Finished {
-  int status = -1;  ///< exit status; -1 when a signal ended the process
-  int signal = 0;   ///< that signal
+  int status = -1;             ///< exit status; -1 when a signal ended the process
+  int signal = 0;              ///< that signal
+  std::size_t peak_bytes = 0;  ///< of memory, never below the caller's own when it started the tool
   std::string out;
   std::string err;
 };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <fstream>
 #include <string>
 #include <thread>
 
@@ -115,6 +117,25 @@ TEST(RowStream, RefusalDoesNotWaitForTheEndOfAPipe) {
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.err, "<stdin>:601: b.r3 = 0: a semi-axis must be finite and > 0\n");
   }
+}
+
+TEST(RowStream, MemoryDoesNotGrowWithTheFile) {
+  const TemporaryFolder folder;
+  const auto peak = [&](const char* name, std::size_t times) {
+    const std::string some = rows(10'000);
+    std::ofstream file(folder.path(name), std::ios::binary);
+    file << kHeader;
+    for (std::size_t i = 0; i < times; ++i) file << some;
+    file.close();
+    const Process::Place nowhere{.standard_output = "/dev/null"};
+    const Finished run = run_tool({"contact", "--threads", "2", folder.path(name)}, "", nowhere);
+    EXPECT_EQ(run.status, 0);
+    return run.peak_bytes;
+  };
+  const std::size_t small = peak("small.csv", 2), large = peak("large.csv", 60);
+  std::printf("peak memory: %zu kB for 1.6 MB, %zu kB for 48 MB\n", small / 1000, large / 1000);
+  EXPECT_LT(large, small + 4'000'000);
+  EXPECT_LT(large, 100'000'000U);
 }
 
 TEST(RowStream, OutputFileHoldsWhatStandardOutputWould) {
