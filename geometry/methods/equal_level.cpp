@@ -101,9 +101,13 @@ EqualLevel equal_level(const DoubleDoubleShape& a, const DoubleDoubleShape& b,
   const DoubleDouble length = exact::length(at.v.vector);
   // v = 2^unit at.v.vector, if d = 2^d.exponent d.vector.
   const int unit = at.v.exponent + d.exponent;
+  // F = l/(1+l) d'v = l/(1+l) (2 d'v - v' (M_A + l M_B) v): the errors of v and of l in the latter
+  // are of second order.
+  const DoubleDouble twice = scaled(dot(d.vector, at.v.vector), 1 - at.v.exponent);
+  const DoubleDouble level = (l * (twice - at.in_a) - at.in_b) / (DoubleDouble(1.0) + l);
   return {l,
           (DoubleDouble(1.0) / length) * at.v.vector,
-          scaled(at.in_a, 2 * unit),
+          scaled(level, 2 * unit),
           scaled(length, unit),
           scaled(a.spread(at.y_a), unit),
           -scaled(b.spread(at.y_b), unit)};

@@ -54,9 +54,10 @@ struct EqualLevel {
 
 /// By Newton's method on log l within the bracket [a_min/b_max, a_max/b_min] of h_A/h_B, in double
 /// where the polynomials of the Perram-Wertheim form allow and then in double-double until l is
-/// settled. Relative error of l and of every vector below 2^-52 where the aspect ratios of both
-/// bodies are at most 1e8: that of the sum of the shapes, with a condition of 1e16, times 2^-102 is
-/// below it. Requires semi-axes within [2^-300, 2^61] and the default floating-point environment.
+/// settled. Relative error of l and of every vector about 1e16 times 2^-102 where the aspect ratios
+/// of both bodies are 1e8, by the condition of the sum of the shapes, and much less below; that of
+/// the level is of second order in it. Requires semi-axes within [2^-300, 2^61] and the default
+/// floating-point environment.
 /// @param d  c_B - c_A, with the exponent in the unit of the bodies
 /// @return   nothing where the sum of the shapes is not positive definite to double-double's eyes,
 ///           or a number leaves the range of doubles: aspect ratios beyond 1e12

@@ -27,7 +27,7 @@ constexpr std::size_t kLongestQuotedValue = 60;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-bool is_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_space(char c) noexcept { return c <= ' ' && (c == ' ' || c == '\t' || c == '\r'); }
 
 std::string_view trimmed(std::string_view text) noexcept {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);

@@ -88,11 +88,11 @@ RC_GTEST_PROP(OtherGapsProperty, MidpointPotentialPointsLieOnBothSurfacesAlongTh
 
 RC_GTEST_PROP(OtherGapsProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   const Pair p = *testing::pair(kAspect);
-  for (const auto find :
-       {static_cast<OtherGap (*)(const Ellipsoid&, const Ellipsoid&) noexcept>(perram_wertheim_gap),
-        static_cast<OtherGap (*)(const Ellipsoid&, const Ellipsoid&) noexcept>(
-            midpoint_potential_gap)}) {
+  for (const Definition find :
+       {Definition{perram_wertheim_gap}, Definition{midpoint_potential_gap}}) {
     const OtherGap ab = find(p.a, p.b), ba = find(p.b, p.a);
+    const bool on_a_line = find == Definition{midpoint_potential_gap};
+    if (on_a_line && (grazing(p, ab) || grazing({p.b, p.a}, ba))) continue;
     RC_ASSERT(ab.status == ba.status);
     if (ab.status != OtherGapStatus::ok) continue;
     RC_ASSERT(std::abs(ab.gap - ba.gap) <= 4 * kU * size_of(p));

@@ -160,14 +160,14 @@ TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
   EXPECT_LE(largest, 1);
 }
 
-/// Largest errors in units of what is promised: u of each number + u L / 64, 4 u for the normal.
+/// Largest errors in units of what is promised: u of each number + u L / 64, 8 u for the normal.
 struct Errors {
   double gap = 0, normal = 0, arms = 0;
 
   void add(const OtherGap& found, const verify::DefinedGap& truth, double size) {
     const auto promised = [&](double value) { return kU * (value + kOfSize * size); };
     gap = std::max(gap, difference(found.gap, truth.gap) / promised(std::abs(found.gap)));
-    normal = std::max(normal, distance(found.normal, truth.normal) / (4 * kU));
+    normal = std::max(normal, distance(found.normal, truth.normal) / (8 * kU));
     arms = std::max({arms, distance(found.arm_a, truth.arm_a) / promised(found.arm_a.stableNorm()),
                      distance(found.arm_b, truth.arm_b) / promised(found.arm_b.stableNorm())});
   }
