@@ -27,6 +27,7 @@ constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
 constexpr double kThinnest = 0x1p-300;                    // of the size: Pair's requirement
+constexpr double kWidestOk = 100.0;  // u L; chosen: what is proven no better is not called ok
 // Patches of the sphere: chosen, a hundred times what pairs of aspect 5 need.
 constexpr int kBudget = 20000;
 
@@ -96,10 +97,11 @@ Solved solve_hard(const Pair& pair) {
   // Deep, or so flat a maximum that the curvature at it bounds little.
   const std::optional<Solved> searched = search(pair, factored);
   if (!searched) return {proof, GapTier::factored};
-  const bool better =
-      searched->proof.global && searched->proof.high - searched->proof.low < proof.high - proof.low;
-  if (proof.global && !better) return {proof, GapTier::factored};
-  return *searched;
+  const GapProof& other = searched->proof;
+  const bool narrower = other.high - other.low < proof.high - proof.low;
+  const bool further = other.low >= proof.low;
+  if (other.global ? !proof.global || narrower : further) return *searched;
+  return {proof, GapTier::factored};
 }
 
 /// Newton's method where `start(finish)` begins, first with an early finish and then, if that was
@@ -201,7 +203,8 @@ Gap finish(Solved& solved, const Asked& asked, const Pair& pair, bool in_own_uni
   settle_sign(solved, asked, distance);
   const GapProof& proof = solved.proof;
   const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
-  const GapStatus status = proof.global ? GapStatus::ok : GapStatus::local;
+  const bool narrow = error <= kWidestOk * kUnitRoundoff * pair.size;
+  const GapStatus status = proof.global && narrow ? GapStatus::ok : GapStatus::local;
   if (in_own_unit)
     return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
   // In the caller's unit both numbers may be subnormal, and so rounded.

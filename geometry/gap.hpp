@@ -22,7 +22,7 @@
 namespace tangency {
 
 enum class GapStatus {
-  ok,             ///< the global answer, proven
+  ok,             ///< the global answer, proven, with a gap_error of at most 100 u L
   local,          ///< a stationary answer; that no shorter penetration exists is not proven
   not_converged,  ///< the numbers are not an answer; never of signed_gap() and follow_gap()
 };

@@ -12,6 +12,7 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kTie = 2.0 * kUnitRoundoff;        // of the size: the rounding of a value
 constexpr double kValueError = 32 * kUnitRoundoff;  // (G) of the derivation, of the size
+constexpr double kEnough = 16 * kUnitRoundoff;      // of the size: kOrdinaryGapErrorBound
 constexpr std::size_t kMostPeaks = 16;              // chosen: 2 to 6 are common
 constexpr std::size_t kMostPending = 256;  // halvings of 8 triangles to below rounding take 220
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays
@@ -60,6 +61,7 @@ class SphereSearch {
 
   /// Is every normal shown to be no better than the best, within the budget?
   bool prove(int budget) {
+    if (best().global && best().high - best().low <= kEnough * size_) return true;
     // f(-n) = f(n) - 2 n.d: only the half of the sphere towards d can hold the greatest value.
     const Vec3 pole = pair_.d == Vec3::Zero() ? Vec3(Vec3::UnitZ()) : pair_.d.stableNormalized();
     const Vec3 e = pole.unitOrthogonal(), m = pole.cross(e).normalized();
@@ -80,8 +82,9 @@ class SphereSearch {
   std::optional<GapProof> result(bool proven) const {
     if (count_ == 0) return std::nullopt;
     GapProof answer = best();
-    answer.global = proven;
-    for (std::size_t i = 0; i < count_ && proven; ++i) {
+    if (!proven) return answer;
+    answer.global = true;
+    for (std::size_t i = 0; i < count_; ++i) {
       if (peaks_[i].needed) answer.high = std::max(answer.high, peaks_[i].proof.high);
     }
     return answer;
