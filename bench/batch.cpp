@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/tests/support/conversions.hpp>
@@ -34,9 +35,9 @@ using tangency::IndexedPair;
 using tangency::PairList;
 using tangency::Vec3;
 using tangency::bench::kInCache;
+using tangency::bench::moment_ago;
 
 constexpr std::uint64_t kSeed = 20261122;
-constexpr double kStep = 1e-4;  // of the smallest semi-axis, and rad: as bench/gap.cpp
 
 struct Family {
   std::string name;
@@ -56,14 +57,6 @@ struct Answers {
   GapColumns usual() { return {gap, gap_error, normal, {}, {}, status}; }
   GapColumns with_arms() { return {gap, gap_error, normal, arm_a, arm_b, status}; }
 };
-
-Ellipsoid moment_ago(const Ellipsoid& b, double smallest_semi_axis, std::size_t i) {
-  const double angle = 2.4 * static_cast<double>(i);  // any direction, another one each time
-  const Vec3 way(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
-  const Vec3 axis = way.cross(Vec3(0.3, 0.5, 0.8)).normalized();
-  return {b.centre() + kStep * smallest_semi_axis * way.normalized(), b.semi_axes(),
-          Eigen::Quaterniond(Eigen::AngleAxisd(kStep, axis)) * b.orientation()};
-}
 
 Family make_family(const tangency::families::ContactFamily& shape, std::size_t count) {
   Family f{shape.name, {}, {}, {}, {}, {}};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/tests/support/conversions.hpp>
@@ -23,9 +24,9 @@ using tangency::Ellipsoid;
 using tangency::Gap;
 using tangency::Vec3;
 using tangency::bench::kInCache;
+using tangency::bench::moment_ago;
 
 constexpr std::uint64_t kSeed = 20261122;
-constexpr double kStep = 1e-4;  // of the smallest semi-axis, and rad
 
 struct Family {
   std::string name;
@@ -33,15 +34,6 @@ struct Family {
   std::vector<double> gap, smallest_semi_axis;
   std::vector<Vec3> previous_normal;
 };
-
-/// B a moment ago.
-Ellipsoid moment_ago(const Ellipsoid& b, double smallest_semi_axis, std::size_t i) {
-  const double angle = 2.4 * static_cast<double>(i);  // any direction, another one each time
-  const Vec3 way(std::cos(angle), std::sin(angle), std::cos(1.7 * angle));
-  const Vec3 axis = way.cross(Vec3(0.3, 0.5, 0.8)).normalized();
-  return {b.centre() + kStep * smallest_semi_axis * way.normalized(), b.semi_axes(),
-          Eigen::Quaterniond(Eigen::AngleAxisd(kStep, axis)) * b.orientation()};
-}
 
 Family make_family(const tangency::families::ContactFamily& shape) {
   Family f{shape.name, {}, {}, {}, {}, {}};

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <atomic>
 #include <optional>
-#include <string>
 #include <tangency/dem/contacts.hpp>
 #include <tangency/geometry/gap.hpp>
 
 namespace tangency::dem {
 namespace {
-
-constexpr std::ptrdiff_t none = -1;
 
 /// Below so many pairs, or particles, a loop is over before a second thread has woken up. Chosen:
 /// some 50 us of work, a few times what waking takes.
@@ -27,9 +23,7 @@ std::optional<Gap> gap_unless_apart(const Ellipsoid& a, const Ellipsoid& b, Cont
   const Vec3& n = contact.normal;
   if (n.isZero(0.0)) return signed_gap(a, b, contact.branch);
   if (n.dot(contact.branch) - a.support(n) - b.support(n) > 0.0) return std::nullopt;
-  const Gap followed = follow_gap(a, b, contact.branch, n);
-  if (followed.status != GapStatus::not_converged) return followed;
-  return signed_gap(a, b, contact.branch);
+  return follow_gap(a, b, contact.branch, n);
 }
 
 /// Velocity of b relative to a at the contact point, the cell's strain included [Ouadfel1998,
@@ -67,7 +61,6 @@ void Contacts::update(const Particles& particles, const Cell& cell, const Neighb
     bodies_[i] = Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
 
   const std::vector<Pair>& pairs = list.pairs();
-  std::atomic<std::ptrdiff_t> failed{none};
 #pragma omp parallel for schedule(dynamic, 64) if (pairs.size() >= worth_sharing)
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
@@ -75,7 +68,6 @@ void Contacts::update(const Particles& particles, const Cell& cell, const Neighb
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     contact.branch = branch_vector(pair, particles, cell);
     const std::optional<Gap> gap = gap_unless_apart(bodies_[a], bodies_[b], contact);
-    if (gap && gap->status == GapStatus::not_converged) failed = static_cast<std::ptrdiff_t>(k);
     if (!gap || gap->gap >= 0.0) {
       if (gap) contact.normal = gap->normal;
       separate(contact);
@@ -97,11 +89,6 @@ void Contacts::update(const Particles& particles, const Cell& cell, const Neighb
     } else {
       contact.shear.setZero();
     }
-  }
-  if (const std::ptrdiff_t k = failed; k != none) {
-    const Pair& pair = pairs[static_cast<std::size_t>(k)];
-    throw ContactNotFound("no gap was found for particles " + std::to_string(pair.a) + " and " +
-                          std::to_string(pair.b));
   }
   add_up(list, count);
 }

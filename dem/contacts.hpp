@@ -40,17 +40,10 @@ struct ContactLaws {
   double largest_stiffness() const;
 };
 
-/// Geometry found no gap for a pair; what() names the particles. Never seen with finite bodies.
-class ContactNotFound : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 class Contacts {
  public:
   /// Brings every record to the current positions and velocities and renews the resultants.
   /// @param dt  time since the last update: the shear displacement is velocity times dt
-  /// @throws ContactNotFound
   void update(const Particles& particles, const Cell& cell, const NeighbourList& list,
               const ContactLaws& laws, double dt);
 

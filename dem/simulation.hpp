@@ -46,7 +46,7 @@ class Simulation {
   const Stage& stage() const;
 
   /// One cycle of the current stage. Requires !finished().
-  /// @throws Diverged, ContactNotFound
+  /// @throws Diverged
   void step();
 
   /// Where the current stage is. Requires !finished().

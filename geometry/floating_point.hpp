@@ -21,4 +21,7 @@
 namespace tangency {
 static_assert(std::numeric_limits<double>::is_iec559, "double must be IEEE 754 binary64");
 static_assert(std::numeric_limits<double>::digits == 53, "double must be IEEE 754 binary64");
+
+/// u: half the distance from 1 to the next double.
+inline constexpr double kUnitRoundoff = 0x1p-53;
 }  // namespace tangency

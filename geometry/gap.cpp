@@ -23,8 +23,6 @@ using methods::GapProof;
 using methods::Pair;
 using methods::Stationary;
 
-constexpr double kUnitRoundoff = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
 constexpr double kThinnest = 0x1p-300;                    // of the size: Pair's requirement
 constexpr double kWidestOk = 100.0;  // u L; chosen: what is proven no better is not called ok
@@ -76,10 +74,10 @@ bool settled(const Pair& pair, const GapProof& proof) {
   return above <= kOrdinaryGapErrorBound * unit && above - (proof.gap - proof.low) <= unit;
 }
 
-std::optional<Solved> search(const Pair& pair, const FactoredPair& factored) {
+std::optional<Solved> search(const Pair& pair, const FactoredPair& factored, const Vec3& first) {
   if (const auto proof = methods::search_meridian(pair, factored))
     return Solved{*proof, GapTier::search};
-  if (const auto proof = methods::search_sphere(pair, factored, kBudget))
+  if (const auto proof = methods::search_sphere(pair, factored, first, kBudget))
     return Solved{*proof, GapTier::search};
   return std::nullopt;
 }
@@ -95,7 +93,7 @@ Solved solve_hard(const Pair& pair) {
   const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
-  const std::optional<Solved> searched = search(pair, factored);
+  const std::optional<Solved> searched = search(pair, factored, start);
   if (!searched) return {proof, GapTier::factored};
   const GapProof& other = searched->proof;
   const bool narrower = other.high - other.low < proof.high - proof.low;
@@ -181,9 +179,10 @@ void settle_sign(Solved& solved, const Asked& asked, double distance) {
   } else {
     // What is known of a branch below 0 says nothing about bodies that are apart.
     if (!proof.global) proof.high = distance;
-    proof.low = 0.0;
     proof.high = std::max(proof.high, kLeast);
-    if (proof.gap <= 0.0) proof.gap = std::max(proof.global ? 0.5 * proof.high : 0.0, kLeast);
+    // f(n) <= 0 is nearer to the truth than `high`, which the curvature may bound loosely.
+    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * std::min(proof.high, -proof.low), kLeast);
+    proof.low = 0.0;
   }
 }
 

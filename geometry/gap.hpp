@@ -22,9 +22,8 @@
 namespace tangency {
 
 enum class GapStatus {
-  ok,             ///< the global answer, proven, with a gap_error of at most 100 u L
-  local,          ///< a stationary answer; that no shorter penetration exists is not proven
-  not_converged,  ///< the numbers are not an answer; never of signed_gap() and follow_gap()
+  ok,     ///< the global answer, proven, with a gap_error of at most 100 u L
+  local,  ///< a stationary answer; that no shorter penetration exists is not proven
 };
 
 /// Which method gave the answer, the cheapest first.
@@ -59,7 +58,8 @@ inline constexpr double kOrdinaryGapErrorBound = 16.0;
 /// Any pose, any semi-axes; coinciding centres and nested solids included. Where several normals
 /// tie (concentric pairs, symmetric deep overlaps) the answer is the first of them in the order of
 /// the search: the Perram-Wertheim direction, then the axes of A, then those of B, each pointing
-/// with d (or along its positive body axis where d is normal to it).
+/// with d (or along its positive body axis where d is normal to it). Coaxial bodies of revolution:
+/// along their axis, then across it along the first equal axis of A (of B, if A is a sphere).
 ///
 /// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B; deeper pairs are
 /// searched, and `ok` where the search over all normals finished within its budget.

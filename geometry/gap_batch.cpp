@@ -15,6 +15,9 @@ using methods::LaneBlock;
 using methods::LaneBody;
 using methods::LaneIndices;
 
+static_assert(methods::kLaneErrorBound == kOrdinaryGapErrorBound,
+              "lanes, which share no header with baseline code, promise what one pair does");
+
 constexpr std::size_t kBlock = LaneBlock::kPairs;
 // Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
 constexpr std::size_t kNear = 8192;

@@ -17,8 +17,8 @@ using Mat2 = Eigen::Matrix2d;
 using Mat23 = Eigen::Matrix<double, 2, 3>;
 using Mat218 = Eigen::Matrix<double, 2, 18>;
 
-constexpr double kUnitRoundoff = 0x1p-53;
-constexpr double kRounding = 16.0 * kUnitRoundoff;  // of two gaps of 8 u L each
+constexpr double kRounding =
+    kOrdinaryGapErrorBound * kUnitRoundoff;    // of L: n.d is half of f(n) - f(-n)
 constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa' beta; three digits are left
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // of a pair in the unit of its caller
 constexpr int kPolishingSteps = 2;  // a Gap's normal is off by sqrt(u kappa) at most: one may do
@@ -182,7 +182,6 @@ GapDerivatives solve_scaled(const methods::ScaledPair& pair, const Gap& gap) {
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept {
   assert(separation.allFinite());
-  if (gap.status == GapStatus::not_converged) return none(DerivativeStatus::not_converged);
   const double largest =
       std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
   if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);
@@ -192,7 +191,6 @@ GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept {
   const Vec3 d = b.centre() - a.centre();
   if (d.allFinite()) return gap_derivatives(a, b, d, gap);
-  if (gap.status == GapStatus::not_converged) return none(DerivativeStatus::not_converged);
   return solve_scaled(methods::scaled_pair(a, b), gap);
 }
 

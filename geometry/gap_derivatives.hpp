@@ -43,12 +43,11 @@ using GapGradient = Eigen::Matrix<double, 18, 1, Eigen::DontAlign>;
 using GapHessian = Eigen::Matrix<double, 18, 18, Eigen::DontAlign>;
 
 enum class DerivativeStatus {
-  ok,             ///< derivatives of the gap
-  local,          ///< of the branch of a `local` Gap: the gap's where no other branch ties or leads
-  tie,            ///< n and -n reach equally far, up to rounding: the gap has no derivative
-  degenerate,     ///< W is not safely positive definite: a circle of tied normals, a centre of
-                  ///< curvature, or a pair too extreme for doubles
-  not_converged,  ///< the Gap is not an answer
+  ok,          ///< derivatives of the gap
+  local,       ///< of the branch of a `local` Gap: the gap's where no other branch ties or leads
+  tie,         ///< n and -n reach equally far, up to rounding: the gap has no derivative
+  degenerate,  ///< W is not safely positive definite: a circle of tied normals, a centre of
+               ///< curvature, or a pair too extreme for doubles
 };
 
 /// Gradient and Hessian are all 0 where the status is neither `ok` nor `local`.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <tangency/geometry/methods/surface_projection.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -21,12 +22,14 @@ Vec3 scaled(const Vec3& v, int power) {
 /// A gap that is rounded once, with L = size, in units of 2^exponent.
 Gap global_gap(double gap, double size, int exponent, const Vec3& n, const Vec3& arm_a,
                const Vec3& arm_b) {
-  const double error = 2.0 * 0x1p-53 * std::abs(gap) + 0x1p-80 * size;  // as the header promises
+  // As the header promises; scaling rounds what becomes subnormal, of gap and error.
+  const double error = 2.0 * kUnitRoundoff * std::abs(gap) + 0x1p-80 * size;
+  constexpr double kSubnormal = 2.0 * std::numeric_limits<double>::denorm_min();
   return {std::scalbn(gap, exponent),
           n,
           arm_a,
           arm_b,
-          std::scalbn(error, exponent),
+          std::scalbn(error, exponent) + kSubnormal,
           GapStatus::ok,
           GapTier::fast};
 }

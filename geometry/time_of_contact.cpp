@@ -166,6 +166,7 @@ TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const 
                             ? answer(pair, ContactTimeStatus::touching_at_start, 0.0, 0.0, 1)
                             : advance(pair, horizon, tolerance);
   found.gap.gap = std::scalbn(found.gap.gap, exponent);
+  found.gap.gap_error = std::scalbn(found.gap.gap_error, exponent);
   found.gap.arm_a = scaled(found.gap.arm_a, exponent);
   found.gap.arm_b = scaled(found.gap.arm_b, exponent);
   found.resolution = std::scalbn(found.resolution, exponent);

@@ -85,8 +85,6 @@ class Run {
       }
     } catch (const Diverged& error) {
       return give_up(error.what());
-    } catch (const ContactNotFound& error) {
-      return give_up(error.what());
     }
     progress_.show(1.0, where());
     progress_.finish();

@@ -7,10 +7,6 @@
 namespace tangency::methods {
 namespace {
 
-// (S) of the derivation: generously the rounding of curvatures and sums in double.
-constexpr double kRoundings = 0x1p-20;
-constexpr double kMore = 1.0 + kRoundings, kLess = 1.0 - kRoundings;
-
 /// diag(a2 a3, a3 a1, a1 a2) R' m / h^1.5, whose square is hessian_along().
 Vec3 hessian_root(const Ellipsoid& body, double h, const Vec3& m) {
   const Vec3& a = body.semi_axes();

@@ -30,6 +30,10 @@ struct Pair {
   }
 };
 
+/// (S) of the derivation: generously the rounding of curvatures and lengths in double.
+inline constexpr double kRoundings = 0x1p-20;
+inline constexpr double kMore = 1.0 + kRoundings, kLess = 1.0 - kRoundings;
+
 /// The part of one body in the bending at a normal, along the two principal tangents.
 struct SideBend {
   double h;             ///< support function

@@ -8,7 +8,6 @@
 namespace tangency::methods {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 constexpr int kClimbSteps = 200;       // chosen: far beyond the 5 to 30 steps seen
 constexpr int kHalvings = 50;          // a step of 2^-50 no longer moves a unit vector noticeably
 constexpr double kEscape = 0.25;       // rad; chosen: the step off a saddle, before backtracking

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // as for one pair: gap.cpp
-constexpr double kOrdinary = 16.0;  // kOrdinaryGapErrorBound; asserted in gap_batch.cpp
 // Of u L: below this no step can tell. Chosen: a sixteenth of what is published.
 constexpr double kEnough = 1.0;
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
@@ -79,8 +78,9 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const Pack reach2 = all(1.02) * multiply_add(rest_error, rest_error, dot(across, across));
   const Pack above = reach2 * rough_inverse(ball);
   const Pack error = (value_error + above) * all(1.0 + 0x1p-50);
-  const PackMask settled =
-      (size > error) & (error <= all(kOrdinary * kUnitRoundoff) * pair.size) & (ball > above0);
+  const PackMask settled = (size > error) &
+                           (error <= all(kLaneErrorBound * kUnitRoundoff) * pair.size) &
+                           (ball > above0);
   return {error, settled, settled & (above <= all(kEnough * kUnitRoundoff) * pair.size)};
 }
 

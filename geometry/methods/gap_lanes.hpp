@@ -21,6 +21,9 @@ struct alignas(64) LaneBody {
 };
 static_assert(sizeof(LaneBody) == 16 * sizeof(double));
 
+/// In u L: a lane is settled where its gap_error is at most this.
+inline constexpr double kLaneErrorBound = 16.0;
+
 struct LaneIndices {
   std::uint32_t a, b;
 };

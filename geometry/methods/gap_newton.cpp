@@ -31,7 +31,8 @@ Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, co
   const Symmetric3 mixed = mixed_adjugate(a.shape_adjugate(), b.shape_adjugate());
   const Both traces{a.shape_adjugate().trace(), b.shape_adjugate().trace()};
   const Both determinants{a.shape_determinant(), b.shape_determinant()};
-  const double finest = 0x1p-53 * (d.norm() + (a.largest_semi_axis() + b.largest_semi_axis()));
+  const double finest =
+      kUnitRoundoff * (d.norm() + (a.largest_semi_axis() + b.largest_semi_axis()));
   const bool early = finish == Finish::early;
   Vec3 n = normal;
   for (int step = 0; step < kNewtonSteps; ++step) {

@@ -15,7 +15,8 @@ struct Stationary {
 
 /// When Newton's method stops.
 enum class Finish {
-  /// Where what is left of the way, as the lengths of the steps so far tell, is below 2^-39 rad: for
+  /// Where what is left of the way, as the lengths of the steps so far tell, is below 2^-39 rad:
+  /// for
   /// shapes whose curvature varies moderately.
   early,
   /// Where the last step gained less than 2^-54 of the size of the pair, below the rounding of the

@@ -8,8 +8,6 @@
 namespace tangency::methods {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
-
 struct Sides {
   Both h;          ///< support functions
   BothVec3 point;  ///< support points from the centres

@@ -14,9 +14,10 @@ using Vector = exact::DoubleDoubleVector;
 
 constexpr double kValueError = 0x1p-92;  // (V2) of the derivation, of the size of the pair
 constexpr double kRestError = 0x1p-92;   // (R2), of size and largest radii of curvature
-constexpr double kSlightly = 0x1p-20;    // (S)
 constexpr double kNarrow = 0x1p-40;      // chosen
-constexpr int kMoves = 4;                // chosen: the start is within rounding of the maximum
+// Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more.
+constexpr int kMoves = 20;
+constexpr int kHalvings = 8;  // chosen, of one move
 
 /// f to first and second order at a normal.
 struct Local {
@@ -71,6 +72,24 @@ Vec3 step(const Local& at) {
   return move;
 }
 
+/// Ascent with backtracking from what an ascent in double found, where values below `error` are
+/// no gain.
+Local ascend(const Pair& pair, const Vec3& normal, double error) {
+  Local at = evaluate(pair, normal);
+  int halvings = 0;
+  for (int move = 0; move < kMoves && halvings <= kHalvings; ++move) {
+    Vec3 delta = step(at);
+    for (halvings = 0; halvings <= kHalvings; ++halvings, delta *= 0.5) {
+      if (!(delta.norm() > 0x1p-54)) return at;
+      const Local next = evaluate(pair, (at.normal + delta).normalized());
+      if (!((next.f - at.f).high > error)) continue;
+      at = next;
+      break;
+    }
+  }
+  return at;
+}
+
 /// The double above (below) a + b.
 double sum_up(double a, double b) { return std::nextafter(a + b, GapProof::kUnproven); }
 double sum_down(double a, double b) { return std::nextafter(a + b, -GapProof::kUnproven); }
@@ -80,14 +99,7 @@ double sum_down(double a, double b) { return std::nextafter(a + b, -GapProof::kU
 CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
                                     double cap_width) noexcept {
   const double error = kValueError * pair.size;
-  Local at = evaluate(pair, normal);
-  for (int move = 0; move < kMoves; ++move) {
-    const Vec3 delta = step(at);
-    if (!(delta.norm() > 0x1p-54)) break;
-    const Local next = evaluate(pair, (at.normal + delta).normalized());
-    if (!((next.f - at.f).high > error)) break;
-    at = next;
-  }
+  const Local at = ascend(pair, normal, error);
   const Cap cap = cap_around(at.bend, at.slope, cap_width);
   CapProof proof;
   proof.cap = cap;
@@ -96,10 +108,10 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
   // (C): the cap; (B'): the ball of radius rho, which needs no cap.
   double height = cap.proven ? cap.height : GapProof::kUnproven;
   if (proof.global && !cap.proven) {
-    height = (std::abs(at.slope.rest[0]) + std::abs(at.slope.rest[1]) + 2.0 * at.slope.error) *
-             (1.0 + kSlightly);
+    height =
+        (std::abs(at.slope.rest[0]) + std::abs(at.slope.rest[1]) + 2.0 * at.slope.error) * kMore;
   }
-  proof.high = sum_up(at.f.high, at.f.low + (error + height * (1.0 + kSlightly)));
+  proof.high = sum_up(at.f.high, at.f.low + (error + height * kMore));
   // In the middle of what is proven, unless that is so wide that f(n) is the better answer.
   const bool narrow = height < kNarrow * pair.size;
   proof.gap = narrow ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
@@ -120,7 +132,7 @@ ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept {
     return std::min(2.0 * axis, 2.5 * axis * cap.eta * std::sqrt(bend / side.h));
   };
   const double turn = 2.0 * cap.eta * std::sqrt(in_inverse_norm(cap, 1.0, 1.0));
-  return {(1.0 + kSlightly) * turn, shift(axis_a, at.bend.a), shift(axis_b, at.bend.b)};
+  return {kMore * turn, shift(axis_a, at.bend.a), shift(axis_b, at.bend.b)};
 }
 
 }  // namespace tangency::methods

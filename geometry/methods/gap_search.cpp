@@ -9,15 +9,11 @@
 namespace tangency::methods {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
-constexpr double kTie = 2.0 * kUnitRoundoff;        // of the size: the rounding of a value
-constexpr double kValueError = 32 * kUnitRoundoff;  // (G) of the derivation, of the size
-constexpr double kEnough = 16 * kUnitRoundoff;      // of the size: kOrdinaryGapErrorBound
-constexpr std::size_t kMostPeaks = 16;              // chosen: 2 to 6 are common
-constexpr std::size_t kMostPending = 256;  // halvings of 8 triangles to below rounding take 220
+constexpr double kEnough = kOrdinaryGapErrorBound * kUnitRoundoff;  // of the size
+constexpr std::size_t kMostPeaks = 16;                              // chosen: 2 to 6 are common
+constexpr std::size_t kMostPending = 256;  // four, and one more for each of some 220 halvings
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays
 constexpr double kCapWidth = 1.0;  // chosen: caps as wide as the curvatures allow
-constexpr double kSlightly = 0x1p-20;  // for the rounding of lengths that are compared
 
 /// A maximum, and the cap of normals around it in which its proof bounds f.
 struct Peak {
@@ -47,7 +43,7 @@ class SphereSearch {
     peak.proof = prove_gap_in_double_double(pair_, found.normal, kCapWidth);
     peak.stretched_a = factored_.factor_a().transpose() * peak.proof.normal;
     peak.stretched_b = factored_.factor_b().transpose() * peak.proof.normal;
-    const double width = peak.proof.cap.proven ? (1.0 - kSlightly) * peak.proof.cap.width : 0.0;
+    const double width = peak.proof.cap.proven ? kLess * peak.proof.cap.width : 0.0;
     // Less what rounding and slivers beside halved sides may be off by.
     const auto reach = [&](const Vec3& stretched, const Ellipsoid& body) {
       return std::max(0.0,
@@ -55,7 +51,7 @@ class SphereSearch {
     };
     peak.width_a = reach(peak.stretched_a, pair_.a);
     peak.width_b = reach(peak.stretched_b, pair_.b);
-    if (count_ == 0 || peak.proof.gap > best().gap + kTie * size_) best_ = count_;
+    if (count_ == 0 || peak.proof.gap > best().gap + kTieOfSize * size_) best_ = count_;
     ++count_;
   }
 
@@ -125,7 +121,7 @@ class SphereSearch {
     const Vec3 yb = factored_.factor_b().transpose() * centre;
     const Vec3 rest =
         pair_.d - factored_.factor_a() * (ya / ya.norm()) - factored_.factor_b() * (yb / yb.norm());
-    const bool better = rest.dot(centre) > best().gap + kTie * size_;
+    const bool better = rest.dot(centre) > best().gap + kTieOfSize * size_;
     if (better || t.halvings == next_climb_) {
       if (t.halvings == next_climb_) next_climb_ += kGrace;
       climb(centre);
@@ -133,7 +129,7 @@ class SphereSearch {
     }
     const double most =
         std::max({rest.dot(t.corner[0]), rest.dot(t.corner[1]), rest.dot(t.corner[2])});
-    const double enough = best().gap - kValueError * size_;
+    const double enough = best().gap - kPlaneError * size_;
     return most <= enough && enough < 0.0;
   }
 
@@ -163,9 +159,9 @@ class SphereSearch {
 }  // namespace
 
 std::optional<GapProof> search_sphere(const Pair& pair, const FactoredPair& factored,
-                                      int budget) noexcept {
+                                      const Vec3& first, int budget) noexcept {
   SphereSearch search(pair, factored);
-  if (pair.d != Vec3::Zero()) search.climb(factored.perram_wertheim_normal());
+  search.climb(first);
   for (int i = 0; i < 6; ++i) search.climb(factored.axis(i));
   return search.result(search.found() && search.prove(budget));
 }

@@ -8,54 +8,62 @@
 namespace tangency::methods {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
 // Of a direction: chosen, twice what the stored axes of parallel bodies may differ by.
 constexpr double kParallel = 8 * kUnitRoundoff;
-// (A) of the derivation, of the size: what bodies within kParallel of coaxial may lack of it.
+// (A) of the derivation: what f of bodies within kParallel of coaxial may lack, of the size, and
+// what r may, of size and largest radii of curvature.
 constexpr double kAsymmetry = 10 * kUnitRoundoff;
-constexpr double kValueError = 32 * kUnitRoundoff;  // (G)
-constexpr double kTie = 2 * kUnitRoundoff;
-constexpr double kSlightly = 0x1p-20;
+constexpr double kSkewRest = 10 * kUnitRoundoff;
 constexpr std::size_t kMostPeaks = 8;     // chosen: 1 to 3 are common
 constexpr std::size_t kMostPending = 64;  // a depth of 60 halvings is beyond doubles
 constexpr int kBudget = 2000;             // arcs: chosen, ten times what aspect 1000 needs
 
-/// The axis of revolution, where there is just one.
-std::optional<Vec3> axis_of(const Ellipsoid& body) {
+/// A direction along and one across an axis of revolution, unit.
+struct Axes {
+  Vec3 along, across;
+};
+
+/// The axis of revolution, where there is just one, and the first of the equal axes.
+std::optional<Axes> axes_of(const Ellipsoid& body) {
   const Vec3& a = body.semi_axes();
+  const Mat3& r = body.rotation();
   if (body.is_sphere()) return std::nullopt;
   for (int k = 0; k < 3; ++k) {
-    if (a[(k + 1) % 3] == a[(k + 2) % 3]) return body.rotation().col(k);
+    if (a[(k + 1) % 3] == a[(k + 2) % 3]) return Axes{r.col(k), r.col(k == 0 ? 1 : 0)};
   }
   return std::nullopt;
 }
 
 /// The axis about which both bodies and their line of centres can be turned, pointing with d.
-std::optional<Vec3> common_axis(const Pair& pair) {
-  const std::optional<Vec3> of_a = axis_of(pair.a), of_b = axis_of(pair.b);
+std::optional<Axes> common_axes(const Pair& pair) {
+  const std::optional<Axes> of_a = axes_of(pair.a), of_b = axes_of(pair.b);
   if ((!of_a && !pair.a.is_sphere()) || (!of_b && !pair.b.is_sphere())) return std::nullopt;
-  Vec3 axis = of_a ? *of_a : *of_b;
-  if (of_b && axis.cross(*of_b).norm() > kParallel) return std::nullopt;
-  if (axis.cross(pair.d).norm() > kParallel * pair.d.norm()) return std::nullopt;
-  if (axis.dot(pair.d) < 0.0) axis = -axis;
-  return axis;
+  Axes axes = of_a ? *of_a : *of_b;
+  if (of_b && axes.along.cross(of_b->along).norm() > kParallel) return std::nullopt;
+  if (axes.along.cross(pair.d).norm() > kParallel * pair.d.norm()) return std::nullopt;
+  if (axes.along.dot(pair.d) < 0.0) axes.along = -axes.along;
+  return axes;
 }
 
 /// f on the great circle n(t) = cos t axis + sin t across, which by symmetry is all of f.
 class Meridian {
  public:
-  Meridian(const Pair& pair, const FactoredPair& factored, const Vec3& axis)
-      : pair_(pair), factored_(factored), axis_(axis), across_(axis.unitOrthogonal()) {}
+  Meridian(const Pair& pair, const FactoredPair& factored, const Axes& axes)
+      : pair_(pair), factored_(factored), axis_(axes.along), across_(axes.across) {}
 
   bool climb(double t) {
     const Stationary found = factored_.climb(normal(t));
     if (!found.accepted || count_ == kMostPeaks) return false;
-    const GapProof proof = prove_gap_in_double_double(pair_, found.normal);
+    GapProof proof = prove_gap_in_double_double(pair_, found.normal);
     double along = proof.normal.dot(axis_);
     // Only concentric pairs look alike from both ends of the axis.
     if (pair_.d == Vec3::Zero()) along = std::abs(along);
     if (along < -0x1p-20) return false;
-    add(proof, std::atan2(proof.normal.cross(axis_).norm(), along));
+    const double angle = std::atan2(proof.normal.cross(axis_).norm(), along);
+    // An ascent may wander along a circle of ties; of those the documented one is on the meridian.
+    const GapProof here = prove_gap_in_double_double(pair_, normal(angle));
+    if (here.gap >= proof.gap - kTieOfSize * pair_.size) proof = here;
+    add(proof, angle);
     return true;
   }
 
@@ -117,19 +125,21 @@ class Meridian {
     const double radius =
         hessian_along(pair_.a, h_a, n.cross(e)) + hessian_along(pair_.b, h_b, n.cross(e));
     const double f = peak.proof.gap;
-    const double kappa = std::min(1.0, std::sqrt(radius * (1.0 - kSlightly) / -f) - 1.0);
-    const double least = radius * (1.0 - kSlightly) / (1.0 + kappa) + f;
-    if (f < 0.0 && kappa > 64.0 * kSlightly) {
+    const double kappa = std::min(1.0, std::sqrt(radius * kLess / -f) - 1.0);
+    const double least = radius * kLess / (1.0 + kappa) + f;
+    if (f < 0.0 && kappa > 64.0 * kRoundings) {
       const double largest = pair_.a.largest_semi_axis() * (pair_.a.largest_semi_axis() / h_a) +
                              pair_.b.largest_semi_axis() * (pair_.b.largest_semi_axis() / h_b);
-      // (R)
-      const double slope = std::abs(r.dot(e)) + kUnitRoundoff * (8.0 * largest + 32.0 * pair_.size);
+      // (R) and (A)
+      const double slope = std::abs(r.dot(e)) +
+                           kUnitRoundoff * (8.0 * largest + 32.0 * pair_.size) +
+                           kSkewRest * (largest + pair_.size);
       const double reach = kappa * std::min(h_a / (factored_.factor_a().transpose() * e).norm(),
                                             h_b / (factored_.factor_b().transpose() * e).norm());
-      peak.height = 0.5 * slope * (slope / least) * (1.0 + kSlightly);
-      if (2.0 * slope <= least * reach) peak.width = std::atan(reach) * (1.0 - kSlightly);
+      peak.height = 0.5 * slope * (slope / least) * kMore;
+      if (2.0 * slope <= least * reach) peak.width = std::atan(reach) * kLess;
     }
-    if (count_ == 0 || f > peaks_[best_].proof.gap + kTie * pair_.size) best_ = count_;
+    if (count_ == 0 || f > peaks_[best_].proof.gap + kTieOfSize * pair_.size) best_ = count_;
     ++count_;
   }
 
@@ -146,8 +156,9 @@ class Meridian {
     const double middle = 0.5 * (from + to);
     const Vec3 n = normal(middle), r = rest(n, h_a, h_b);
     const double best = peaks_[best_].proof.gap;
-    if (r.dot(n) > best + kTie * pair_.size && climb(middle) && in_a_cap(from, to)) return true;
-    const double enough = peaks_[best_].proof.gap - kValueError * pair_.size;
+    if (r.dot(n) > best + kTieOfSize * pair_.size && climb(middle) && in_a_cap(from, to))
+      return true;
+    const double enough = peaks_[best_].proof.gap - kPlaneError * pair_.size;
     return std::max(r.dot(normal(from)), r.dot(normal(to))) <= enough && enough < 0.0;
   }
 
@@ -163,11 +174,12 @@ class Meridian {
 }  // namespace
 
 std::optional<GapProof> search_meridian(const Pair& pair, const FactoredPair& factored) noexcept {
-  const std::optional<Vec3> axis = common_axis(pair);
-  if (!axis) return std::nullopt;
-  Meridian meridian(pair, factored, *axis);
+  const std::optional<Axes> axes = common_axes(pair);
+  if (!axes) return std::nullopt;
+  Meridian meridian(pair, factored, *axes);
   bool found = false;
-  for (const double t : {0.0, 0.5, 1.0, 1.5707963267948966}) found = meridian.climb(t) || found;
+  // Chosen: along, across and between. The other half of a concentric pair looks the same.
+  for (const double t : {0.0, 1.5707963267948966, 0.5, 1.0}) found = meridian.climb(t) || found;
   if (!found || !meridian.prove()) return std::nullopt;
   return meridian.result();
 }

@@ -7,10 +7,10 @@
 namespace tangency::methods {
 namespace {
 
-constexpr double kRounding = 64 * 0x1p-53;  // docs/derivations/time-of-contact.md, section 3
-constexpr double kInflated = 1 + 0x1p-40;   // of second derivatives, for their own rounding
-constexpr double kFarEnough = 0.95;         // chosen: of the longest step that the bound allows
-constexpr int kRefinements = 100;           // of its bracket, which is halved each time
+constexpr double kRounding = 64 * kUnitRoundoff;  // docs/derivations/time-of-contact.md, section 3
+constexpr double kInflated = 1 + 0x1p-40;         // of second derivatives, for their own rounding
+constexpr double kFarEnough = 0.95;  // chosen: of the longest step that the bound allows
+constexpr int kRefinements = 100;    // of its bracket, which is halved each time
 
 /// exp(t [w]x) as a unit quaternion.
 Eigen::Quaterniond turn(const Vec3& w, double t) {

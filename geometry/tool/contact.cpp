@@ -116,15 +116,7 @@ Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
 
 Answer by_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
   const Gap found = signed_gap(a, b);
-  switch (found.status) {
-    case GapStatus::ok:
-      return with_numbers(a, b, found, "ok", found.gap_error);
-    case GapStatus::local:
-      return with_numbers(a, b, found, "local", found.gap_error);
-    case GapStatus::not_converged:
-      break;
-  }
-  return without_numbers(relation(a, b), "not_converged");
+  return with_numbers(a, b, found, found.status == GapStatus::ok ? "ok" : "local", found.gap_error);
 }
 
 template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>

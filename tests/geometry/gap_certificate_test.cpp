@@ -155,7 +155,7 @@ TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
   const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
   const methods::FactoredPair factored(a, b, pair.d);
-  const auto proof = methods::search_sphere(pair, factored, 20000);
+  const auto proof = methods::search_sphere(pair, factored, Vec3::UnitX(), 20000);
   ASSERT_TRUE(proof);
   EXPECT_TRUE(proof->global);
   double best = -std::numeric_limits<double>::infinity();
@@ -172,7 +172,8 @@ TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
 TEST(GapSearch, SaysSoWhereItsBudgetIsSpent) {
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
   const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
-  const auto proof = methods::search_sphere(pair, methods::FactoredPair(a, b, pair.d), 3);
+  const auto proof =
+      methods::search_sphere(pair, methods::FactoredPair(a, b, pair.d), Vec3::UnitX(), 3);
   ASSERT_TRUE(proof);
   EXPECT_FALSE(proof->global);
 }
@@ -184,6 +185,8 @@ TEST(GapSearch, ProvesATieAlongACircleOfCoaxialBodies) {
   EXPECT_EQ(gap.status, GapStatus::ok);
   EXPECT_LE(std::abs(gap.gap + 3), gap.gap_error);
   EXPECT_LE(gap.gap_error, 16 * kU * 12);
+  // The documented one of the tied normals: the first equal axis of A.
+  EXPECT_LE((gap.normal - Vec3::UnitX()).norm(), 4 * kU);
 }
 
 TEST(GapSearch, OfCoaxialBodiesIsThatAlongTheirMeridianAtEveryDepth) {

@@ -143,7 +143,10 @@ RC_GTEST_PROP(GapDerivativesProperty, DoNotExistWhereACircleOfNormalsTies, ()) {
   const Ellipsoid moved = inner.moved_to(shift * axis);
   const Vec3 start = outer.rotation() * Vec3(0.6, 0.8, shift / (a * a + b * b));
   const Gap gap = follow_gap(outer, moved, moved.centre(), start);
-  RC_PRE(std::abs(gap.normal.dot(axis)) < 0.9 && gap.normal.dot(moved.centre()) > 1e-6);
+  // On the branch across the axis, and not at the tie of n and -n, which has a status of its own.
+  constexpr double kAcross = 0.9, kOffTheTie = 1e-6;  // chosen; of bodies of width 2
+  RC_PRE(std::abs(gap.normal.dot(axis)) < kAcross);
+  RC_PRE(gap.normal.dot(moved.centre()) > kOffTheTie);
   const GapDerivatives d = gap_derivatives(outer, moved, gap);
   RC_ASSERT(d.status == DerivativeStatus::degenerate);
   RC_ASSERT(vanishes(d));
@@ -166,15 +169,6 @@ TEST(GapDerivatives, OfSpheresAreThoseOfTheDistanceOfTheirCentres) {
   // A turned sphere is the same sphere.
   const Eigen::Matrix<double, 3, 18> turns = d.hessian.middleRows<3>(kRotation);
   EXPECT_LE(turns.leftCols<6>().norm() + turns.middleCols<6>(9).norm(), 256 * kU);
-}
-
-TEST(GapDerivatives, DoNotExistWhereTheGapIsNotAnAnswer) {
-  const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({5, 0, 0}, {1, 1, 2});
-  Gap gap = signed_gap(a, b);
-  gap.status = GapStatus::not_converged;
-  const GapDerivatives d = gap_derivatives(a, b, gap);
-  EXPECT_EQ(d.status, DerivativeStatus::not_converged);
-  EXPECT_TRUE(vanishes(d));
 }
 
 TEST(GapDerivatives, OfADeepAnswerSayThatTheyAreThoseOfItsBranch) {

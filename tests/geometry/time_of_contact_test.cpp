@@ -84,6 +84,24 @@ TEST(TimeOfContact, StartThatTouchesOrOverlapsIsToldExactly) {
   EXPECT_NE(time_of_contact(a, {}, apart, away, 10, 1e-6).status, Status::touching_at_start);
 }
 
+TEST(TimeOfContact, LengthsOfTheAnswerFollowTheUnit) {
+  const auto solve = [](double unit) {
+    const Ellipsoid a({0, 0, 0}, unit * Vec3(1, 2, 3)),
+        b(unit * Vec3(9, 1, 0), unit * Vec3(2, 1, 1));
+    return time_of_contact(a, {}, b, flight(unit * Vec3(-1, 0, 0)), 10, kTolerance);
+  };
+  const TimeOfContact one = solve(1);
+  ASSERT_EQ(one.status, Status::contact);
+  EXPECT_LE(one.gap.gap_error, 16 * 0x1p-53 * 16);  // the gap's own promise, L below 16
+  for (const int power : {-600, -3, 5, 600}) {
+    const TimeOfContact other = solve(std::exp2(power));
+    EXPECT_EQ(other.time, one.time) << power;
+    EXPECT_EQ(std::scalbn(other.gap.gap, -power), one.gap.gap) << power;
+    EXPECT_EQ(std::scalbn(other.gap.gap_error, -power), one.gap.gap_error) << power;
+    EXPECT_EQ(std::scalbn(other.resolution, -power), one.resolution) << power;
+  }
+}
+
 TEST(TimeOfContact, SpinningRodHitsWhenItsFlankDoes) {
   // A spheroid of semi-axes (3, 1, 1) turns about z; a small sphere waits beside it at (0, 2, 0).
   const Ellipsoid rod({0, 0, 0}, {3, 1, 1});
@@ -196,7 +214,7 @@ rc::Gen<Moving> moving() {
 }
 
 void showValue(const Moving& m, std::ostream& os) {
-  rc::showValue(testing::Pair{m.a, m.b}, os);
+  showValue(testing::Pair{m.a, m.b}, os);
   for (const Motion* x : {&m.ma, &m.mb}) {
     os << " v " << x->velocity.transpose() << " w " << x->angular_velocity.transpose() << " r "
        << x->pivot_arm.transpose();

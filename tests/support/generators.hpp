@@ -12,6 +12,17 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
+namespace tangency {
+
+/// What a property prints of a counterexample; found by argument-dependent lookup.
+inline void showValue(const Ellipsoid& e, std::ostream& os) {
+  const auto& q = e.orientation();
+  os << std::hexfloat << "{c " << e.centre().transpose() << " r " << e.semi_axes().transpose()
+     << " q " << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '}';
+}
+
+}  // namespace tangency
+
 namespace tangency::testing {
 
 struct Pair {
@@ -120,21 +131,16 @@ inline rc::Gen<Pair> pair(double aspect) {
                      {{1, rc::gen::just(0.0)}, {3, uniform(0, 1)}, {3, near}, {2, uniform(1, 5)}}));
 }
 
-}  // namespace tangency::testing
-
-namespace rc {
-template <>
-struct Arbitrary<tangency::Ellipsoid>;  // no default: say which shapes
-
-inline void showValue(const tangency::Ellipsoid& e, std::ostream& os) {
-  const auto& q = e.orientation();
-  os << std::hexfloat << "{c " << e.centre().transpose() << " r " << e.semi_axes().transpose()
-     << " q " << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '}';
-}
-inline void showValue(const tangency::testing::Pair& p, std::ostream& os) {
+inline void showValue(const Pair& p, std::ostream& os) {
   os << "a ";
   showValue(p.a, os);
   os << " b ";
   showValue(p.b, os);
 }
+
+}  // namespace tangency::testing
+
+namespace rc {
+template <>
+struct Arbitrary<tangency::Ellipsoid>;  // no default: say which shapes
 }  // namespace rc

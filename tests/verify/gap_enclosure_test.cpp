@@ -12,6 +12,7 @@
 #include <random>
 #include <stdexcept>
 #include <tangency/verify/oracles/gap.hpp>
+#include <tangency/tests/verify/raw_sampler.hpp>
 #include <tangency/verify/oracles/gap_enclosure.hpp>
 
 namespace tangency::verify {
@@ -23,26 +24,9 @@ void expect_enclosed(const GapEnclosure& found, const Real& gap, double width) {
   EXPECT_LE(found.upper - found.lower, width) << gap.str(20);
 }
 
-class Sampler {
+class Sampler : public RawSampler {
  public:
-  explicit Sampler(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) { return low + (high - low) * unit_(engine_); }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  std::array<double, 3> vector() { return {normal_(engine_), normal_(engine_), normal_(engine_)}; }
-
-  // Smallest semi-axis `size`.
-  RawEllipsoid body(double size, double aspect) {
-    RawEllipsoid e{vector(), {size, size * log_uniform(1, aspect), size * aspect}, {}};
-    const double kind = uniform(0, 1);
-    if (kind < 0.3) e.semi_axes[1] = e.semi_axes[0];
-    if (kind > 0.7) e.semi_axes[1] = e.semi_axes[2];
-    std::ranges::shuffle(e.semi_axes, engine_);
-    for (double& v : e.orientation) v = normal_(engine_);
-    return e;
-  }
+  using RawSampler::RawSampler;
 
   // Smallest semi-axis 1 or more, centres from 0 to 1.2 times as far apart as at a touch of spheres
   // as large as the bodies.
@@ -55,11 +39,6 @@ class Sampler {
     for (std::size_t i = 0; i < 3; ++i) b.centre[i] = a.centre[i] + far * way[i];
     return {a, b};
   }
-
- private:
-  std::mt19937_64 engine_;
-  std::uniform_real_distribution<double> unit_;
-  std::normal_distribution<double> normal_;
 };
 
 // f, in long doubles, by the support function of the matrix of the stored quaternion.

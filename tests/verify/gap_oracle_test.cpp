@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <tangency/tests/verify/raw_sampler.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -73,37 +74,15 @@ Real3 reach(const RealEllipsoid& e, const Real3& n) {
   return turned(e.orientation, along);
 }
 
-class Sampler {
+class Sampler : public RawSampler {
  public:
-  explicit Sampler(unsigned seed) : engine_(seed) {}
-
-  double uniform(double low, double high) { return low + (high - low) * unit_(engine_); }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  std::array<double, 3> vector() { return {normal_(engine_), normal_(engine_), normal_(engine_)}; }
+  using RawSampler::RawSampler;
 
   Real3 direction() {
     const auto v = vector();
     const Real3 n{v[0], v[1], v[2]};
     return plus({}, 1 / length(n), n);
   }
-
-  // Needles, discs and between, at their aspect ratio.
-  RawEllipsoid body(double size, double aspect) {
-    RawEllipsoid e{vector(), {size, size * log_uniform(1, aspect), size * aspect}, {}};
-    const double kind = uniform(0, 1);
-    if (kind < 0.3) e.semi_axes[1] = e.semi_axes[0];
-    if (kind > 0.7) e.semi_axes[1] = e.semi_axes[2];
-    std::ranges::shuffle(e.semi_axes, engine_);
-    for (double& v : e.orientation) v = normal_(engine_);
-    return e;
-  }
-
- private:
-  std::mt19937_64 engine_;
-  std::uniform_real_distribution<double> unit_;
-  std::normal_distribution<double> normal_;
 };
 
 TEST(GapOracle, OfSpheresIsTheDistanceOfCentresLessTheRadii) {
