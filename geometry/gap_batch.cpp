@@ -13,7 +13,7 @@ namespace {
 
 using methods::LaneBlock;
 using methods::LaneBody;
-using methods::LaneIndices;
+using methods::LaneShape;
 
 static_assert(methods::kLaneErrorBound == kOrdinaryGapErrorBound,
               "lanes, which share no header with baseline code, promise what one pair does");
@@ -22,16 +22,26 @@ constexpr std::size_t kBlock = LaneBlock::kPairs;
 // Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
 constexpr std::size_t kNear = 8192;
 
+double largest_if_moderate(const Ellipsoid& body) {
+  return body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
+}
+
 void fill(LaneBody& lane, const Ellipsoid& body) {
-  const Vec3 &centre = body.centre(), &axes = body.semi_axes();
   const Mat3& rotation = body.rotation();
   for (int i = 0; i < 3; ++i) {
-    lane.centre[i] = centre[i];
-    for (int k = 0; k < 3; ++k) lane.factor[3 * k + i] = axes[k] * rotation(i, k);
+    lane.centre[i] = body.centre()[i];
+    for (int k = 0; k < 3; ++k) lane.factor[3 * k + i] = body.semi_axes()[k] * rotation(i, k);
   }
-  lane.largest =
-      body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
+  lane.largest = largest_if_moderate(body);
   lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
+}
+
+void fill(LaneShape& lane, const Ellipsoid& body) {
+  const Symmetric3& m = body.shape();
+  std::copy_n(body.centre().data(), 3, lane.centre);
+  lane.largest = largest_if_moderate(body);
+  const double entries[] = {m.xx, m.yy, m.zz, m.yz, m.zx, m.xy};
+  std::copy_n(entries, 6, lane.shape);
 }
 
 /// The pairs of one call, wherever their bodies are.
@@ -64,7 +74,7 @@ struct Task {
 /// the questions were.
 struct Workspace {
   LaneBlock block;
-  LaneIndices pairs[kBlock], next_pairs[kBlock];
+  IndexedPair pairs[kBlock];
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
   double gap[kBlock], gap_error[kBlock];
@@ -80,37 +90,32 @@ struct Workspace {
   }
 };
 
-/// Copies what stands at `first` of an array, and fills the block up with its first entry.
-void copy_block(const Vec3* from, std::size_t first, std::size_t count, Vec3* to) {
-  std::copy_n(from + first, count, to);
-  std::fill(to + count, to + kBlock, from[first]);
-}
-
-/// Indices of the pairs from `first` on, filled up with those of the first of them.
-void copy_pairs(const Task& task, std::size_t first, LaneIndices* to) {
-  const std::size_t count = std::min(kBlock, task.count - first);
-  const auto indices = [](const IndexedPair& pair) { return LaneIndices{pair.a, pair.b}; };
-  std::transform(task.pairs + first, task.pairs + first + count, to, indices);
-  std::fill(to + count, to + kBlock, to[0]);
+/// What stands at `first` of an array where that is a full block; else a copy of it, filled up with
+/// its first entry.
+template <class T>
+const T* block_of(const T* from, std::size_t first, std::size_t count, T* copy) {
+  if (count == kBlock) return from + first;
+  std::copy_n(from + first, count, copy);
+  std::fill(copy + count, copy + kBlock, from[first]);
+  return copy;
 }
 
 void gather(const Task& task, std::size_t first, std::size_t count, Workspace& work) {
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
-  block.pairs = work.pairs;
   block.next_pairs = nullptr;
   if (task.bodies != nullptr) {
     block.bodies_a = block.bodies_b = task.bodies->lanes();
-    copy_pairs(task, first, work.pairs);
-    if (task.bodies->size() > kNear && first + count < task.count) {
-      copy_pairs(task, first + count, work.next_pairs);
-      block.next_pairs = work.next_pairs;
-    }
+    block.shapes_a = block.shapes_b = task.bodies->shapes();
+    block.pairs = block_of(task.pairs, first, count, work.pairs);
+    if (task.bodies->size() > kNear && first + 2 * kBlock <= task.count)
+      block.next_pairs = task.pairs + first + kBlock;
   } else {
     block.bodies_a = work.plain_a;
     block.bodies_b = work.plain_b;
+    block.pairs = work.pairs;
     for (std::uint32_t i = 0; i < kBlock; ++i) {
-      work.pairs[i] = i < count ? LaneIndices{i, i} : LaneIndices{0, 0};
+      work.pairs[i] = i < count ? IndexedPair{i, i} : IndexedPair{0, 0};
     }
     for (std::size_t i = 0; i < count; ++i) {
       fill(work.plain_a[i], task.plain_a[first + i]);
@@ -121,11 +126,12 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
   block.normals = nullptr;
   block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
   if (task.separations != nullptr) {
-    copy_block(task.separations, first, count, work.separations);
-    block.separations = work.separations[0].data();
+    block.separations = block_of(task.separations, first, count, work.separations)->data();
   }
   if (task.previous_normals != nullptr) {
-    copy_block(task.previous_normals, first, count, work.normals);
+    // Always copied: the answers may be written where they stand.
+    std::copy_n(task.previous_normals + first, count, work.normals);
+    std::fill(work.normals + count, work.normals + kBlock, task.previous_normals[first]);
     block.normals = work.normals[0].data();
   }
 }
@@ -224,7 +230,8 @@ Task task_of(const BodyArray& bodies, const PairList& list, std::span<const Vec3
 
 }  // namespace
 
-BodyArray::BodyArray(std::span<const Ellipsoid> bodies) : bodies_(bodies), lanes_(bodies.size()) {
+BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
+    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
 }
 BodyArray::~BodyArray() = default;
@@ -234,6 +241,7 @@ BodyArray& BodyArray::operator=(BodyArray&&) noexcept = default;
 void BodyArray::refresh(std::size_t i) noexcept {
   assert(i < size());
   fill(lanes_[i], bodies_[i]);
+  fill(shapes_[i], bodies_[i]);
 }
 
 void signed_gaps(const BodyArray& bodies, const PairList& list,

@@ -13,21 +13,23 @@
 /// (4) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
 
 namespace methods {
 struct LaneBody;
-}
+struct LaneShape;
+}  // namespace methods
 
-/// Bodies that many pairs share, with what the batch reads of each beside each other: 128 bytes a
-/// body, for random access. Keeps the span: the ellipsoids must outlive it and stay in place.
+/// Bodies that many pairs share, with what the batch reads of each beside each other, for random
+/// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
+/// ellipsoids must outlive it and stay in place.
 class BodyArray {
  public:
   explicit BodyArray(std::span<const Ellipsoid> bodies);
@@ -41,15 +43,12 @@ class BodyArray {
   void refresh(std::size_t i) noexcept;
 
   const methods::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  const methods::LaneShape* shapes() const noexcept { return shapes_.data(); }
 
  private:
   std::span<const Ellipsoid> bodies_;
   std::vector<methods::LaneBody> lanes_;
-};
-
-/// A and B of a pair by their places in a BodyArray.
-struct IndexedPair {
-  std::uint32_t a, b;
+  std::vector<methods::LaneShape> shapes_;
 };
 
 /// The pairs of one call.

@@ -9,6 +9,8 @@
 
 #include <cstdint>
 
+#include <tangency/geometry/indexed_pair.hpp>
+
 namespace tangency::methods {
 
 /// A body as the lanes read it: two lines of cache, for random access.
@@ -21,12 +23,17 @@ struct alignas(64) LaneBody {
 };
 static_assert(sizeof(LaneBody) == 16 * sizeof(double));
 
+/// A body as the lanes read it for the yes/no question.
+struct alignas(64) LaneShape {
+  double centre[3];
+  double largest;   ///< as LaneBody's
+  double shape[6];  ///< xx yy zz yz zx xy of M, each as Ellipsoid::shape()
+  double unused[6];
+};
+static_assert(sizeof(LaneShape) == 16 * sizeof(double));
+
 /// In u L: a lane is settled where its gap_error is at most this.
 inline constexpr double kLaneErrorBound = 16.0;
-
-struct LaneIndices {
-  std::uint32_t a, b;
-};
 
 /// Up to 64 pairs, and where their answers go. Every array has kPairs entries, of which those from
 /// `count` on must be readable numbers or indices of some body, and may be written to.
@@ -35,8 +42,10 @@ struct LaneBlock {
 
   const LaneBody* bodies_a;  ///< first of the array that index a counts in
   const LaneBody* bodies_b;
-  const LaneIndices* pairs;
-  const LaneIndices* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
+  const LaneShape* shapes_a;  ///< the same bodies; read by overlap_lanes() in place of the others
+  const LaneShape* shapes_b;
+  const IndexedPair* pairs;
+  const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;
   const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
   const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere
@@ -58,7 +67,7 @@ struct LaneOverlaps {
   std::uint64_t decided, meet;
 };
 
-/// Reads bodies, pairs, count and separations of the block. In any rounding mode.
+/// Reads shapes, pairs, count and separations of the block. In any rounding mode.
 LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept;
 
 }  // namespace tangency::methods

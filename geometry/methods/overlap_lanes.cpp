@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#define TANGENCY_PACK_REGISTERS 1
 #include <tangency/geometry/methods/pack_bodies-inl.hpp>
 #include <tangency/geometry/methods/perram_wertheim_lanes-inl.hpp>
 
@@ -39,15 +40,32 @@ HWY_INLINE PackAnswer proven(const PackPerramWertheimAt& p, const Pack& trace_a,
                                               (in_b > bound * multiply_add(l, most_num, most_det))};
 }
 
+struct PackShape {
+  PackVec3 centre;
+  Pack largest;
+  PackSymmetric3 shape;
+};
+
+/// LaneShape by columns.
+HWY_INLINE PackShape load_shape(const Rows* rows) {
+  return load_rows<12>(rows, [](const auto& column) HWY_ATTR {
+    return PackShape{{column(0), column(1), column(2)},
+                     column(3),
+                     {column(4), column(5), column(6), column(7), column(8), column(9)}};
+  });
+}
+
 /// All lanes from index i on.
 HWY_INLINE void decide(const LaneBlock& block, std::size_t i, LaneOverlaps& answers) {
-  const PackBodies bodies = load_bodies(block, i);
-  const PackSymmetric3 a = shape(bodies.a), b = shape(bodies.b);
-  const PackPerramWertheim form(a, b, bodies.d);
-  const Pack trace_a = trace(a), trace_b = trace(b), d2 = dot(bodies.d, bodies.d);
+  const PairRows rows = find_rows(block, i, block.shapes_a, block.shapes_b);
+  const PackShape body_a = load_shape(rows.a), body_b = load_shape(rows.b);
+  const PackVec3 d = separation(block, i, body_a.centre, body_b.centre);
+  const PackSymmetric3 &a = body_a.shape, &b = body_b.shape;
+  const PackPerramWertheim form(a, b, d);
+  const Pack trace_a = trace(a), trace_b = trace(b), d2 = dot(d, d);
   // False for NaN, which is how bodies that are not moderate() stay out.
-  PackMask open = (bodies.a.largest + bodies.b.largest > all(0.0)) &
-                  (largest_component(bodies.d) <= all(kLargest));
+  PackMask open =
+      (body_a.largest + body_b.largest > all(0.0)) & (largest_component(d) <= all(kLargest));
   PackMask decided = without(open, open), meet = decided;
   Pack l = form.first_guess();
   for (int step = 0; step < kSteps; ++step) {

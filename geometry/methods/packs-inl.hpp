@@ -24,29 +24,44 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using Register = hn::Vec<D>;
 
-/// A number of each pair, in two registers: the work of one alone is a chain in which each
-/// operation waits for the last (measured: two at a time take 1.6 to 1.8 times as long as one).
+/// A number of each pair, in TANGENCY_PACK_REGISTERS registers. With two the chains of operations
+/// of one do not wait for each other; with one more pairs in a row are on their way. Which is
+/// quicker differs: each *_lanes.cpp says how many it measured to be best.
 struct Pack {
-  Register low, high;
+  Register low;
+#if TANGENCY_PACK_REGISTERS == 2
+  Register high;
+#endif
 };
 struct PackMask {
-  hn::Mask<D> low, high;
+  hn::Mask<D> low;
+#if TANGENCY_PACK_REGISTERS == 2
+  hn::Mask<D> high;
+#endif
 };
 
+#if TANGENCY_PACK_REGISTERS == 2
+#define TANGENCY_PARTS(low, high) low, high
+#else
+#define TANGENCY_PARTS(low, high) low
+#endif
+
 HWY_INLINE std::size_t register_lanes() { return hn::Lanes(D()); }
-HWY_INLINE std::size_t pack_lanes() { return 2 * hn::Lanes(D()); }
+HWY_INLINE std::size_t pack_lanes() { return TANGENCY_PACK_REGISTERS * hn::Lanes(D()); }
 
-HWY_INLINE Pack all(double x) { return {hn::Set(D(), x), hn::Set(D(), x)}; }
+HWY_INLINE Pack all(double x) { return {TANGENCY_PARTS(hn::Set(D(), x), hn::Set(D(), x))}; }
 
-#define TANGENCY_PACK_1(name, call) \
-  HWY_INLINE Pack name(const Pack& a) { return {hn::call(a.low), hn::call(a.high)}; }
-#define TANGENCY_PACK_2(type, name, call)                      \
-  HWY_INLINE type name(const Pack& a, const Pack& b) {         \
-    return {hn::call(a.low, b.low), hn::call(a.high, b.high)}; \
+#define TANGENCY_PACK_1(name, call)                             \
+  HWY_INLINE Pack name(const Pack& a) {                         \
+    return {TANGENCY_PARTS(hn::call(a.low), hn::call(a.high))}; \
   }
-#define TANGENCY_PACK_3(name, call)                                           \
-  HWY_INLINE Pack name(const Pack& a, const Pack& b, const Pack& c) {         \
-    return {hn::call(a.low, b.low, c.low), hn::call(a.high, b.high, c.high)}; \
+#define TANGENCY_PACK_2(type, name, call)                                      \
+  HWY_INLINE type name(const Pack& a, const Pack& b) {                         \
+    return {TANGENCY_PARTS(hn::call(a.low, b.low), hn::call(a.high, b.high))}; \
+  }
+#define TANGENCY_PACK_3(name, call)                                                           \
+  HWY_INLINE Pack name(const Pack& a, const Pack& b, const Pack& c) {                         \
+    return {TANGENCY_PARTS(hn::call(a.low, b.low, c.low), hn::call(a.high, b.high, c.high))}; \
   }
 TANGENCY_PACK_1(operator-, Neg)
 TANGENCY_PACK_1(absolute, Abs)
@@ -56,7 +71,6 @@ TANGENCY_PACK_2(Pack, operator-, Sub)
 TANGENCY_PACK_2(Pack, operator*, Mul)
 TANGENCY_PACK_2(Pack, operator/, Div)
 TANGENCY_PACK_2(Pack, larger, Max)
-TANGENCY_PACK_2(Pack, with_sign_of, CopySign)
 TANGENCY_PACK_2(PackMask, operator<, Lt)
 TANGENCY_PACK_2(PackMask, operator>, Gt)
 TANGENCY_PACK_2(PackMask, operator<=, Le)
@@ -68,58 +82,106 @@ TANGENCY_PACK_3(multiply_take, NegMulAdd)  // c - a b
 #undef TANGENCY_PACK_3
 
 HWY_INLINE PackMask operator&(const PackMask& a, const PackMask& b) {
-  return {hn::And(a.low, b.low), hn::And(a.high, b.high)};
+  return {TANGENCY_PARTS(hn::And(a.low, b.low), hn::And(a.high, b.high))};
 }
 HWY_INLINE PackMask operator|(const PackMask& a, const PackMask& b) {
-  return {hn::Or(a.low, b.low), hn::Or(a.high, b.high)};
+  return {TANGENCY_PARTS(hn::Or(a.low, b.low), hn::Or(a.high, b.high))};
 }
 /// a and not b
 HWY_INLINE PackMask without(const PackMask& a, const PackMask& b) {
-  return {hn::AndNot(b.low, a.low), hn::AndNot(b.high, a.high)};
+  return {TANGENCY_PARTS(hn::AndNot(b.low, a.low), hn::AndNot(b.high, a.high))};
 }
 HWY_INLINE bool none(const PackMask& m) {
-  return hn::AllFalse(D(), m.low) && hn::AllFalse(D(), m.high);
+#if TANGENCY_PACK_REGISTERS == 2
+  if (!hn::AllFalse(D(), m.high)) return false;
+#endif
+  return hn::AllFalse(D(), m.low);
 }
 HWY_INLINE Pack chosen(const PackMask& yes, const Pack& a, const Pack& b) {
-  return {hn::IfThenElse(yes.low, a.low, b.low), hn::IfThenElse(yes.high, a.high, b.high)};
+  return {TANGENCY_PARTS(hn::IfThenElse(yes.low, a.low, b.low),
+                         hn::IfThenElse(yes.high, a.high, b.high))};
 }
 /// Bit k is lane k.
 HWY_INLINE std::uint64_t bits(const PackMask& m) {
-  std::uint8_t low[8] = {}, high[8] = {};
+  std::uint8_t low[8] = {};
   hn::StoreMaskBits(D(), m.low, low);
+#if TANGENCY_PACK_REGISTERS == 2
+  std::uint8_t high[8] = {};
   hn::StoreMaskBits(D(), m.high, high);
   return std::uint64_t{low[0]} | std::uint64_t{high[0]} << register_lanes();
+#else
+  return low[0];
+#endif
 }
 
 /// 1 / x to a relative 2^-13.
 HWY_INLINE Pack rough_inverse(const Pack& x) {
 #if HWY_TARGET == HWY_AVX3
-  return {Register{_mm512_rcp14_pd(x.low.raw)}, Register{_mm512_rcp14_pd(x.high.raw)}};
+  return {
+      TANGENCY_PARTS(Register{_mm512_rcp14_pd(x.low.raw)}, Register{_mm512_rcp14_pd(x.high.raw)})};
 #else
   return all(1.0) / x;
 #endif
 }
 
-/// 1 / sqrt(x) to a relative 2^-13.
-HWY_INLINE Pack rough_inverse_root(const Pack& x) {
+/// 1 / x to a relative 2^-26.
+HWY_INLINE Pack quick_inverse(const Pack& x) {
+  Pack y = rough_inverse(x);
 #if HWY_TARGET == HWY_AVX3
-  return {Register{_mm512_rsqrt14_pd(x.low.raw)}, Register{_mm512_rsqrt14_pd(x.high.raw)}};
+  y = multiply_add(y, multiply_take(x, y, all(1.0)), y);
+#endif
+  return y;
+}
+
+// Square roots and divisions of a whole register take as long as ten other operations: where an
+// approximate 1 / sqrt(x) is at hand, inverse roots start there.
+#if HWY_TARGET == HWY_AVX3
+#define TANGENCY_APPROXIMATE_INVERSE_ROOT 1
+/// Within 2^-14 of itself.
+HWY_INLINE Pack approximate_inverse_root(const Pack& x) {
+  return {TANGENCY_PARTS(Register{_mm512_rsqrt14_pd(x.low.raw)},
+                         Register{_mm512_rsqrt14_pd(x.high.raw)})};
+}
+#elif HWY_TARGET == HWY_AVX2
+#define TANGENCY_APPROXIMATE_INVERSE_ROOT 1
+/// Within 2^-11.4 of itself for x in [2^-126, 2^127], elsewhere no number or infinite.
+HWY_INLINE Pack approximate_inverse_root(const Pack& x) {
+  const auto one = [](__m256d s) HWY_ATTR {
+    return Register{_mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(s)))};
+  };
+  return {TANGENCY_PARTS(one(x.low.raw), one(x.high.raw))};
+}
+#else
+#define TANGENCY_APPROXIMATE_INVERSE_ROOT 0
+#endif
+
+/// sqrt(x) to a relative 2^-13.
+HWY_INLINE Pack rough_root(const Pack& x) {
+#if HWY_TARGET == HWY_AVX3
+  return x * approximate_inverse_root(x);
+#else
+  return root(x);
+#endif
+}
+
+/// 1 / sqrt(x) to a relative 2.1 u, x in [2^-120, 2^120]: (I) of docs/derivations/gap-batch.md.
+HWY_INLINE Pack inverse_root(const Pack& x) {
+#if TANGENCY_APPROXIMATE_INVERSE_ROOT
+  const Pack y = approximate_inverse_root(x);
+  const Pack e = multiply_take(x * y, y, all(1.0));
+#if HWY_TARGET == HWY_AVX3
+  Pack series = all(0.3125);
+#else
+  Pack series = multiply_add(all(0.2734375), e, all(0.3125));
+#endif
+  series = multiply_add(series, e, all(0.375));
+  series = multiply_add(series, e, all(0.5));
+  return multiply_add(y, series * e, y);
 #else
   return all(1.0) / root(x);
 #endif
 }
-
-/// 1 / sqrt(x) to a relative 2u: (I) of docs/derivations/gap-batch.md.
-HWY_INLINE Pack inverse_root(const Pack& x) {
-  Pack y = rough_inverse_root(x);
-#if HWY_TARGET == HWY_AVX3
-  for (int i = 0; i < 2; ++i) {
-    const Pack e = multiply_take(x * y, y, all(1.0));
-    y = multiply_add(y * all(0.5), e, y);
-  }
-#endif
-  return y;
-}
+#undef TANGENCY_APPROXIMATE_INVERSE_ROOT
 
 struct PackVec3 {
   Pack x, y, z;
@@ -192,23 +254,26 @@ HWY_INLINE PackSymmetric3 with_square(const PackSymmetric3& s, const Pack& w, co
           multiply_add(p.y, v.z, s.yz), multiply_add(p.z, v.x, s.zx), multiply_add(p.x, v.y, s.xy)};
 }
 
-HWY_INLINE Pack load(const double* from) {
-  return {hn::LoadU(D(), from), hn::LoadU(D(), from + register_lanes())};
-}
 HWY_INLINE void store(const Pack& p, double* to) {
   hn::StoreU(p.low, D(), to);
+#if TANGENCY_PACK_REGISTERS == 2
   hn::StoreU(p.high, D(), to + register_lanes());
+#endif
 }
 /// x y z of one pair after the other
 HWY_INLINE PackVec3 load_vectors(const double* from) {
   PackVec3 v;
   hn::LoadInterleaved3(D(), from, v.x.low, v.y.low, v.z.low);
+#if TANGENCY_PACK_REGISTERS == 2
   hn::LoadInterleaved3(D(), from + 3 * register_lanes(), v.x.high, v.y.high, v.z.high);
+#endif
   return v;
 }
 HWY_INLINE void store(const PackVec3& v, double* to) {
   hn::StoreInterleaved3(v.x.low, v.y.low, v.z.low, D(), to);
+#if TANGENCY_PACK_REGISTERS == 2
   hn::StoreInterleaved3(v.x.high, v.y.high, v.z.high, D(), to + 3 * register_lanes());
+#endif
 }
 
 }  // namespace

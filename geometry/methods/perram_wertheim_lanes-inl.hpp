@@ -56,10 +56,7 @@ struct PackPerramWertheim {
   }
 
   /// Where the outer coefficients balance, roughly.
-  HWY_INLINE Pack first_guess() const {
-    const Pack square = (n2 * d0) * rough_inverse(n0 * d3);
-    return square * rough_inverse_root(square);
-  }
+  HWY_INLINE Pack first_guess() const { return rough_root((n2 * d0) * rough_inverse(n0 * d3)); }
 
   HWY_INLINE PackPerramWertheimAt at(const Pack& l) const {
     const Pack l2 = l * l;
@@ -81,16 +78,21 @@ struct PackPerramWertheim {
 
 /// One step of Newton's method on log l towards the maximum of F, of no more than 1.8.
 HWY_INLINE Pack next(const PackPerramWertheimAt& at) {
-  const Pack one = all(1.0);
-  const Pack s = rough_inverse(one + at.l), n = rough_inverse(at.num), d = rough_inverse(at.det);
+  const Pack one_more = all(1.0) + at.l, both = at.num * at.det;
+  // One division for three.
+  const Pack inverse = rough_inverse(both * one_more);
+  const Pack s = both * inverse, n = (at.det * one_more) * inverse,
+             d = (at.num * one_more) * inverse;
   const Pack p = n * at.num1, q = d * at.det1;
   const Pack slope = (s + p) - q;
   const Pack bend_n = multiply_take(p, p, n * at.num2), bend_d = multiply_take(q, q, d * at.det2);
   const Pack curvature = multiply_take(at.l * s, s, bend_n - bend_d);
-  const Pack newton = (all(-0.5) * slope) * rough_inverse(curvature);
+  // With half = -slope / (2 curvature), exp(2 half) is nearly (1 + half) / (1 - half).
   const PackMask usual = absolute(slope) < all(-1.8) * curvature;
-  const Pack half = chosen(usual, newton, with_sign_of(all(0.9), slope));
-  return at.l * ((one + half) * rough_inverse(one - half));
+  const Pack twice = curvature + curvature;
+  const Pack factor = (twice - slope) * rough_inverse(twice + slope);
+  const Pack most = chosen(slope > all(0.0), all(19.0), all(1.0 / 19.0));  // half = 0.9, -0.9
+  return at.l * chosen(usual, factor, most);
 }
 
 }  // namespace
