@@ -21,6 +21,8 @@ static_assert(methods::kLaneErrorBound == kOrdinaryGapErrorBound,
 constexpr std::size_t kBlock = LaneBlock::kPairs;
 // Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
 constexpr std::size_t kNear = 8192;
+// Of L: with a tolerance from here on a step of Newton's method less is mostly enough. Measured.
+constexpr double kCoarse = 0x1p-24;
 
 double largest_if_moderate(const Ellipsoid& body) {
   return body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
@@ -52,6 +54,7 @@ struct Task {
   const Vec3* separations = nullptr;
   const Vec3* previous_normals = nullptr;
   std::size_t count = 0;
+  Accuracy accuracy;
 
   const Ellipsoid& a(std::size_t i) const { return bodies ? (*bodies)[pairs[i].a] : plain_a[i]; }
   const Ellipsoid& b(std::size_t i) const { return bodies ? (*bodies)[pairs[i].b] : plain_b[i]; }
@@ -100,6 +103,16 @@ const T* block_of(const T* from, std::size_t first, std::size_t count, T* copy) 
   return copy;
 }
 
+void aim(const Task& task, LaneBlock& block) {
+  const Accuracy& accuracy = task.accuracy;
+  block.tolerance_of_size = accuracy.of_size;
+  block.tolerance = accuracy.length;
+  block.polish = accuracy.normals;
+  // A moment ago the normal was good to some 1e-4; the start of a cold search is to 1e-2.
+  const bool coarse = accuracy.of_size >= kCoarse;
+  block.first_steps = (task.previous_normals != nullptr ? 1 : 2) - (coarse ? 1 : 0);
+}
+
 void gather(const Task& task, std::size_t first, std::size_t count, Workspace& work) {
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
@@ -122,6 +135,7 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
       fill(work.plain_b[i], task.plain_b[first + i]);
     }
   }
+  aim(task, block);
   block.separations = nullptr;
   block.normals = nullptr;
   block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
@@ -205,19 +219,22 @@ void run(const Task& task, const Write& write) noexcept {
   }
 }
 
-Task task_of(const BodyArray& bodies, const PairList& list) {
+Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy = {}) {
+  assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0);
   assert(list.separations.empty() || list.separations.size() == list.pairs.size());
   Task task;
   task.bodies = &bodies;
   task.pairs = list.pairs.data();
   task.separations = list.separations.empty() ? nullptr : list.separations.data();
   task.count = list.pairs.size();
+  task.accuracy = accuracy;
   return task;
 }
 
-Task task_of(const BodyArray& bodies, const PairList& list, std::span<const Vec3> normals) {
+Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy,
+             std::span<const Vec3> normals) {
   assert(normals.size() == list.pairs.size());
-  Task task = task_of(bodies, list);
+  Task task = task_of(bodies, list, accuracy);
   task.previous_normals = normals.data();
   return task;
 }
@@ -244,37 +261,41 @@ void BodyArray::refresh(std::size_t i) noexcept {
   fill(shapes_[i], bodies_[i]);
 }
 
-void signed_gaps(const BodyArray& bodies, const PairList& list,
-                 const GapColumns& answers) noexcept {
+void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
+                 Accuracy accuracy) noexcept {
   assert(fits(answers, list.pairs.size()));
-  run(task_of(bodies, list), ToColumns{answers});
+  run(task_of(bodies, list, accuracy), ToColumns{answers});
 }
 
-void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers) noexcept {
+void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
+                 Accuracy accuracy) noexcept {
   assert(answers.size() == list.pairs.size());
-  run(task_of(bodies, list), ToGaps{answers});
+  run(task_of(bodies, list, accuracy), ToGaps{answers});
 }
 
-void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
-                 std::span<Gap> answers) noexcept {
+void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
+                 Accuracy accuracy) noexcept {
   assert(a.size() == b.size() && answers.size() == a.size());
   Task task;
   task.plain_a = a.data();
   task.plain_b = b.data();
   task.count = a.size();
+  task.accuracy = accuracy;
   run(task, ToGaps{answers});
 }
 
 void follow_gaps(const BodyArray& bodies, const PairList& list,
-                 std::span<const Vec3> previous_normals, const GapColumns& answers) noexcept {
+                 std::span<const Vec3> previous_normals, const GapColumns& answers,
+                 Accuracy accuracy) noexcept {
   assert(fits(answers, list.pairs.size()));
-  run(task_of(bodies, list, previous_normals), ToColumns{answers});
+  run(task_of(bodies, list, accuracy, previous_normals), ToColumns{answers});
 }
 
 void follow_gaps(const BodyArray& bodies, const PairList& list,
-                 std::span<const Vec3> previous_normals, std::span<Gap> answers) noexcept {
+                 std::span<const Vec3> previous_normals, std::span<Gap> answers,
+                 Accuracy accuracy) noexcept {
   assert(answers.size() == list.pairs.size());
-  run(task_of(bodies, list, previous_normals), ToGaps{answers});
+  run(task_of(bodies, list, accuracy, previous_normals), ToGaps{answers});
 }
 
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {

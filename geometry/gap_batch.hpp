@@ -10,7 +10,10 @@
 /// (2) To the bit, an answer does not depend on its position, the order and number of the pairs,
 ///     or the thread. It may depend, within its error, on the instruction set of the machine.
 /// (3) Yes/no answers are the same everywhere.
-/// (4) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
+/// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp) and the tolerance
+/// of
+///     the Accuracy asked for.
+/// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
 #include <span>
@@ -58,6 +61,25 @@ struct PairList {
   std::span<const Vec3> separations = {};
 };
 
+/// How good a gap has to be: a point on the curve of speed against accuracy that
+/// docs/speed-accuracy.md measures. Sign, status and gap_error are proven at every point of it;
+/// what is near enough to a touch that the sign could be in doubt is solved to rounding.
+struct Accuracy {
+  double of_size = 0.0;  ///< tolerance in parts of L, at least 0
+  double length = 0.0;   ///< tolerance in the unit of length of the bodies, at least 0
+  /// Normal and points to rounding too? Else the normal is as good as the gap needs, within
+  /// sqrt(2 gap_error / (gap + rho)) rad.
+  bool normals = false;
+
+  /// gap_error at most 2^-20 L: for neighbour lists, previews, stiff contacts that overlap by more.
+  static constexpr Accuracy fast() { return {0x1p-20, 0.0, false}; }
+  /// The gap to rounding, its normal to some 1e-8 rad.
+  static constexpr Accuracy standard() { return {}; }
+  /// Gap, normal and points as the single call has them.
+  static constexpr Accuracy certified() { return {0.0, 0.0, true}; }
+  static constexpr Accuracy within(double length) { return {0.0, length, false}; }
+};
+
 /// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
 struct GapColumns {
   std::span<double> gap = {};
@@ -69,18 +91,22 @@ struct GapColumns {
 };
 
 /// signed_gap() of every pair. Lengths that do not match are a broken contract (asserted).
-void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers) noexcept;
-void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers) noexcept;
+void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
+                 Accuracy accuracy = {}) noexcept;
+void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
+                 Accuracy accuracy = {}) noexcept;
 /// The same for a[i] and b[i], at the cost of reading whole bodies.
-void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
-                 std::span<Gap> answers) noexcept;
+void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
+                 Accuracy accuracy = {}) noexcept;
 
 /// follow_gap() of every pair; where `separations` is empty, of the rounded c_B - c_A.
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
-                 std::span<const Vec3> previous_normals, const GapColumns& answers) noexcept;
+                 std::span<const Vec3> previous_normals, const GapColumns& answers,
+                 Accuracy accuracy = {}) noexcept;
 void follow_gaps(const BodyArray& bodies, const PairList& list,
-                 std::span<const Vec3> previous_normals, std::span<Gap> answers) noexcept;
+                 std::span<const Vec3> previous_normals, std::span<Gap> answers,
+                 Accuracy accuracy = {}) noexcept;
 
 /// overlaps() of every pair: do the interiors meet? Exact for the stored doubles, in any
 /// floating-point environment; given separations are taken as they are.

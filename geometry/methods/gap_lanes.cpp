@@ -35,6 +35,7 @@ struct PackPair {
   PackVec3 d;
   Pack d_error;  ///< of d, over u
   Pack size;     ///< L, and no more
+  Pack tolerance;
 };
 
 /// What is evaluated at a normal.
@@ -98,10 +99,26 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const Pack above = multiply_add(all(0.57), dot(across, across), error2) * rough_inverse(ball);
   const Pack half = all(0.5) * above, gap = at.gap + half;
   const Pack error = (value_error + half) * all(1.0 + 0x1p-50);
-  const PackMask settled = (absolute(gap) > error) &
-                           (error <= all(kLaneErrorBound * kUnitRoundoff) * pair.size) &
-                           (ball > above0);
-  return {gap, error, settled, settled & (above <= all(kEnough * kUnitRoundoff) * pair.size)};
+  const auto within = [&](double roundings_of_size) HWY_ATTR {
+    return multiply_add(all(roundings_of_size * kUnitRoundoff), pair.size, pair.tolerance);
+  };
+  const PackMask settled =
+      (absolute(gap) > error) & (error <= within(kLaneErrorBound)) & (ball > above0);
+  return {gap, error, settled, settled & (above <= within(kEnough))};
+}
+
+HWY_INLINE PackPoint chosen(const PackMask& yes, const PackPoint& a, const PackPoint& b) {
+  return {chosen(yes, a.inverse_h_a, b.inverse_h_a),
+          chosen(yes, a.inverse_h_b, b.inverse_h_b),
+          chosen(yes, a.point_a, b.point_a),
+          chosen(yes, a.point_b, b.point_b),
+          chosen(yes, a.beyond_a, b.beyond_a),
+          chosen(yes, a.rest, b.rest),
+          chosen(yes, a.gap, b.gap)};
+}
+/// `best` is that of b: it is not asked for any more.
+HWY_INLINE PackProof chosen(const PackMask& yes, const PackProof& a, const PackProof& b) {
+  return {chosen(yes, a.gap, b.gap), chosen(yes, a.error, b.error), a.settled | b.settled, b.best};
 }
 
 /// Newton's method for n.d - h_A - h_B on the sphere: the step in the tangent plane, and whether
@@ -149,11 +166,12 @@ HWY_INLINE PackSymmetric3 shape(const PackBody& body) {
 
 HWY_INLINE PackPair load_pair(const LaneBlock& block, std::size_t i) {
   const PairRows rows = find_rows(block, i, block.bodies_a, block.bodies_b);
-  PackPair pair{load_body(rows.a), load_body(rows.b), {}, {}, {}};
+  PackPair pair{load_body(rows.a), load_body(rows.b), {}, {}, {}, {}};
   pair.d = separation(block, i, pair.a.centre, pair.b.centre);
   const Pack reach = largest_component(pair.d);
   pair.d_error = block.centres_are_exact ? all(1.75) * reach : all(0.0);
   pair.size = reach + (pair.a.largest + pair.b.largest);
+  pair.tolerance = multiply_add(all(block.tolerance_of_size), pair.size, all(block.tolerance));
   return pair;
 }
 
@@ -189,18 +207,29 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   // False for NaN, which is how bodies that are not moderate() stay out.
   PackMask going = (pair.size <= all(kLargest)) & (largest_component(pair.d) >= all(kSmallest));
   const PackMask in_range = going;
-  for (int k = block.normals == nullptr ? 0 : 1; k < kFirstSteps; ++k) {
+  for (int k = 0; k < block.first_steps; ++k) {
     const PackPoint at = point_of(pair, n, glance(shape_a, n), glance(shape_b, n));
     move(newton_step(shape_a, shape_b, pair.size, n, at), going, n);
   }
   PackPoint at;
   PackProof proof;
-  for (int k = kFirstSteps;; ++k) {
+  for (int k = block.first_steps;; ++k) {
     at = point_of(pair, n, support(pair.a, n), support(pair.b, n));
     proof = prove(pair, n, at);
     going = without(going, proof.best);
     if (none(going) || k == kSteps) break;
     move(newton_step(shape_a, shape_b, pair.size, n, at), going, n);
+  }
+  if (block.polish) {
+    PackMask all_lanes = in_range;
+    PackVec3 better = n;
+    move(newton_step(shape_a, shape_b, pair.size, n, at), all_lanes, better);
+    const PackPoint there =
+        point_of(pair, better, support(pair.a, better), support(pair.b, better));
+    const PackProof also = prove(pair, better, there);
+    n = chosen(also.settled, better, n);
+    at = chosen(also.settled, there, at);
+    proof = chosen(also.settled, also, proof);
   }
   if (block.gap != nullptr) store(proof.gap, block.gap + i);
   if (block.gap_error != nullptr) store(proof.error, block.gap_error + i);

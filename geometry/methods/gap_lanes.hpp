@@ -32,7 +32,7 @@ struct alignas(64) LaneShape {
 };
 static_assert(sizeof(LaneShape) == 16 * sizeof(double));
 
-/// In u L: a lane is settled where its gap_error is at most this.
+/// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 
 /// Up to 64 pairs, and where their answers go. Every array has kPairs entries, of which those from
@@ -51,6 +51,10 @@ struct LaneBlock {
   const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere
   /// Is the true separation that of the centres, not their rounded difference?
   bool centres_are_exact;
+  /// What gap_error may be beyond rounding: a part of L, and a length.
+  double tolerance_of_size, tolerance;
+  int first_steps;  ///< of Newton's method before anything is proven
+  bool polish;      ///< one step more than the gap needs, for the normal's sake
 
   double* gap;  ///< null, here and below: not wanted
   double* gap_error;

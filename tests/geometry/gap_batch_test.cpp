@@ -2,11 +2,9 @@
 #include <tangency/geometry/gap_batch.hpp>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -15,31 +13,19 @@
 
 #include <tangency/bench/families/adversarial.hpp>
 #include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
 namespace tangency {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122;
+using testing::at_every_level;
+using testing::contacts;
+using testing::Family;
+using testing::Indexed;
+using testing::kSeed;
 
-struct Family {
-  std::string name;
-  std::vector<Ellipsoid> a, b;
-};
-
-Family contacts(const families::ContactFamily& shape, std::size_t count) {
-  Family f{shape.name, {}, {}};
-  families::ManufacturedContacts source(shape, kSeed);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto c = source.next();
-    f.a.push_back(testing::to_ellipsoid(c.a));
-    f.b.push_back(testing::to_ellipsoid(c.b));
-  }
-  return f;
-}
-
-/// Coinding centres, nests, spheres, extreme scales and shapes, far origins.
+/// Coinciding centres, nests, spheres, extreme scales and shapes, far origins.
 Family extremes() {
   Family f{"extremes", {}, {}};
   std::mt19937_64 random(kSeed);
@@ -107,35 +93,6 @@ std::vector<Gap> batch_answers(const Family& f) {
   std::vector<Gap> gaps(f.a.size());
   signed_gaps(f.a, f.b, gaps);
   return gaps;
-}
-
-/// The bodies of a family in one array, A and B of each pair in turn.
-struct Indexed {
-  explicit Indexed(const Family& f) {
-    for (std::uint32_t i = 0; i < f.a.size(); ++i) {
-      bodies.push_back(f.a[i]);
-      bodies.push_back(f.b[i]);
-      pairs.push_back({2 * i, 2 * i + 1});
-      separations.push_back(f.b[i].centre() - f.a[i].centre());
-    }
-  }
-  std::vector<Ellipsoid> bodies;
-  std::vector<IndexedPair> pairs;
-  std::vector<Vec3> separations;
-};
-
-/// Runs with each instruction set that this machine and this build have, one after the other.
-void at_every_level(const std::function<void()>& run) {
-  const std::vector<std::int64_t> levels = hwy::SupportedAndGeneratedTargets();
-  ASSERT_FALSE(levels.empty());
-  for (const std::int64_t level : levels) {
-    hwy::SetSupportedTargetsForTest(level);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    SCOPED_TRACE(hwy::TargetName(level));
-    run();
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
 }
 
 bool same_bits(double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; }
