@@ -80,7 +80,7 @@ Subcommand add_classify(CLI::App& program) {
   return {&app, [options] {
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "type",
-                               .bind = bind};
+                               .bind = row_by_row(bind)};
             return run_row_stream(task, *options);
           }};
 }

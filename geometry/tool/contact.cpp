@@ -7,8 +7,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
@@ -45,7 +46,8 @@ Output columns, in this order:
                    gap - gap_error; empty for the methods other than common-normal
   status           see below
   inner            a or b, the body inside, for internal_touch; else empty
-  Numbers read back to the same double.
+  Numbers read back to the same double. Their last digits may depend on the processor,
+  within gap_error, but never on the number of threads.
 
 Status of a row:
   ok               the global answer
@@ -75,13 +77,13 @@ input, or a failed read or write. A refusal is one line on standard error:
 Rows before a refused row may have reached standard output, none for it or after it;
 a file named by --out is left as it was.
 
-Example, a unit sphere and an ellipsoid 0.5 away from it:
+Example, a unit sphere and an ellipsoid that it touches:
   $ cat pairs.csv
   a.x,a.y,a.z,a.r1,a.r2,a.r3,b.x,b.y,b.z,b.r1,b.r2,b.r3
-  0,0,0,1,1,1,3.5,0,0,2,1,1
+  0,0,0,1,1,1,3,0,0,2,1,1
   $ tangency contact pairs.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
-  0,separate,0.5,1,0,0,1,0,0,1.5,0,0,5.2180482157382405e-15,ok,
+  0,external_touch,0,1,0,0,1,0,0,1,0,0,0,ok,
 )";
 
 /// What is known about a pair: one row of the output.
@@ -114,11 +116,6 @@ Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
   return {exact, status, true, found.gap, found.normal, point_a, point_b, gap_error};
 }
 
-Answer by_common_normal(const Ellipsoid& a, const Ellipsoid& b) {
-  const Gap found = signed_gap(a, b);
-  return with_numbers(a, b, found, found.status == GapStatus::ok ? "ok" : "local", found.gap_error);
-}
-
 template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>
 Answer by_other_definition(const Ellipsoid& a, const Ellipsoid& b) {
   const OtherGap found = find(a, b);
@@ -133,18 +130,7 @@ Answer by_other_definition(const Ellipsoid& a, const Ellipsoid& b) {
   return without_numbers(relation(a, b), "not_converged");
 }
 
-struct Method {
-  std::string_view name;
-  Answer (*answer)(const Ellipsoid&, const Ellipsoid&);  ///< null: not available
-};
-
-constexpr std::array<Method, 4> kMethods{
-    {{"common-normal", by_common_normal},
-     {"perram-wertheim", by_other_definition<perram_wertheim_gap>},
-     {"midpoint-potential", by_other_definition<midpoint_potential_gap>},
-     {"trace", nullptr}}};
-
-RowOutcome write(const Answer& answer, csv::RowText& out) {
+RowOutcome write_answer(const Answer& answer, csv::RowText& out) {
   out.text(to_string(answer.relation.relation));
   if (answer.has_numbers) {
     out.number(answer.gap);
@@ -174,25 +160,72 @@ RowOutcome write(const Answer& answer, csv::RowText& out) {
   return answer.has_numbers ? RowOutcome::answered : RowOutcome::unanswered;
 }
 
-std::function<RowFunction(const csv::Header&)> bind_with(const Method& method) {
-  return [&method](const csv::Header& header) -> RowFunction {
-    return [&method, a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](
-               const csv::RowCursor& row, csv::RowText& out) {
-      return write(method.answer(a.read(row), b.read(row)), out);
-    };
+/// The common normal, for all rows that are read in one call.
+class CommonNormalRows : public Rows {
+ public:
+  CommonNormalRows(const BodyColumns& a, const BodyColumns& b) : columns_a_(a), columns_b_(b) {}
+
+  void read(const csv::RowCursor& row) override {
+    const Ellipsoid a = columns_a_.read(row), b = columns_b_.read(row);
+    a_.push_back(a), b_.push_back(b);
+  }
+  void answer() override {
+    gaps_.resize(a_.size());
+    signed_gaps(a_, b_, gaps_, Accuracy::certified());
+  }
+  RowOutcome write(std::size_t i, csv::RowText& out) const override {
+    const Gap& gap = gaps_[i];
+    const std::string_view status = gap.status == GapStatus::ok ? "ok" : "local";
+    return write_answer(with_numbers(a_[i], b_[i], gap, status, gap.gap_error), out);
+  }
+  void clear() override { a_.clear(), b_.clear(); }
+
+ private:
+  BodyColumns columns_a_, columns_b_;
+  std::vector<Ellipsoid> a_, b_;
+  std::vector<Gap> gaps_;
+};
+
+MakeRows bind_common_normal(const csv::Header& header) {
+  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")] {
+    return std::make_unique<CommonNormalRows>(a, b);
   };
+}
+
+/// @param answer  of one pair
+BindRows one_by_one(Answer (*answer)(const Ellipsoid&, const Ellipsoid&)) {
+  return row_by_row([answer](const csv::Header& header) -> RowFunction {
+    return [answer, a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](
+               const csv::RowCursor& row, csv::RowText& out) {
+      return write_answer(answer(a.read(row), b.read(row)), out);
+    };
+  });
+}
+
+struct Method {
+  std::string_view name;
+  BindRows bind;  ///< empty: not available
+};
+
+const std::array<Method, 4>& methods() {
+  static const std::array<Method, 4> all{
+      {{"common-normal", bind_common_normal},
+       {"perram-wertheim", one_by_one(by_other_definition<perram_wertheim_gap>)},
+       {"midpoint-potential", one_by_one(by_other_definition<midpoint_potential_gap>)},
+       {"trace", {}}}};
+  return all;
 }
 
 /// Requires a name that check_method() accepts.
 const Method& method_named(std::string_view name) {
-  return *std::ranges::find(kMethods, name, &Method::name);
+  return *std::ranges::find(methods(), name, &Method::name);
 }
 
 std::string check_method(const std::string& name) {
-  const auto found = std::ranges::find(kMethods, name, &Method::name);
-  if (found != kMethods.end() && found->answer != nullptr) return {};
+  const auto found = std::ranges::find(methods(), name, &Method::name);
+  if (found != methods().end() && found->bind) return {};
   return name +
-         (found != kMethods.end() ? " is not available in this version" : " is not a method") +
+         (found != methods().end() ? " is not available in this version" : " is not a method") +
          "; common-normal, perram-wertheim and midpoint-potential are";
 }
 
@@ -200,7 +233,7 @@ std::string check_method(const std::string& name) {
 
 Subcommand add_contact(CLI::App& program) {
   struct Options {
-    std::string method{kMethods.front().name};
+    std::string method{methods().front().name};
     RowStreamOptions rows;
   };
   const auto options = std::make_shared<Options>();
@@ -216,7 +249,7 @@ Subcommand add_contact(CLI::App& program) {
   return {&app, [options] {
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",
-                               .bind = bind_with(method_named(options->method))};
+                               .bind = method_named(options->method).bind};
             return run_row_stream(task, options->rows);
           }};
 }

@@ -308,6 +308,11 @@ void RowText::text(std::string_view cell) {
   buffer_ += cell;
 }
 
+void RowText::cells(std::string_view written) {
+  separate();
+  buffer_ += written;
+}
+
 void RowText::number(double value) {
   assert(std::isfinite(value));
   std::array<char, 32> digits;

@@ -181,6 +181,8 @@ class RowText {
   void header(std::span<const std::string_view> names);
   /// One cell. Text holds no comma, quote, line end or leading `#` (asserted).
   void text(std::string_view cell);
+  /// Cells that another RowText wrote, without a row's end.
+  void cells(std::string_view written);
   void number(double value);  ///< finite (asserted)
   void integer(std::uint64_t value);
   void empty(std::size_t count = 1);

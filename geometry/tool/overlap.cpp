@@ -59,7 +59,7 @@ Subcommand add_overlap(CLI::App& program) {
   return {&app, [options] {
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "relation",
-                               .bind = bind};
+                               .bind = row_by_row(bind)};
             return run_row_stream(task, *options);
           }};
 }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include <tangency/geometry/tool/output_file.hpp>
 #include <tangency/geometry/tool/progress.hpp>
@@ -22,8 +23,34 @@ constexpr std::size_t kMostComplaints = 10;
 // Of the input, below which another thread is not worth starting; chosen: about 100 us of work.
 constexpr std::uint64_t kBytesPerThread = 1 << 16;
 
+// Chosen: enough for every vector register, few enough to stay in cache.
+constexpr std::size_t kRowsAtOnce = 256;
+
+/// The answers of a RowFunction, as they were written.
+class RowByRow : public Rows {
+ public:
+  explicit RowByRow(RowFunction function) : function_(std::move(function)) {}
+  void read(const csv::RowCursor& row) override {
+    csv::RowText text;
+    const RowOutcome outcome = function_(row, text);
+    answers_.push_back({std::string(text.view()), outcome});
+  }
+  void answer() override {}
+  RowOutcome write(std::size_t i, csv::RowText& out) const override {
+    out.cells(answers_[i].first);
+    return answers_[i].second;
+  }
+  void clear() override { answers_.clear(); }
+
+ private:
+  RowFunction function_;
+  std::vector<std::pair<std::string, RowOutcome>> answers_;
+};
+
 /// One block of rows on its way through a thread.
 struct Job {
+  std::unique_ptr<Rows> rows;
+  std::vector<std::pair<std::uint64_t, bool>> taken;  ///< number of a row, and is it valid?
   std::uint64_t turn = 0;
   csv::Block block;
   csv::RowText text;
@@ -45,15 +72,16 @@ class RowStream {
   void work();
   bool take(Job& job);
   void answer(Job& job) const;
-  void answer_row(csv::RowCursor& row, Job& job) const;
-  void write_invalid(const csv::RowCursor& row, csv::RowText& text) const;
+  void complain(const csv::Error& error, std::uint64_t row, Job& job) const;
+  void write_taken(Job& job) const;
+  void write_invalid(csv::RowText& text) const;
   void deliver(Job& job);
   void tally(const Job& job);
 
   const RowTask& task_;
   const RowStreamOptions& options_;
   csv::Reader reader_;
-  RowFunction answer_row_;
+  MakeRows make_rows_;
   csv::OutputFile output_;
   Progress progress_;
 
@@ -74,7 +102,7 @@ RowStream::RowStream(const RowTask& task, const RowStreamOptions& options)
     : task_(task),
       options_(options),
       reader_(options.input),
-      answer_row_(task.bind(reader_.header())),
+      make_rows_(task.bind(reader_.header())),
       output_(options.output),
       progress_(reader_.header().file(), reader_.total_bytes(), !output_.is_terminal()) {}
 
@@ -108,6 +136,7 @@ ExitStatus RowStream::run() {
 
 void RowStream::work() {
   Job job;
+  job.rows = make_rows_();
   while (take(job)) {
     if (!job.refusal) answer(job);
     deliver(job);
@@ -134,40 +163,59 @@ bool RowStream::take(Job& job) {
 }
 
 void RowStream::answer(Job& job) const {
-  std::size_t whole_rows = 0;
+  csv::RowCursor row(reader_.header());
+  row.enter(job.block);
+  std::exception_ptr refusal;
+  for (bool more = true; more && !refusal;) {
+    try {
+      more = row.next();
+      if (more) job.rows->read(row), job.taken.emplace_back(row.index(), true);
+    } catch (const csv::Error& error) {
+      if (!options_.keep_going) refusal = std::current_exception();
+      if (options_.keep_going) complain(error, row.index(), job);
+    } catch (...) {
+      refusal = std::current_exception();
+    }
+    // Those before a refused row are answered too.
+    if (!more || refusal || job.taken.size() == kRowsAtOnce) write_taken(job);
+    if (job.refusal) return;
+  }
+  job.refusal = refusal;
+}
+
+void RowStream::complain(const csv::Error& error, std::uint64_t row, Job& job) const {
+  job.taken.emplace_back(row, false);
+  ++job.invalid_rows;
+  if (job.complaints.size() < kMostComplaints) job.complaints.emplace_back(error.what());
+}
+
+void RowStream::write_taken(Job& job) const {
+  std::size_t whole_rows = job.text.size();
   try {
-    csv::RowCursor row(reader_.header());
-    row.enter(job.block);
-    for (bool more = true; more; whole_rows = job.text.size()) {
-      try {
-        more = row.next();
-        if (more) answer_row(row, job);
-      } catch (const csv::Error& error) {
-        if (!options_.keep_going) throw;
-        job.text.truncate(whole_rows);
-        write_invalid(row, job.text);
-        ++job.invalid_rows;
-        if (job.complaints.size() < kMostComplaints) job.complaints.emplace_back(error.what());
+    job.rows->answer();
+    std::size_t answered = 0;
+    for (const auto& [row, valid] : job.taken) {
+      job.text.integer(row);
+      if (!valid) {
+        write_invalid(job.text);
+      } else if (job.rows->write(answered++, job.text) == RowOutcome::unanswered) {
+        job.all_answered = false;
       }
+      job.text.end_row();
+      whole_rows = job.text.size();
     }
   } catch (...) {
     job.text.truncate(whole_rows);
     job.refusal = std::current_exception();
   }
+  job.taken.clear();
+  job.rows->clear();
 }
 
-void RowStream::answer_row(csv::RowCursor& row, Job& job) const {
-  job.text.integer(row.index());
-  if (answer_row_(row, job.text) == RowOutcome::unanswered) job.all_answered = false;
-  job.text.end_row();
-}
-
-void RowStream::write_invalid(const csv::RowCursor& row, csv::RowText& text) const {
-  text.integer(row.index());
+void RowStream::write_invalid(csv::RowText& text) const {
   for (std::size_t i = 1; i < task_.output_columns.size(); ++i) {
     text.text(task_.output_columns[i] == task_.verdict_column ? "invalid" : "");
   }
-  text.end_row();
 }
 
 void RowStream::deliver(Job& job) {
@@ -200,6 +248,12 @@ void RowStream::tally(const Job& job) {
 }
 
 }  // namespace
+
+BindRows row_by_row(std::function<RowFunction(const csv::Header&)> bind) {
+  return [bind = std::move(bind)](const csv::Header& header) -> MakeRows {
+    return [function = bind(header)] { return std::make_unique<RowByRow>(function); };
+  };
+}
 
 ExitStatus run_row_stream(const RowTask& task, const RowStreamOptions& options) {
   return RowStream(task, options).run();

@@ -11,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/tool/process.hpp>
 
@@ -48,13 +48,25 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What the tool says about kPair.
+/// What the tool says about kPair: 0.5 apart, with the last digits of this machine's batch.
 std::string answer_of_the_pair() {
-  const Gap gap = signed_gap(Ellipsoid({0, 0, 0}, {1, 1, 1}), Ellipsoid({3.5, 0, 0}, {2, 1, 1}));
-  std::array<char, 32> error;
-  const auto end = std::to_chars(error.data(), error.data() + error.size(), gap.gap_error).ptr;
-  return kOutHeader + "0,separate,0.5,1,0,0,1,0,0,1.5,0,0," + std::string(error.data(), end) +
-         ",ok,\n";
+  const Ellipsoid a({0, 0, 0}, {1, 1, 1}), b({3.5, 0, 0}, {2, 1, 1});
+  Gap gap;
+  signed_gaps({&a, 1}, {&b, 1}, {&gap, 1}, Accuracy::certified());
+  EXPECT_LE(std::abs(gap.gap - 0.5), gap.gap_error);
+  const Vec3 vectors[] = {gap.normal, a.centre() + gap.arm_a, b.centre() + gap.arm_b};
+  std::string answer = kOutHeader + "0,separate";
+  const auto add = [&](double number) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    answer += "," + std::string(digits.data(), end);
+  };
+  add(gap.gap);
+  for (const Vec3& vector : vectors) {
+    for (const double component : vector) add(component);
+  }
+  add(gap.gap_error);
+  return answer + ",ok,\n";
 }
 
 TEST(ContactCommand, AnswersWithTheDocumentedColumns) {
@@ -115,13 +127,12 @@ double number(const std::string& cell) { return std::strtod(cell.c_str(), nullpt
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-TEST(ContactCommand, NumbersAreThoseOfTheLibraryBitForBit) {
+TEST(ContactCommand, NumbersAreThoseOfTheLibrarysBatchBitForBit) {
   std::mt19937_64 source(7);
   std::uniform_real_distribution<double> place(-3, 3);
   std::uniform_real_distribution<double> axis(0.3, 2);
   std::string text = kHeader;
-  std::vector<Gap> gaps;
-  std::vector<Vec3> points;
+  std::vector<Ellipsoid> bodies_a, bodies_b;
   for (int i = 0; i < 300; ++i) {
     std::array<double, 20> v{};
     for (std::size_t k = 0; k < v.size(); ++k)
@@ -131,11 +142,17 @@ TEST(ContactCommand, NumbersAreThoseOfTheLibraryBitForBit) {
       std::snprintf(cell.data(), cell.size(), k % 2 == 0 ? "%.17g" : "%a", v[k]);
       text += cell.data() + std::string(k + 1 < v.size() ? "," : "\n");
     }
-    const Ellipsoid a({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8], v[9]});
-    const Ellipsoid b({v[10], v[11], v[12]}, {v[13], v[14], v[15]}, {v[16], v[17], v[18], v[19]});
-    gaps.push_back(signed_gap(a, b));
-    points.push_back(a.centre() + gaps.back().arm_a);
-    points.push_back(b.centre() + gaps.back().arm_b);
+    bodies_a.emplace_back(Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5]),
+                          Eigen::Quaterniond(v[6], v[7], v[8], v[9]));
+    bodies_b.emplace_back(Vec3(v[10], v[11], v[12]), Vec3(v[13], v[14], v[15]),
+                          Eigen::Quaterniond(v[16], v[17], v[18], v[19]));
+  }
+  std::vector<Gap> gaps(bodies_a.size());
+  signed_gaps(bodies_a, bodies_b, gaps, Accuracy::certified());
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    points.push_back(bodies_a[i].centre() + gaps[i].arm_a);
+    points.push_back(bodies_b[i].centre() + gaps[i].arm_b);
   }
   const std::vector<std::string> lines = lines_of(run_tool({"contact"}, text).out);
   ASSERT_EQ(lines.size(), gaps.size() + 1);
