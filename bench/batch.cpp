@@ -5,8 +5,9 @@
 //
 // By class and level: cold (signed_gaps), following (follow_gaps from the normal of a moment ago),
 // and overlaps; gap, normal, error and status by columns unless the name says more. "scattered" is
-// cold on the 100,000 bodies of 50,000 pairs, bodies and pairs in random order; "plain" is two
-// arrays of ellipsoids and whole answers.
+// cold on the 100,000 bodies of 50,000 pairs, bodies and pairs in random order, and "two_threads"
+// the same with half of the list for each of two; "plain" is two arrays of ellipsoids and whole
+// answers.
 #include <hwy/targets.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <tangency/bench/families/manufactured.hpp>
@@ -99,15 +101,19 @@ void force(std::int64_t level) {
 
 /// Registers a benchmark of one call for all pairs, reported per pair.
 template <class Call>
-void add(const std::string& name, std::int64_t level, std::size_t count, const Call& call) {
-  benchmark::RegisterBenchmark(name.c_str(), [level, count, call](benchmark::State& state) {
-    force(level);
-    while (state.KeepRunningBatch(static_cast<std::int64_t>(count))) {
-      call();
-      benchmark::ClobberMemory();
-    }
-    force(0);
-  })->Apply(tangency::bench::least_of_repetitions);
+benchmark::internal::Benchmark* add(const std::string& name, std::int64_t level, std::size_t count,
+                                    const Call& call) {
+  return benchmark::RegisterBenchmark(
+             name.c_str(),
+             [level, count, call](benchmark::State& state) {
+               force(level);
+               while (state.KeepRunningBatch(static_cast<std::int64_t>(count))) {
+                 call();
+                 benchmark::ClobberMemory();
+               }
+               force(0);
+             })
+      ->Apply(tangency::bench::least_of_repetitions);
 }
 
 /// Bodies and pairs in random order.
@@ -120,6 +126,19 @@ void scatter(Family& f) {
   for (std::uint32_t i = 0; i < place.size(); ++i) moved[place[i]] = f.bodies[i];
   f.bodies = std::move(moved);
   for (IndexedPair& pair : f.pairs) pair = {place[pair.a], place[pair.b]};
+}
+
+/// Cold, the first or the second half of the pairs.
+void signed_half(const Family& f, const BodyArray& bodies, Answers& answers, std::size_t which) {
+  const std::size_t half = f.pairs.size() / 2, first = which * half;
+  const auto part = [&](auto& column) { return std::span(column).subspan(first, half); };
+  signed_gaps(bodies, {part(f.pairs), {}},
+              {part(answers.gap),
+               part(answers.gap_error),
+               part(answers.normal),
+               {},
+               {},
+               part(answers.status)});
 }
 
 void check_overlaps(const std::string& name, const Family& f, const bool* answers) {
@@ -198,6 +217,15 @@ int main(int argc, char** argv) {
     check("scattered", large, *answers);
     add(std::string("scattered/class1/") + hwy::TargetName(level), level, large.pairs.size(),
         scattered);
+    const auto two_threads = [&large, &large_array, answers] {
+      const std::jthread helper([&] { signed_half(large, large_array, *answers, 0); });
+      signed_half(large, large_array, *answers, 1);
+    };
+    two_threads();
+    check("two_threads", large, *answers);
+    add(std::string("two_threads/class1/") + hwy::TargetName(level), level, large.pairs.size(),
+        two_threads)
+        ->UseRealTime();
   }
   tangency::bench::RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

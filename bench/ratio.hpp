@@ -66,7 +66,9 @@ class RatioReporter : public benchmark::ConsoleReporter {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "min") continue;
-      times_.emplace_back(run.run_name.function_name, run.GetAdjustedCPUTime());
+      const bool real = !run.run_name.time_type.empty();  // several threads
+      times_.emplace_back(run.run_name.function_name,
+                          real ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime());
     }
   }
   void Finalize() override {

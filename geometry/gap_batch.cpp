@@ -298,6 +298,17 @@ void follow_gaps(const BodyArray& bodies, const PairList& list,
   run(task_of(bodies, list, accuracy, previous_normals), ToGaps{answers});
 }
 
+void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<const Gap> gaps,
+                     std::span<GapDerivatives> answers) noexcept {
+  assert(gaps.size() == list.pairs.size() && answers.size() == list.pairs.size());
+  const Task task = task_of(bodies, list);
+  for (std::size_t i = 0; i < task.count; ++i) {
+    const Ellipsoid &a = task.a(i), &b = task.b(i);
+    answers[i] = task.separations != nullptr ? gap_derivatives(a, b, task.separations[i], gaps[i])
+                                             : gap_derivatives(a, b, gaps[i]);
+  }
+}
+
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {
   assert(answers.size() == list.pairs.size());
   const Task task = task_of(bodies, list);

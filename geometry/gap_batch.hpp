@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -107,6 +108,11 @@ void follow_gaps(const BodyArray& bodies, const PairList& list,
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
                  Accuracy accuracy = {}) noexcept;
+
+/// gap_derivatives() of every pair at the answers of signed_gaps() or follow_gaps(), pair by pair:
+/// for implicit methods. To the bit as the single call's.
+void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<const Gap> gaps,
+                     std::span<GapDerivatives> answers) noexcept;
 
 /// overlaps() of every pair: do the interiors meet? Exact for the stored doubles, in any
 /// floating-point environment; given separations are taken as they are.

@@ -284,6 +284,26 @@ TEST(GapBatch, FollowingAgreesWithTheSingleCallAndMayWriteOverItsNormals) {
   }
 }
 
+TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
+  const Family f = contacts(families::contact_classes()[1], 200);
+  const Indexed in(f);
+  const BodyArray bodies(in.bodies);
+  std::vector<Gap> gaps(in.pairs.size());
+  signed_gaps(bodies, {in.pairs, {}}, gaps);
+  std::vector<GapDerivatives> of_centres(gaps.size()), of_separations(gaps.size());
+  gap_derivatives(bodies, {in.pairs, {}}, gaps, of_centres);
+  gap_derivatives(bodies, {in.pairs, in.separations}, gaps, of_separations);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const GapDerivatives single = gap_derivatives(f.a[i], f.b[i], gaps[i]);
+    ASSERT_EQ(of_centres[i].status, DerivativeStatus::ok);
+    ASSERT_EQ(of_centres[i].gradient, single.gradient) << i;
+    ASSERT_EQ(of_centres[i].hessian, single.hessian) << i;
+    const GapDerivatives given = gap_derivatives(f.a[i], f.b[i], in.separations[i], gaps[i]);
+    ASSERT_EQ(of_separations[i].gradient, given.gradient) << i;
+    ASSERT_EQ(of_separations[i].hessian, given.hessian) << i;
+  }
+}
+
 TEST(OverlapBatch, IsTheSingleAnswerOnEveryFamilyAtEveryLevel) {
   for (const Family& f : families_of_pairs()) {
     SCOPED_TRACE(f.name);
