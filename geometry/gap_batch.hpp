@@ -22,6 +22,7 @@
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
+#include <tangency/geometry/large_pages.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
@@ -51,8 +52,8 @@ class BodyArray {
 
  private:
   std::span<const Ellipsoid> bodies_;
-  std::vector<methods::LaneBody> lanes_;
-  std::vector<methods::LaneShape> shapes_;
+  std::vector<methods::LaneBody, LargePages<methods::LaneBody>> lanes_;
+  std::vector<methods::LaneShape, LargePages<methods::LaneShape>> shapes_;
 };
 
 /// The pairs of one call.
