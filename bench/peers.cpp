@@ -5,12 +5,15 @@
 //
 // bench_peers            Google Benchmark's report, then the comparison with Simbody
 // bench_peers --table    the tables of docs/peers.md instead
+#include <hwy/targets.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +22,7 @@
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
 #include <tangency/bench/ratio.hpp>
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
@@ -36,10 +39,14 @@ struct Family {
   std::vector<RawEllipsoid> raw_a, raw_b;
   std::vector<Ellipsoid> a, b;
   std::vector<Truth> truth;
+  std::vector<Ellipsoid> bodies;  ///< A and B of every pair in turn
+  std::vector<tangency::IndexedPair> indices;
+  tangency::BodyArray array{{}};  ///< of bodies, whose memory moves with them
 };
 
 Family make_family(const tangency::families::ContactFamily& shape) {
-  Family f{shape.name, {}, {}, {}, {}, {}};
+  Family f;
+  f.name = shape.name;
   tangency::families::ManufacturedContacts contacts(shape, kSeed);
   for (std::size_t i = 0; i < kInCache; ++i) {
     const auto c = contacts.next();
@@ -48,7 +55,11 @@ Family make_family(const tangency::families::ContactFamily& shape) {
     f.a.push_back(tangency::testing::to_ellipsoid(c.a));
     f.b.push_back(tangency::testing::to_ellipsoid(c.b));
     f.truth.push_back({c.gap, c.smallest_semi_axis});
+    f.bodies.insert(f.bodies.end(), {f.a.back(), f.b.back()});
+    const auto first = static_cast<std::uint32_t>(2 * i);
+    f.indices.push_back({first, first + 1});
   }
+  f.array = tangency::BodyArray(f.bodies);
   return f;
 }
 
@@ -121,6 +132,41 @@ void add_ours(const Family& f, std::vector<Entry>& entries, Answers& own) {
   add_signed_gap(f.name + "/signed_gap", f, every_pair());
   add_sweep(f.name + "/overlaps", every_pair(),
             [&f](std::size_t i) { return overlaps(f.a[i], f.b[i]); });
+}
+
+/// signed_gaps at each instruction set of the machine that has lanes.
+void add_batch(const Family& f, std::vector<Entry>& entries) {
+  for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
+    if (level == HWY_SCALAR || level == HWY_EMU128) continue;
+    const auto call = [&f, level, gaps = std::make_shared<std::vector<tangency::Gap>>(kInCache)] {
+      hwy::SetSupportedTargetsForTest(level);
+      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+      signed_gaps(f.array, {f.indices, {}}, *gaps);
+      return gaps;
+    };
+    Answers answers;
+    for (const tangency::Gap& gap : *call())
+      answers.push_back(PeerContact{gap.gap < 0, gap.gap, {}, {}});
+    Entry entry;
+    entry.row.family = f.name;
+    const std::string name = level == HWY_AVX3 ? "AVX-512" : hwy::TargetName(level);
+    entry.row.peer = {"Tangency", TANGENCY_VERSION,          kBatchCall,
+                      name,       Definition::common_normal, GapOf::all};
+    entry.row.ours = true;
+    entry.row.score = score(answers, f.truth);
+    entry.row.ours_there = entry.row.score.largest;
+    entry.timed = f.name + "/" + kBatchCall + "/" + name;
+    entry.signed_gap = f.name + "/signed_gap";
+    require_right(entry);
+    entries.push_back(entry);
+    tangency::bench::least_of_repetitions(
+        benchmark::RegisterBenchmark(entry.timed.c_str(), [call](benchmark::State& state) {
+          for (auto _ : state) benchmark::DoNotOptimize(call());
+          state.counters["pairs"] = static_cast<double>(kInCache);
+        })->Unit(benchmark::kNanosecond));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 /// @param pairs  filled with what has to live while the benchmarks run
@@ -216,6 +262,7 @@ int main(int argc, char** argv) {
   for (const Family& f : families) {
     Answers own;
     add_ours(f, entries, own);
+    add_batch(f, entries);
     for (const auto& peer : peers) add_peer(f, *peer, own, entries, *next_pairs++);
   }
 

@@ -111,14 +111,21 @@ std::string tables(const std::vector<Row>& rows, double inverse) {
 
 std::string against_simbody(const std::vector<Row>& rows) {
   std::string text;
+  const auto line = [&](const Row& simbody, const std::string& ours, double time, double error) {
+    text += format(
+        "%s: %s %.0f ns, Simbody's ConvexImplicitPair %.0f ns: %.1f x as fast; "
+        "largest error %.1e against %.1e\n",
+        simbody.family.c_str(), ours.c_str(), time, simbody.time, simbody.time / time, error,
+        simbody.score.largest);
+  };
   for (const Row& row : rows) {
     const bool timed = row.time > 0 && row.signed_gap > 0;  // --benchmark_filter leaves some out
     if (row.peer.call != kSimbodyTracker || !timed) continue;
-    text += format(
-        "%s: signed_gap %.0f ns, Simbody's ConvexImplicitPair %.0f ns: %.1f x as fast; "
-        "largest error %.1e against %.1e\n",
-        row.family.c_str(), row.signed_gap, row.time, row.time / row.signed_gap, row.ours_there,
-        row.score.largest);
+    line(row, "signed_gap", row.signed_gap, row.ours_there);
+    for (const Row& ours : rows) {
+      if (ours.peer.call != kBatchCall || ours.family != row.family || !(ours.time > 0)) continue;
+      line(row, ours.peer.call + ", " + ours.peer.options, ours.time, ours.score.largest);
+    }
   }
   return text;
 }

@@ -26,8 +26,12 @@ struct Row {
 /// @param inverse  ns of Eigen's 3x3 inverse, the yardstick of all benchmarks here
 std::string tables(const std::vector<Row>& rows, double inverse);
 
-/// One line a family: how many times as fast as Simbody's ConvexImplicitPair signed_gap is, and the
-/// largest errors of both on the pairs where Simbody gives a depth.
+/// The call of ours that answers many pairs at once.
+inline constexpr const char* kBatchCall = "signed_gaps";
+
+/// Lines for each family: how many times as fast as Simbody's ConvexImplicitPair signed_gap is, and
+/// signed_gaps at each instruction set, and the largest errors: of signed_gap on the pairs where
+/// Simbody gives a depth, of signed_gaps on all.
 std::string against_simbody(const std::vector<Row>& rows);
 
 }  // namespace tangency::peers

@@ -128,10 +128,17 @@ TEST(Tables, PutEachRowUnderTheQuestionsItAnswers) {
 }
 
 TEST(AgainstSimbody, NamesTheRatioAndBothLargestErrorsOfItsOwnTrackerOnly) {
-  EXPECT_EQ(against_simbody({row("other", GapOf::all, Definition::common_normal),
+  Row batch = row(kBatchCall, GapOf::all, Definition::common_normal);
+  batch.time = 40;
+  Row of_another_family = batch;
+  of_another_family.family = "another";
+  EXPECT_EQ(against_simbody({row("other", GapOf::all, Definition::common_normal), batch,
+                             of_another_family,
                              row(kSimbodyTracker, GapOf::overlapping, Definition::common_normal)}),
             "family: signed_gap 400 ns, Simbody's ConvexImplicitPair 6000 ns: 15.0 x as fast; "
-            "largest error 2.0e-15 against 4.0e-15\n");
+            "largest error 2.0e-15 against 4.0e-15\n"
+            "family: signed_gaps, options 40 ns, Simbody's ConvexImplicitPair 6000 ns: 150.0 x as "
+            "fast; largest error 4.0e-15 against 4.0e-15\n");
 }
 
 }  // namespace
