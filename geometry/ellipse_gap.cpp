@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/ellipse_gap.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/methods/plane_gap.hpp>
+#include <tangency/geometry/methods/scaled_plane_pair.hpp>
+
+namespace tangency {
+namespace {
+
+using methods::PlanePair;
+using methods::PlaneProof;
+
+constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60, kThinnest = 0x1p-300;  // PlanePair
+constexpr double kWidestOk = 100.0;                                             // u L, as for Gap
+
+struct Solved {
+  PlaneProof proof;
+  GapTier tier;
+};
+
+/// The bodies as the caller gave them, for the exact relation.
+struct Asked {
+  const Ellipse& a;
+  const Ellipse& b;
+  const Vec2* separation;  ///< null: that of the centres
+
+  Relation relation() const {
+    if (separation == nullptr) return tangency::relation(a, b).relation;
+    return tangency::relation(a.moved_to(Vec2::Zero()), b.moved_to(*separation)).relation;
+  }
+};
+
+Solved solve(const PlanePair& pair) {
+  Solved solved;
+  Vec2 normal(std::numeric_limits<double>::quiet_NaN(), 0.0);
+  solved.tier = GapTier::fast;
+  if (pair.d != Vec2::Zero()) {
+    normal = methods::perram_wertheim_normal(pair);
+    Vec2 settled = normal;
+    if (methods::settle_plane_gap(pair, settled, solved.proof)) return solved;
+  }
+  solved.proof = methods::search_plane_gap(pair, normal);
+  const bool at_once = solved.proof.low > -(pair.a.least_radius() + pair.b.least_radius());
+  solved.tier = at_once ? GapTier::factored : GapTier::search;
+  return solved;
+}
+
+Solved follow(const PlanePair& pair, const Vec2& start, const Asked& asked) {
+  Solved solved;
+  solved.tier = GapTier::fast;
+  Vec2 normal = start;
+  if (methods::settle_plane_gap(pair, normal, solved.proof)) return solved;
+  solved.proof = methods::climb_plane_gap(pair, start);
+  solved.tier = GapTier::factored;
+  // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
+  if (solved.proof.global || solved.proof.low >= 0.0) return solved;
+  const Relation found = asked.relation();
+  const bool apart = found == Relation::separate || found == Relation::external_touch;
+  return apart ? solve(pair) : solved;
+}
+
+/// Where the proof leaves the sign open, the exact relation decides. No gap is above |d|.
+void settle_sign(Solved& solved, const Asked& asked, double distance) {
+  PlaneProof& proof = solved.proof;
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
+  if (proof.high >= 0.0) solved.tier = GapTier::exact;
+  const Relation found = asked.relation();
+  if (found == Relation::external_touch) {
+    proof.gap = proof.low = proof.high = 0.0;
+    proof.global = true;
+  } else if (found == Relation::separate) {
+    // What is known of a branch below 0 says nothing about bodies that are apart.
+    if (!proof.global) proof.high = distance;
+    proof.high = std::max(proof.high, kLeast);
+    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * std::min(proof.high, -proof.low), kLeast);
+    proof.low = 0.0;
+  } else {
+    proof.high = std::min(proof.high, 0.0);
+    proof.low = std::min(proof.low, -kLeast);
+    if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
+  }
+}
+
+/// The sign is that of the number before it was scaled, whatever underflows.
+double scaled(double value, int exponent) {
+  const double result = std::scalbn(value, exponent);
+  if (result != 0.0 || value == 0.0) return result;
+  return std::copysign(std::numeric_limits<double>::denorm_min(), value);
+}
+
+/// @param in_own_unit  is the pair the one that was asked about, or one in units of 2^exponent?
+PlaneGap finish(Solved& solved, const Asked& asked, const PlanePair& pair, bool in_own_unit,
+                int exponent) {
+  const double distance = 1.5 * pair.d.cwiseAbs().maxCoeff();  // |d| and above
+  solved.proof.high = std::min(solved.proof.high, distance);
+  settle_sign(solved, asked, distance);
+  const PlaneProof& proof = solved.proof;
+  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
+  const bool narrow = error <= kWidestOk * kUnitRoundoff * pair.size;
+  const GapStatus status = proof.global && narrow ? GapStatus::ok : GapStatus::local;
+  if (in_own_unit)
+    return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
+  // In the caller's unit both numbers may be subnormal, and so rounded.
+  constexpr double kSubnormal = 4.0 * std::numeric_limits<double>::denorm_min();
+  return {scaled(proof.gap, exponent),
+          proof.normal,
+          asked.a.support_point(proof.normal),
+          -asked.b.support_point(proof.normal),
+          error == 0.0 ? 0.0 : std::scalbn(error, exponent) + kSubnormal,
+          status,
+          solved.tier};
+}
+
+double size_of(const Ellipse& a, const Ellipse& b, const Vec2& d) {
+  return std::sqrt(d.squaredNorm()) + a.largest_semi_axis() + b.largest_semi_axis();
+}
+
+/// Is the pair in its own unit what PlanePair asks for?
+bool in_range(const Ellipse& a, const Ellipse& b, const Vec2& d) {
+  const double reach = d.cwiseAbs().maxCoeff();
+  const double largest = std::max({reach, a.largest_semi_axis(), b.largest_semi_axis()});
+  if (!(largest <= kLargest && largest >= kSmallest)) return false;
+  return std::min(a.smallest_semi_axis(), b.smallest_semi_axis()) >= kThinnest;
+}
+
+template <class Solve>
+PlaneGap answer(const Asked& asked, const Solve& solve_pair) {
+  const Ellipse &a = asked.a, &b = asked.b;
+  const Vec2 d = asked.separation != nullptr ? *asked.separation : Vec2(b.centre() - a.centre());
+  if (in_range(a, b, d)) {
+    const Vec2 low = asked.separation != nullptr
+                         ? Vec2(Vec2::Zero())
+                         : methods::separation_error(a.centre(), b.centre(), d);
+    const PlanePair pair{a, b, d, low, size_of(a, b, d)};
+    Solved solved = solve_pair(pair);
+    return finish(solved, asked, pair, true, 0);
+  }
+  const methods::ScaledPlanePair s = asked.separation != nullptr
+                                         ? methods::scaled_plane_pair(a, b, d)
+                                         : methods::scaled_plane_pair(a, b);
+  const PlanePair pair{s.a, s.b, s.d, s.d_low, size_of(s.a, s.b, s.d)};
+  Solved solved = solve_pair(pair);
+  return finish(solved, asked, pair, false, s.exponent);
+}
+
+}  // namespace
+
+PlaneGap signed_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
+  assert(separation.allFinite());
+  return answer({a, b, &separation}, solve);
+}
+
+PlaneGap signed_gap(const Ellipse& a, const Ellipse& b) noexcept {
+  return answer({a, b, nullptr}, solve);
+}
+
+PlaneGap follow_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation,
+                    const Vec2& previous_normal) noexcept {
+  assert(separation.allFinite() && previous_normal != Vec2::Zero());
+  const Vec2 start = previous_normal.normalized();
+  const Asked asked{a, b, &separation};
+  return answer(asked, [&](const PlanePair& pair) { return follow(pair, start, asked); });
+}
+
+}  // namespace tangency

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/ellipse_relation.hpp>
+
+#include <tangency/geometry/methods/ellipse_meeting.hpp>
+
+namespace tangency {
+namespace {
+
+std::optional<int> crossings(exact::Meeting meeting) {
+  using exact::Meeting;
+  switch (meeting) {
+    case Meeting::equal:
+      return std::nullopt;
+    case Meeting::nowhere:
+      return 0;
+    case Meeting::one_double:
+    case Meeting::quadruple:
+      return 1;
+    case Meeting::two_simple:
+    case Meeting::two_double:
+    case Meeting::triple_and_simple:
+      return 2;
+    case Meeting::double_and_two_simple:
+      return 3;
+    case Meeting::four_simple:
+      break;
+  }
+  return 4;
+}
+
+}  // namespace
+
+EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
+  const methods::MeetingAnswer found = methods::ellipse_meeting(a, b);
+  return {found.answer.relation, found.answer.inner, crossings(found.answer.meeting), found.tier};
+}
+
+bool overlaps(const Ellipse& a, const Ellipse& b) noexcept {
+  const Relation found = methods::ellipse_meeting(a, b).answer.relation;
+  return found != Relation::separate && found != Relation::external_touch;
+}
+
+}  // namespace tangency
