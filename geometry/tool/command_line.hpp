@@ -22,5 +22,6 @@ void add_row_stream_options(CLI::App& app, RowStreamOptions& options);
 Subcommand add_contact(CLI::App& program);
 Subcommand add_overlap(CLI::App& program);
 Subcommand add_classify(CLI::App& program);
+Subcommand add_ellipse(CLI::App& program);
 
 }  // namespace tangency::tool

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kProgramDescription =
     "tangency: how two ellipsoids touch, exactly.\n"
-    "Reads a table of pairs or quadrics (CSV), writes a table of answers.";
+    "Reads a table of pairs, ellipses or quadrics (CSV), writes a table of answers.";
 
 constexpr const char* kProgramHelp = R"(
 Exit status:
@@ -53,7 +53,7 @@ int run(int argc, char** argv) {
   program.footer(kProgramHelp);
   program.require_subcommand(1);
   const std::vector<Subcommand> subcommands{add_contact(program), add_overlap(program),
-                                            add_classify(program)};
+                                            add_classify(program), add_ellipse(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include <tangency/geometry/ellipse_crossings.hpp>
+#include <tangency/geometry/ellipse_gap.hpp>
+#include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/tool/command_line.hpp>
+#include <tangency/geometry/tool/ellipse_columns.hpp>
+
+namespace tangency::tool {
+namespace {
+
+constexpr std::array<std::string_view, 11> kOutputColumns{
+    "row", "relation",    "crossings", "area",     "gap",   "nx",
+    "ny",  "chord_depth", "chord_nx",  "chord_ny", "status"};
+
+constexpr const char* kHelp = R"(
+Input columns, in any order; others are ignored:
+  a.x a.y          centre of ellipse a
+  a.r1 a.r2        its semi-axes, > 0
+  a.ux a.uy        the direction of its first axis, not both 0, of any length, meant
+                   exactly; or instead of these two
+  a.angle          in radians: short for its cosine and sine, each rounded correctly
+  and the same with b. for ellipse b. Lengths are in any one unit. Numbers are decimal or
+  hex floats (0x1.8p+3). Lines that begin with # and blank lines are skipped.
+
+Output columns, in this order:
+  row              number of the data row, from 0
+  relation         separate, external_touch, overlap, internal_touch, a_in_b, b_in_a or
+                   equal, as point sets: exact for the numbers as they are read
+  crossings        number of distinct points in which the boundaries meet, 0 to 4: exact;
+                   empty where the ellipses are equal
+  area             of the common region
+  gap              > 0: the distance; < 0: minus the penetration depth, the length of the
+                   shortest translation that separates the ellipses
+  nx ny            unit normal, from a to b
+  chord_depth      thickness of the common region along the line through the midpoint of
+                   the two crossings, perpendicular to the chord between them
+  chord_nx chord_ny
+                   unit normal of the chord, to the side where a's boundary is inside b;
+                   these three are empty unless the boundaries cross in exactly two points
+  status           see below
+  Numbers read back to the same double.
+
+Status of a row:
+  ok               the global answer
+  local            a stationary answer; that no shorter penetration exists elsewhere is
+                   not proven
+  not_applicable   some number is beyond the range of a double; numbers are empty but for
+                   crossings
+  invalid          the row was refused (only with --keep-going); numbers are empty
+
+Exit status: 0 every row is ok or local; 1 some row is not; 2 refused command line or
+input, or a failed read or write. A refusal is one line on standard error:
+  ellipses.csv:17: a.r2 = -1: a semi-axis must be finite and > 0
+Rows before a refused row may have reached standard output, none for it or after it;
+a file named by --out is left as it was.
+
+Example, a unit circle and an ellipse of half its width:
+  $ cat ellipses.csv
+  a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.ux,b.uy
+  0,0,1,1,0,1.25,0,0.5,2,1,0
+  $ tangency ellipse ellipses.csv
+  row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status
+)";
+
+void write_crossings(const EllipseRelation& exact, csv::RowText& out) {
+  if (exact.crossings) {
+    out.integer(static_cast<std::uint64_t>(*exact.crossings));
+  } else {
+    out.empty();
+  }
+}
+
+RowOutcome write(const Ellipse& a, const Ellipse& b, csv::RowText& out) {
+  const EllipseRelation exact = relation(a, b);
+  const PlaneGap found = signed_gap(a, b);
+  const double area = common_area(a, b);
+  const ChordContact chord = chord_contact(a, b);
+  out.text(to_string(exact.relation));
+  write_crossings(exact, out);
+  const bool has_chord = chord.status == ChordStatus::ok;
+  if (!std::isfinite(area) || !std::isfinite(found.gap) || !found.normal.allFinite() ||
+      (has_chord && !std::isfinite(chord.depth))) {
+    out.empty(7);
+    out.text("not_applicable");
+    return RowOutcome::unanswered;
+  }
+  out.number(area);
+  out.number(found.gap);
+  for (const double component : found.normal) out.number(component);
+  if (has_chord) {
+    out.number(chord.depth);
+    for (const double component : chord.normal) out.number(component);
+  } else {
+    out.empty(3);
+  }
+  out.text(found.status == GapStatus::ok ? "ok" : "local");
+  return RowOutcome::answered;
+}
+
+RowFunction bind(const csv::Header& header) {
+  return [a = EllipseColumns(header, "a"), b = EllipseColumns(header, "b")](
+             const csv::RowCursor& row, csv::RowText& out) {
+    return write(a.read(row), b.read(row), out);
+  };
+}
+
+}  // namespace
+
+Subcommand add_ellipse(CLI::App& program) {
+  const auto options = std::make_shared<RowStreamOptions>();
+  CLI::App& app = *program.add_subcommand(
+      "ellipse", "Relation, crossings, common area and contact of pairs of ellipses in the plane");
+  add_row_stream_options(app, *options);
+  app.footer(kHelp);
+  return {&app, [options] {
+            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+                               .verdict_column = "status",
+                               .bind = bind};
+            return run_row_stream(task, *options);
+          }};
+}
+
+}  // namespace tangency::tool
