@@ -305,8 +305,8 @@ bool exchange_changes(const Ellipse& a, const Ellipse& b) {
 
 /// The outer normal of a body's boundary at a point, from the centre.
 Vec2 normal_at(const Ellipse& e, const Vec2& arm) {
-  const Vec2 local = turned_back(e.axis(), arm);
-  return turned(e.axis(), local.cwiseQuotient(e.semi_axes()).cwiseQuotient(e.semi_axes()))
+  const Vec2 local = tangency::turned_back(e.axis(), arm);
+  return tangency::turned(e.axis(), local.cwiseQuotient(e.semi_axes()).cwiseQuotient(e.semi_axes()))
       .normalized();
 }
 
