@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tangency ellipse`, run as its users run it.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <tangency/tests/tool/process.hpp>
+
+namespace tangency::test {
+namespace {
+
+const std::string kHeader = "a.x,a.y,a.r1,a.r2,a.ux,a.uy,b.x,b.y,b.r1,b.r2,b.ux,b.uy\n";
+const std::string kAnswers =
+    "row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status\n";
+
+TEST(EllipseCommand, AnswersAsItsHelpShows) {
+  const Finished help = run_tool({"ellipse", "--help"});
+  EXPECT_EQ(help.status, 0);
+  std::istringstream lines(help.out);
+  std::string line, input, answer;
+  bool reading = false, answering = false;
+  while (std::getline(lines, line)) {
+    const std::size_t start = line.find_first_not_of(' ');
+    const std::string text = start == std::string::npos ? "" : line.substr(start);
+    if (text.rfind("$ cat", 0) == 0) {
+      reading = true;
+    } else if (text.rfind("$ tangency", 0) == 0) {
+      answering = true;
+    } else if (answering) {
+      answer += text + '\n';
+    } else if (reading) {
+      input += text + '\n';
+    }
+  }
+  while (answer.ends_with("\n\n")) answer.pop_back();
+  ASSERT_NE(input, "");
+  EXPECT_EQ(run_tool({"ellipse"}, input).out, answer);
+}
+
+TEST(EllipseCommand, TellsEveryRelationAndCount) {
+  const Finished run = run_tool({"ellipse"}, kHeader +
+                                                 "0,0,2,1,1,0,4,0,1,1,1,0\n"
+                                                 "0,0,2,1,1,0,3,0,1,1,1,0\n"
+                                                 "0,0,2,1,1,0,0,0,2,1,0,1\n"
+                                                 "0,0,2,1,1,0,1,0,1,2,1,0\n"
+                                                 "0,0,2,1,1,0,0,0,1,1,1,0\n"
+                                                 "0,0,1,1,1,0,0,0,2,3,1,0\n"
+                                                 "0,0,2,2,1,0,0,0,1,1,1,0\n"
+                                                 "0,0,2,1,1,0,0,0,1,2,0,7\n");
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.status, 0);
+  std::istringstream lines(run.out);
+  std::vector<std::string> found;
+  std::string line;
+  while (std::getline(lines, line)) {
+    found.push_back(line.substr(0, line.find(',', line.find(',', line.find(',') + 1) + 1)));
+  }
+  EXPECT_EQ(found,
+            (std::vector<std::string>{
+                "row,relation,crossings", "0,separate,0", "1,external_touch,1", "2,overlap,4",
+                "3,overlap,3", "4,internal_touch,2", "5,a_in_b,0", "6,b_in_a,0", "7,equal,"}));
+}
+
+TEST(EllipseCommand, ReadsAnAngleAsItsRoundedCosineAndSine) {
+  const std::string common = "0.1,0.2,3,1,0x1.14a280fb5068cp-1,0x1.aed548f090ceep-1\n";
+  const Finished by_direction =
+      run_tool({"ellipse"},
+               "a.x,a.y,a.r1,a.r2,a.ux,a.uy,b.x,b.y,b.r1,b.r2,b.ux,b.uy\n0,0,2,1,1,0," + common);
+  const Finished by_angle =
+      run_tool({"ellipse"},
+               "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n0,0,2,1,0,0.1,0.2,3,1,1\n");
+  EXPECT_EQ(by_angle.err, "");
+  EXPECT_EQ(by_angle.out, by_direction.out);
+}
+
+TEST(EllipseCommand, NamesTheCellThatItRefuses) {
+  const auto refusal = [](const std::string& row) {
+    const Finished run = run_tool({"ellipse"}, kHeader + row);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, kAnswers);
+    return run.err;
+  };
+  EXPECT_EQ(refusal("0,0,2,-1,1,0,4,0,1,1,1,0\n"),
+            "<stdin>:2: a.r2 = -1: a semi-axis must be finite and > 0\n");
+  EXPECT_EQ(refusal("0,0,2,1,1,0,4,0,1,1,0,0\n"),
+            "<stdin>:2: b.ux = 0: a direction must be finite and not both 0\n");
+  EXPECT_EQ(refusal("0,0,2,1,1,nan,4,0,1,1,0,1\n").rfind("<stdin>:2: a.uy = nan: ", 0), 0U);
+  const Finished angle = run_tool(
+      {"ellipse"}, "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n0,0,2,1,inf,0,0,1,1,0\n");
+  EXPECT_EQ(angle.status, 2);
+  EXPECT_EQ(angle.err.rfind("<stdin>:2: a.angle = inf: ", 0), 0U) << angle.err;
+}
+
+TEST(EllipseCommand, WantsADirectionOnceAndWhole) {
+  const auto refusal = [](const std::string& columns) {
+    const Finished run =
+        run_tool({"ellipse"}, columns + ",b.x,b.y,b.r1,b.r2,b.angle\n0,0,1,1,1,1,1,0,0,1,1,0\n");
+    EXPECT_EQ(run.status, 2);
+    return run.err;
+  };
+  const std::string rule =
+      ": the direction of the first axis is given by both ux and uy, or by angle, not by both\n";
+  EXPECT_EQ(refusal("a.x,a.y,a.r1,a.r2"), "<stdin>:1: body a without a.ux, a.uy" + rule);
+  EXPECT_EQ(refusal("a.x,a.y,a.r1,a.r2,a.ux"), "<stdin>:1: body a without a.uy" + rule);
+  EXPECT_EQ(refusal("a.x,a.y,a.r1,a.r2,a.uy,a.angle"),
+            "<stdin>:1: body a with a.angle and ux or uy" + rule);
+  EXPECT_EQ(refusal("a.x,a.y,a.r2,a.angle"),
+            "<stdin>:1: body a without a.r1: an ellipse has the columns x, y, r1 and r2\n");
+}
+
+TEST(EllipseCommand, KeepsGoingAndSaysWhatIsBeyondRange) {
+  const std::string rows = kHeader +
+                           "0,0,2,-1,1,0,4,0,1,1,1,0\n"
+                           "0,0,1e200,1e200,1,0,0,0,1e201,1e201,1,0\n"
+                           "0,0,2,1,1,0,4,0,1,1,1,0\n";
+  const Finished run = run_tool({"ellipse", "--keep-going"}, rows);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.out, kAnswers +
+                         "0,invalid,,,,,,,,,invalid\n"
+                         "1,a_in_b,0,,,,,,,,not_applicable\n"
+                         "2,separate,0,0,1,1,0,,,,ok\n");
+}
+
+TEST(EllipseCommand, WritesTheSameForEveryNumberOfThreads) {
+  std::string rows = kHeader;
+  for (int i = 0; i < 2000; ++i) {
+    rows += "0,0,2,1,1,0," + std::to_string(0.002 * i) + ",0.5,1,1.5,3," + std::to_string(i) + "\n";
+  }
+  const Finished one = run_tool({"ellipse", "--threads", "1"}, rows);
+  EXPECT_EQ(one.status, 0);
+  EXPECT_EQ(run_tool({"ellipse", "--threads", "3"}, rows).out, one.out);
+}
+
+}  // namespace
+}  // namespace tangency::test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The oracles for ellipses against pairs worked out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <tangency/verify/oracles/ellipse.hpp>
+#include <vector>
+
+namespace tangency::verify {
+namespace {
+
+using enum Relation;
+
+const RawEllipse kWide{{0, 0}, {2, 1}, {1, 0}};
+
+void expect(const RawEllipse& b, const ExactRelation& relation, const std::vector<int>& points) {
+  const EllipseTruth truth = exact_ellipse_relation(kWide, b);
+  EXPECT_TRUE(truth.relation == relation) << name(truth.relation.relation);
+  EXPECT_EQ(truth.multiplicities, points);
+}
+
+TEST(EllipseOracle, KnowsRelationAndMultiplicities) {
+  expect({{4, 0}, {1, 1}}, {separate}, {});
+  expect({{3, 0}, {1, 1}}, {external_touch}, {2});
+  expect({{2, 0}, {1, 1}}, {overlap}, {1, 1});
+  expect({{1, 0}, {1, 2}}, {overlap}, {1, 1, 2});
+  expect({{0, 0}, {2, 1}, {0, 1}}, {overlap}, {1, 1, 1, 1});
+  expect({{0, 0}, {1, 1}, {3, 4}}, {internal_touch, Inner::b}, {2, 2});
+  expect({{1.5, 0}, {0.5, 0.5}}, {internal_touch, Inner::b}, {4});
+  expect({{0, 0}, {4, 2}}, {a_in_b}, {});
+  expect({{0, 0}, {0.5, 0.5}}, {b_in_a}, {});
+  EXPECT_EQ(exact_ellipse_relation({{0, 0}, {45, 80}}, {{-21, 28}, {60, 60}}).multiplicities,
+            (std::vector<int>{1, 3}));
+}
+
+TEST(EllipseOracle, GivesEqualEllipsesNoCount) {
+  const EllipseTruth truth = exact_ellipse_relation(kWide, {{0, 0}, {1, 2}, {0, -3}});
+  EXPECT_TRUE(truth.relation == ExactRelation{equal});
+  EXPECT_EQ(truth.crossings, -1);
+}
+
+TEST(EllipseOracle, RefusesWhatIsNoEllipse) {
+  EXPECT_THROW(exact_ellipse_relation(kWide, {{0, 0}, {0, 1}}), std::invalid_argument);
+  EXPECT_THROW(exact_ellipse_relation(kWide, {{0, 0}, {1, 1}, {0, 0}}), std::invalid_argument);
+}
+
+TEST(EllipseOracle, FindsTheCrossingsOfTwoCircles) {
+  const RawEllipse unit{{5, 7}, {1, 1}}, other{{6, 7}, {1, 1}};
+  const auto points = ellipse_crossings(unit, other);
+  ASSERT_EQ(points.size(), 2U);
+  for (const Real2& p : points) {
+    EXPECT_LT(abs(p[0] - Real(1) / 2), 1e-100);
+    EXPECT_LT(abs(abs(p[1]) - sqrt(Real(3)) / 2), 1e-100);
+  }
+  EXPECT_EQ(ellipse_crossings_by_gsl(unit, other, 1e-9).size(), 2U);
+}
+
+TEST(EllipseOracle, IntegratesTheLensOfTwoCirclesAndCrossedEllipses) {
+  const Real pi = acos(Real(-1));
+  const Real lens = common_area({{0, 0}, {1, 1}}, {{1, 0}, {1, 1}});
+  EXPECT_LT(abs(lens - (2 * pi / 3 - sqrt(Real(3)) / 2)), 1e-18);
+  const Real crossed = common_area(kWide, {{0, 0}, {2, 1}, {0, 1}});
+  EXPECT_LT(abs(crossed - 8 * atan(Real(1) / 2)), 1e-18);
+}
+
+TEST(EllipseOracle, FindsTheGapApartAndDeep) {
+  EXPECT_LT(abs(plane_gap({{0, 0}, {1, 1}}, {{3, 4}, {2, 2}}) - 2), 1e-30);
+  EXPECT_LT(abs(plane_gap(kWide, {{0, 0}, {1, 2}}) + 3), 1e-30);
+  EXPECT_LT(abs(plane_gap(kWide, {{0.5, 0}, {3, 0.25}}) + 1.25), 1e-30);
+}
+
+}  // namespace
+}  // namespace tangency::verify
