@@ -21,8 +21,9 @@ constexpr double kTie = 0x1p-80;          // of L: chosen; answers no further ap
 constexpr double kFine = 0x1p-60;    // of L: chosen; an arc with no more above the best is done
 constexpr double kEnough = 0x1p-52;  // of L: what a search that is slow settles for
 constexpr int kBudget = 4000,
-              kFineBudget = 400;  // arcs; chosen: pairs of aspect 1e8 take up to 300
-constexpr int kDeepest = 256;     // halvings
+              kFineBudget = 400;        // arcs; chosen: pairs of aspect 1e8 take up to 300
+constexpr double kShortest = 0x1p-200;  // of L; far below the noise
+constexpr int kDeepest = 256;           // halvings
 
 struct Body {
   DoubleDouble2 axis;
@@ -313,9 +314,11 @@ PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first) noexcept {
     if ((top.f - best.f).high > kTie * circle.size()) best = top;
   }
   Search search(circle, best);
-  // Exact where d is far longer or shorter than the bodies, too: no square of it underflows.
-  const Vec2 along = exact::rounded(circle.d());
-  search.run(concentric ? u_a : exact::quarter(-exact::double_double_direction(along)));
+  // A d so short that its square underflows makes no difference: any half circle will do.
+  const double reach = std::max(std::abs(circle.d().x.high), std::abs(circle.d().y.high));
+  const DoubleDouble2 ahead =
+      reach < kShortest * circle.size() ? u_a : exact::normalised(circle.d());
+  search.run(-exact::quarter(ahead));
   PlaneProof proof = circle.proof(search.best());
   if (proof.global || !search.finished()) return proof;
   proof.global = true;

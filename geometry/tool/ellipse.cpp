@@ -65,6 +65,7 @@ Example, a unit circle and an ellipse of half its width:
   0,0,1,1,0,1.25,0,0.5,2,1,0
   $ tangency ellipse ellipses.csv
   row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status
+  0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok
 )";
 
 void write_crossings(const EllipseRelation& exact, csv::RowText& out) {

@@ -119,7 +119,7 @@ TEST(EllipseCommand, KeepsGoingAndSaysWhatIsBeyondRange) {
   const Finished run = run_tool({"ellipse", "--keep-going"}, rows);
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.out, kAnswers +
-                         "0,invalid,,,,,,,,,invalid\n"
+                         "0,,,,,,,,,,invalid\n"
                          "1,a_in_b,0,,,,,,,,not_applicable\n"
                          "2,separate,0,0,1,1,0,,,,ok\n");
 }
