@@ -63,6 +63,50 @@ TEST(PlaneGap, IsProvenForThinDeepPairs) {
   }
 }
 
+// Of 33,000 random deep pairs those whose best normal no ascent from an axis or from the
+// Perram-Wertheim form leads to: only the search over the whole circle finds it.
+TEST(PlaneGap, IsFoundWhereNoAscentLeadsToIt) {
+  struct Row {
+    Vec2 axes_a, direction_a, axes_b, direction_b, d;
+  };
+  const Row rows[] = {{{0.407708, 1.01426},
+                       {0.900633, 0.43458},
+                       {2.32532, 0.886519},
+                       {-0.919616, -0.392819},
+                       {-0.74488, -0.311222}},
+                      {{0.316202, 1.37561},
+                       {0.963982, -0.265968},
+                       {0.265677, 0.777601},
+                       {-0.434834, -0.900511},
+                       {-0.112811, -0.414168}},
+                      {{0.580238, 1.62266},
+                       {-0.4759, -0.879499},
+                       {0.663279, 2.28052},
+                       {-0.944596, 0.328236},
+                       {-0.0436879, -0.141864}},
+                      {{2.59956, 0.846282},
+                       {-0.36787, -0.929877},
+                       {0.69022, 2.63636},
+                       {-0.0165612, -0.999863},
+                       {-0.076971, -0.0016692}},
+                      {{1.51039, 0.609947},
+                       {-0.985246, -0.171146},
+                       {0.59605, 1.3235},
+                       {0.999904, 0.0138724},
+                       {0.0521637, 0.0114763}}};
+  for (const Row& row : rows) {
+    const EllipsePair p{Ellipse(kOrigin, row.axes_a, row.direction_a),
+                        Ellipse(row.d, row.axes_b, row.direction_b)};
+    const PlaneGap gap = signed_gap(p.a, p.b);
+    EXPECT_EQ(gap.tier, GapTier::search);
+    EXPECT_EQ(gap.status, GapStatus::ok);
+    for (int i = 0; i < 256; ++i) {
+      const double t = i * (M_PI / 128);
+      EXPECT_LE(reach(p, Vec2(std::cos(t), std::sin(t))), gap.gap + 1e-14);
+    }
+  }
+}
+
 TEST(PlaneGap, HoldsAtEveryScaleAndFarFromTheOrigin) {
   for (const double s : {0x1p-500, 0x1p-60, 0x1p60, 0x1p500}) {
     const PlaneGap gap = signed_gap(Ellipse(kOrigin, {2 * s, s}), Ellipse({3.5 * s, 0}, {s, s}));
