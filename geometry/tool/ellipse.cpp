@@ -121,7 +121,7 @@ Subcommand add_ellipse(CLI::App& program) {
   return {&app, [options] {
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",
-                               .bind = bind};
+                               .bind = row_by_row(bind)};
             return run_row_stream(task, *options);
           }};
 }
