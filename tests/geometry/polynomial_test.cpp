@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/geometry/polynomial.hpp>
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/geometry/exact/real_roots.hpp>
+#include <tangency/tests/support/generators.hpp>
+#include <vector>
+
+namespace tangency {
+namespace {
+
+using Coefficients = std::array<double, 5>;
+
+/// a[0] + ... + a[4] x^4 exactly.
+mpq_class value(const Coefficients& a, const mpq_class& x) {
+  mpq_class sum = 0;
+  for (std::size_t k = 5; k-- > 0;) sum = sum * x + mpq_class(a[k]);
+  return sum;
+}
+
+/// 32 u sum |a_k x^k|
+mpq_class allowance(const Coefficients& a, const mpq_class& x) {
+  mpq_class sum = 0;
+  for (std::size_t k = 5; k-- > 0;) sum = sum * abs(x) + mpq_class(std::abs(a[k]));
+  return sum * mpq_class(32 * 0x1p-53);
+}
+
+/// The product of x - root[i], rounded.
+Coefficients product(const std::vector<double>& root, double leading) {
+  std::vector<double> p{leading};
+  for (const double r : root) {
+    std::vector<double> q(p.size() + 1, 0.0);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      q[k + 1] += p[k];
+      q[k] -= r * p[k];
+    }
+    p = q;
+  }
+  Coefficients a{};
+  for (std::size_t k = 0; k < p.size(); ++k) a[k] = p[k];
+  return a;
+}
+
+/// Any coefficients, coefficients of any size with zeros among them, and products of few factors
+/// whose roots are close together.
+rc::Gen<Coefficients> coefficients() {
+  return rc::gen::exec([] {
+    Coefficients a{};
+    const int kind = *rc::gen::inRange(0, 4);
+    const auto number = testing::uniform(-2, 2);
+    if (kind < 2) {
+      for (double& c : a) {
+        c = *number;
+        if (kind == 1) c *= *testing::log_uniform(1e-12, 1e12);
+        if (*rc::gen::inRange(0, 6) == 0) c = 0;
+      }
+      return a;
+    }
+    std::vector<double> root{*number};
+    while (root.size() < 4 && *rc::gen::inRange(0, 6) != 0) {
+      const bool close = *rc::gen::arbitrary<bool>();
+      root.push_back(close ? root.back() + *testing::log_uniform(1e-18, 1) : *number);
+    }
+    if (kind == 3) {
+      for (double& r : root) r = std::round(r * 4) / 4;
+    }
+    return product(root, *number);
+  });
+}
+
+bool is_zero(const Coefficients& a) {
+  return std::ranges::all_of(a, [](double c) { return c == 0; });
+}
+
+/// The exact roots where p changes sign, as doubles next to them.
+std::vector<double> exact_crossings(const Coefficients& a) {
+  std::vector<mpz_class> integers;
+  // Of coefficients of at least 2^-160 every one is an integer multiple of 2^-220.
+  for (const double c : a) integers.emplace_back(mpq_class(c) * (mpz_class(1) << 220));
+  const exact::IntegerPolynomial p(integers);
+  const exact::SturmSequence sturm(p);
+  auto roots = exact::isolate_real_roots(sturm);
+  std::vector<double> crossings;
+  int sign = p.sign_at_minus_infinity();
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const int after = i + 1 < roots.size()
+                          ? p.sign_at(exact::sample_between(roots[i], roots[i + 1]))
+                          : p.sign_at_plus_infinity();
+    if (after != sign) crossings.push_back(roots[i].nearest());
+    sign = after;
+  }
+  return crossings;
+}
+
+bool is_near(const QuarticRoot& root, double exact) {
+  return std::abs(root.x - exact) <= root.error + 0x1p-52 * std::abs(exact);
+}
+
+RC_GTEST_PROP(PolynomialProperty, QuarticChangesItsSignWithinTheErrorOfARootThatCrosses, ()) {
+  const Coefficients a = *coefficients();
+  const QuarticRoots roots = quartic_roots(a);
+  RC_ASSERT(roots.vanishes == is_zero(a));
+  if (roots.vanishes) return;
+  const std::vector<double> exact = exact_crossings(a);
+  for (int i = 0; i < roots.count; ++i) {
+    const QuarticRoot& root = roots.root[static_cast<std::size_t>(i)];
+    RC_ASSERT(root.error >= 0);
+    if (!root.crosses) continue;
+    RC_ASSERT(std::ranges::any_of(exact, [&](double r) { return is_near(root, r); }));
+  }
+}
+
+RC_GTEST_PROP(PolynomialProperty, QuarticRootIsMissedOnlyWhereRoundingCannotTellItFromTheNext, ()) {
+  const Coefficients a = *coefficients();
+  if (is_zero(a)) RC_SUCCEED("zero");
+  const QuarticRoots found = quartic_roots(a);
+  const std::vector<double> exact = exact_crossings(a);
+  std::vector<double> missed;
+  for (const double r : exact) {
+    const auto end = found.root.begin() + found.count;
+    const auto near = [&](const QuarticRoot& root) { return is_near(root, r); };
+    if (std::find_if(found.root.begin(), end, near) == end) missed.push_back(r);
+  }
+  RC_CLASSIFY(!missed.empty());
+  RC_ASSERT(missed.size() % 2 == 0);
+  for (std::size_t i = 0; i + 1 < missed.size(); i += 2) {
+    for (const double part : {0.25, 0.5, 0.75}) {
+      const mpq_class x(missed[i] + part * (missed[i + 1] - missed[i]));
+      RC_ASSERT(abs(value(a, x)) <= allowance(a, x));
+    }
+  }
+}
+
+RC_GTEST_PROP(PolynomialProperty, QuarticRootsComeInOrderAndFewerThanFiveCross, ()) {
+  const Coefficients a = *coefficients();
+  const QuarticRoots roots = quartic_roots(a);
+  int crossing = 0;
+  for (int i = 0; i < roots.count; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    RC_ASSERT(i == 0 || roots.root[k - 1].x <= roots.root[k].x);
+    crossing += roots.root[k].crosses ? 1 : 0;
+  }
+  RC_ASSERT(crossing <= 4);
+}
+
+RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowAPowerOfTwoAndAReflection, ()) {
+  const Coefficients a = *coefficients();
+  const double s = std::exp2(*rc::gen::inRange(-300, 300));
+  Coefficients scaled = a, reflected = a;
+  for (double& c : scaled) c *= -s;
+  for (const std::size_t k : {1u, 3u}) reflected[k] = -reflected[k];
+  const QuarticRoots before = quartic_roots(a), after = quartic_roots(scaled),
+                     mirrored = quartic_roots(reflected);
+  RC_ASSERT(before.count == after.count);
+  RC_ASSERT(before.count == mirrored.count);
+  for (int i = 0; i < before.count; ++i) {
+    const QuarticRoot& root = before.root[static_cast<std::size_t>(i)];
+    RC_ASSERT(root.x == after.root[static_cast<std::size_t>(i)].x);
+    const QuarticRoot& other = mirrored.root[static_cast<std::size_t>(before.count - 1 - i)];
+    RC_ASSERT(std::abs(root.x + other.x) <= root.error + other.error);
+  }
+}
+
+TEST(Polynomial, SimpleRootsOfAQuarticAreGoodToTheLastPlaces) {
+  const QuarticRoots roots = quartic_roots(product({-3, -0.125, 2, 7}, 5));
+  ASSERT_EQ(roots.count, 4);
+  const std::array<double, 4> expected{-3, -0.125, 2, 7};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(roots.root[i].x, expected[i], roots.root[i].error);
+    EXPECT_LE(roots.root[i].error, 1e-14 * std::abs(expected[i])) << i;
+    EXPECT_TRUE(roots.root[i].crosses);
+  }
+}
+
+TEST(Polynomial, DoubleRootOfAQuarticDoesNotCrossAndATripleOneDoes) {
+  const QuarticRoots twice = quartic_roots(product({-2, -2, 0.5, 0.5}, 1));
+  ASSERT_EQ(twice.count, 2);
+  EXPECT_FALSE(twice.root[0].crosses || twice.root[1].crosses);
+  EXPECT_NEAR(twice.root[0].x, -2, twice.root[0].error);
+  EXPECT_NEAR(twice.root[1].x, 0.5, twice.root[1].error);
+  const QuarticRoots thrice = quartic_roots(product({1, 1, 1, -3}, 1));
+  ASSERT_EQ(thrice.count, 2);
+  EXPECT_TRUE(thrice.root[0].crosses && thrice.root[1].crosses);
+  EXPECT_NEAR(thrice.root[1].x, 1, thrice.root[1].error);
+  EXPECT_LE(thrice.root[1].error, 1e-4);
+}
+
+TEST(Polynomial, DegreeOfAQuarticMayFall) {
+  EXPECT_TRUE(quartic_roots({0, 0, 0, 0, 0}).vanishes);
+  EXPECT_EQ(quartic_roots({3, 0, 0, 0, 0}).count, 0);
+  const QuarticRoots linear = quartic_roots({-3, 2, 0, 0, 0});
+  ASSERT_EQ(linear.count, 1);
+  EXPECT_NEAR(linear.root[0].x, 1.5, linear.root[0].error);
+  EXPECT_LE(linear.root[0].error, 1e-14);
+  const QuarticRoots quadratic = quartic_roots({-2, 0, 1, 0, 0});
+  ASSERT_EQ(quadratic.count, 2);
+  EXPECT_NEAR(quadratic.root[1].x, std::sqrt(2.0), 4e-16);
+}
+
+TEST(Polynomial, QuarticRootsMayBeFarApart) {
+  const QuarticRoots roots = quartic_roots(product({1e-70, 1, 1e70}, 1));
+  ASSERT_EQ(roots.count, 3);
+  const std::array<double, 3> expected{1e-70, 1, 1e70};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(roots.root[i].x, expected[i], 1e-14 * expected[i]);
+    EXPECT_LE(roots.root[i].error, 1e-14 * expected[i]);
+  }
+}
+
+}  // namespace
+}  // namespace tangency
