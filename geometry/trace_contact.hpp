@@ -74,8 +74,9 @@ struct TraceContact {
   }
 };
 
-/// Numbers beyond rounding (measured by bench_trace: u L times the aspect ratio) are the scheme's
-/// own error, not the program's. The exact relation is asked first, which may allocate.
+/// Rounding is below u L times the square of the aspect ratio (bench_trace measures it); what is
+/// beyond is the scheme's own error, not the program's. The exact relation is asked first, which
+/// may allocate.
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;

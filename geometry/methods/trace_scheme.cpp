@@ -191,7 +191,7 @@ TraceFound<Real> contact(const Poled<Real>& a, const Images<Real>& pair,
   const Real depth = p->high - q->low;
   const Real other = std::min(
       {std::abs(p->low - q->low), std::abs(p->low - q->high), std::abs(p->high - q->high)});
-  if (!(depth > 0) || other < depth) return found;
+  if (!(depth > 0) || other < depth || !std::isfinite(depth)) return found;
   found.status = TraceStatus::ok;
   found.gap = -depth;
   const auto in_space = [&](const TraceVector<Real>& u) {

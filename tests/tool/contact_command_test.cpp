@@ -13,6 +13,7 @@
 
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
+#include <tangency/geometry/trace_contact.hpp>
 #include <tangency/tests/tool/process.hpp>
 
 namespace tangency::test {
@@ -286,10 +287,8 @@ TEST(ContactCommand, AnswerBeyondTheRangeOfADoubleIsNotApplicable) {
 
 TEST(ContactCommand, RefusesABadCommandLineWithOneLine) {
   const std::string see = " (`tangency contact --help` says what is allowed)\n";
-  const std::string which = "; common-normal, perram-wertheim and midpoint-potential are";
+  const std::string which = "; common-normal, perram-wertheim, midpoint-potential and trace are";
   const std::vector<std::pair<Names, std::string>> cases{
-      {{"contact", "--method", "trace"},
-       "tangency contact: --method: trace is not available in this version" + which + see},
       {{"contact", "--method", "guess"},
        "tangency contact: --method: guess is not a method" + which + see},
       {{"contact", "--threads", "0"},
@@ -366,6 +365,41 @@ TEST(ContactCommand, MidpointPotentialIsNotApplicableWhereItsLineMissesABody) {
   EXPECT_EQ(run_tool({"contact", "--method", "perram-wertheim"}, far).status, 0);
 }
 
+TEST(ContactCommand, TraceGivesTheNumbersOfTheLibraryAndNoErrorOfTheGap) {
+  const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({2, 0.5, 1}, {3, 2, 1}, {1, 2, 3, 4});
+  const std::string text = kHeader + "0,0,0,1,2,3,1,0,0,0,2,0.5,1,3,2,1,1,2,3,4\n";
+  const Finished run = run_tool({"contact", "--method", "trace"}, text);
+  EXPECT_EQ(run.status, 0);
+  const TraceContact expected = trace_contact(a, b);
+  ASSERT_EQ(expected.status, TraceStatus::ok);
+  const Vec3 points[] = {expected.normal, expected.arm_a, b.centre() + expected.arm_b};
+  const std::vector<std::string> cells = cells_of(lines_of(run.out).at(1));
+  ASSERT_EQ(cells.size(), 15U);
+  EXPECT_EQ(cells[1], "overlap");
+  EXPECT_EQ(bits(number(cells[2])), bits(expected.gap));
+  for (std::size_t k = 0; k < 9; ++k) {
+    EXPECT_EQ(bits(number(cells[3 + k])), bits(points[k / 3][static_cast<int>(k % 3)]));
+  }
+  EXPECT_EQ(cells[12], "");
+  EXPECT_EQ(cells[13], "ok");
+}
+
+TEST(ContactCommand, TraceIsNotApplicableUnlessTheRelationIsOverlap) {
+  // Apart, touching, touching from within, nested, equal, and crossed about one centre.
+  const Finished run = run_tool({"contact", "--method", "trace"}, kNoTurnHeader +
+                                                                      "0,0,0,1,1,1,3,0,0,1,1,1\n"
+                                                                      "0,0,0,1,1,1,2,0,0,1,1,1\n"
+                                                                      "0,0,0,1,1,1,0,0,0,1,1,2\n"
+                                                                      "0,0,0,1,1,1,0,0,0,2,3,4\n"
+                                                                      "0,0,0,1,1,1,0,0,0,1,1,1\n"
+                                                                      "0,0,0,1,1,3,0,0,0,3,1,1\n");
+  const std::string empty = ",,,,,,,,,,,,not_applicable,";
+  EXPECT_EQ(run.out, kOutHeader + "0,separate" + empty + "\n1,external_touch" + empty +
+                         "\n2,internal_touch" + empty + "a\n3,a_in_b" + empty + "\n4,equal" +
+                         empty + "\n5,overlap" + empty + "\n");
+  EXPECT_EQ(run.status, 1);
+}
+
 TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
   const Finished run = run_tool({"contact", "--help"});
   EXPECT_EQ(run.status, 0);
@@ -376,7 +410,7 @@ TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
                                   "perram-wertheim  at the best s",
                                   "midpoint-potential\n",
                                   "inner            a or b, the body inside",
-                                  "not available in this version",
+                                  "trace            the published scheme",
                                   "Exit status: 0 ",
                                   "--keep-going",
                                   "--threads",
