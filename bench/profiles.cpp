@@ -1,22 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Overlap against displacement for four kinds of contact and three motions, as computed by
-/// follow_gap and as expected. Writes CSV to standard output, one row a displacement:
-///   contact, motion, displacement, overlap, expected, published, status
+/// follow_gap, as expected, and by other contact schemes. Writes CSV to standard output, one row a
+/// displacement:
+///   contact, motion, displacement, overlap, expected, published, status, trace
 /// Lengths in short semi-axes, angles in radians; a negative overlap is a distance.
-/// `expected` and `published`: families/displacement.hpp.
+/// `expected` and `published`: families/displacement.hpp. `trace`: trace_contact's depth, empty
+/// where that has no answer. docs/profiles.md shows the curves.
 #include <array>
 #include <charconv>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <tangency/bench/families/displacement.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/trace_contact.hpp>
 #include <vector>
 
 namespace {
 
 using namespace tangency;
 using families::Motion;
+
+/// A contact scheme beside the common normal: a further column, and its overlap of a pair, nothing
+/// where it has no answer.
+struct Scheme {
+  std::string_view name;
+  std::optional<double> (*overlap)(const Ellipsoid& a, const Ellipsoid& b);
+};
+
+std::optional<double> by_trace(const Ellipsoid& a, const Ellipsoid& b) {
+  const TraceContact contact = trace_contact(a, b);
+  if (contact.status != TraceStatus::ok) return std::nullopt;
+  return -contact.gap;
+}
+
+constexpr std::array<Scheme, 1> schemes{{{"trace", by_trace}}};
 
 constexpr double short_over_long = 0.7;  // the thesis' spheroids
 constexpr double initial_overlap = 0.02;
@@ -69,7 +88,9 @@ std::string text_of(double value) {
 }  // namespace
 
 int main() {
-  std::cout << "contact,motion,displacement,overlap,expected,published,status\n";
+  std::cout << "contact,motion,displacement,overlap,expected,published,status";
+  for (const Scheme& scheme : schemes) std::cout << ',' << scheme.name;
+  std::cout << '\n';
   for (const auto& contact : families::displacement_contacts(short_over_long, initial_overlap)) {
     for (const Motion motion : families::motions) {
       const families::OverlapExpansion expansion = expected_overlap(contact, motion);
@@ -79,8 +100,14 @@ int main() {
             contact.overlap + s * (expansion.slope + 0.5 * expansion.curvature * s);
         std::cout << contact.name << ',' << to_string(motion) << ',' << text_of(s) << ','
                   << text_of(sample.overlap) << ',' << text_of(expected) << ','
-                  << text_of(published_overlap(contact, motion, s)) << ',' << name_of(sample.status)
-                  << '\n';
+                  << text_of(published_overlap(contact, motion, s)) << ','
+                  << name_of(sample.status);
+        const Ellipsoid b = displaced(contact, motion, s);
+        for (const Scheme& scheme : schemes) {
+          const std::optional<double> overlap = scheme.overlap(contact.a, b);
+          std::cout << ',' << (overlap ? text_of(*overlap) : "");
+        }
+        std::cout << '\n';
       }
     }
   }

@@ -70,7 +70,11 @@ Ellipsoid displaced(const DisplacementContact& contact, Motion motion, double am
     case Motion::rotation:
       break;
   }
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(amount, contact.rotation_axis));
+  // In long double, so that the doubles are the same with every libm.
+  const long double half = 0.5L * static_cast<long double>(amount);
+  const Vec3 vector = static_cast<double>(std::sin(half)) * contact.rotation_axis;
+  const Eigen::Quaterniond turn(static_cast<double>(std::cos(half)), vector.x(), vector.y(),
+                                vector.z());
   return {b.centre(), b.semi_axes(), turn * b.orientation()};
 }
 

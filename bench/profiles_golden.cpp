@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes the golden displacement profiles to standard output:
+//   profiles_golden > tests/data/profiles/displacement.csv
+// One row a displacement, in columns that `tangency contact` reads (a., b.), the bodies being the
+// stored doubles, and further
+//   contact, motion, displacement   of bench/families/displacement.hpp
+//   overlap                         minus the signed gap of those doubles, found in 150 digits
+//                                   (verify/oracles/gap.hpp), rounded to double; proven global
+//   trace                           the depth of the scheme of curves in long double, to 12 digits,
+//                                   which is what its arithmetic and libm leave; empty where none
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <tangency/bench/families/displacement.hpp>
+#include <tangency/geometry/methods/trace_scheme.hpp>
+#include <tangency/geometry/relation.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/oracles/gap.hpp>
+
+namespace {
+
+using namespace tangency;
+
+constexpr int kSteps = 8;  // either way
+constexpr double kOverlap = 0.02, kShortOverLong = 0.7;
+
+/// Reads back to the same double.
+std::string text_of(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+void write_body(const Ellipsoid& e) {
+  const Eigen::Quaterniond q = e.orientation();
+  for (const Vec3& v : {e.centre(), e.semi_axes()}) {
+    for (const double c : v) std::cout << text_of(c) << ',';
+  }
+  for (const double c : {q.w(), q.x(), q.y(), q.z()}) std::cout << text_of(c) << ',';
+}
+
+std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
+  if (relation(a, b).relation != Relation::overlap) return {};
+  using Real = long double;
+  const auto found = methods::trace_scheme<Real>(
+      methods::trace_body<Real>(a), methods::trace_body<Real>(b), b.centre().cast<Real>(), {});
+  if (found.status != TraceStatus::ok) return {};
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.11Le", -found.gap);
+  return text.data();
+}
+
+/// 0.03 along the normal and 0.3 else: bench/profiles.cpp.
+double displacement_of(families::Motion motion, int step) {
+  return (motion == families::Motion::normal ? 0.03 : 0.3) * step / kSteps;
+}
+
+}  // namespace
+
+int main() {
+  std::cout << "# SPDX-License-Identifier: GPL-3.0-or-later\n"
+               "# Made by profiles_golden > tests/data/profiles/displacement.csv\n";
+  for (const char* body : {"a.", "b."}) {
+    for (const char* field : {"x", "y", "z", "r1", "r2", "r3", "qw", "qx", "qy", "qz"}) {
+      std::cout << body << field << ',';
+    }
+  }
+  std::cout << "contact,motion,displacement,overlap,trace\n";
+  for (const auto& contact : families::displacement_contacts(kShortOverLong, kOverlap)) {
+    for (const families::Motion motion : families::motions) {
+      for (int step = -kSteps; step <= kSteps; ++step) {
+        const double s = displacement_of(motion, step);
+        const Ellipsoid b = displaced(contact, motion, s);
+        const auto truth = verify::signed_gap(testing::to_raw(contact.a), testing::to_raw(b));
+        if (!truth.global) {
+          std::cerr << contact.name << ", " << to_string(motion) << ' ' << s << ": not proven\n";
+          return 1;
+        }
+        write_body(contact.a);
+        write_body(b);
+        std::cout << contact.name << ',' << to_string(motion) << ',' << text_of(s) << ','
+                  << text_of(-static_cast<double>(truth.gap)) << ',' << trace_of(contact.a, b)
+                  << '\n';
+      }
+    }
+  }
+  std::cout.flush();
+  return std::cout ? 0 : 1;
+}
