@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <random>
 #include <string>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
@@ -40,8 +41,29 @@ struct Sample {
   double size;  ///< |d| and the largest semi-axes
 };
 
+/// Spheroids 1 : 0.7 whose axes and centres lie in one plane: the published comparison.
+std::vector<Sample> draw_in_plane(double depth) {
+  std::mt19937_64 random(kSeed);
+  const auto angle = [&random] { return M_PI * 0x1p-52 * static_cast<double>(random() >> 11); };
+  const auto body = [&] {
+    const double half = angle();
+    return Ellipsoid(Vec3::Zero(), {1, 0.7, 0.7}, {std::cos(half), 0, 0, std::sin(half)});
+  };
+  std::vector<Sample> samples;
+  while (samples.size() < kPairs) {
+    const Ellipsoid a = body(), b = body();
+    const double t = angle();
+    const double overlap = depth * (a.least_radius() + b.least_radius());
+    const Vec3 n(std::cos(t), std::sin(t), 0);
+    const Vec3 d = a.support_point(n) + b.support_point(n) - overlap * n;
+    samples.push_back({a, b.moved_to(d), overlap, n, d.norm() + 2});
+  }
+  return samples;
+}
+
 /// Contacts of depths from half of `depth` to it, in rho.
 std::vector<Sample> draw(ContactFamily family, double depth) {
+  if (family.name == "plane") return draw_in_plane(depth);
   family.gap_unit = ContactFamily::GapUnit::rho;
   family.largest_gap = depth;
   families::ManufacturedContacts contacts(family, kSeed);
@@ -60,6 +82,8 @@ std::vector<ContactFamily> all_families() {
   std::vector<ContactFamily> result(classes.begin(), classes.end());
   result.insert(result.begin() + 1, {"oblate", ContactFamily::Shape::spheroid, 1 / 1.43, 1.0,
                                      ContactFamily::GapUnit::rho, 0.02});
+  result.insert(result.begin(), {"plane", ContactFamily::Shape::spheroid, 1 / 0.7, 1.0,
+                                 ContactFamily::GapUnit::rho, 0.02});
   return result;
 }
 
