@@ -49,8 +49,8 @@ struct Frame {
 template <class Real>
 Frame<Real> sorted_frame(const TraceBody<Real>& body) {
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int i, int j) { return body.semi_axes[i] > body.semi_axes[j]; });
+  std::sort(order.begin(), order.end(),
+            [&r = body.semi_axes](int i, int j) { return r[i] != r[j] ? r[i] > r[j] : i < j; });
   Frame<Real> frame;
   for (int k = 0; k < 3; ++k) {
     const int i = order[static_cast<std::size_t>(k)];

@@ -2,6 +2,7 @@
 // A program of its own, because it replaces the global allocation functions.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <thread>
@@ -11,6 +12,8 @@
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
+#include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/trace_contact.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
 namespace {
@@ -71,6 +74,20 @@ TEST(Allocation, HappensInNoGapOfAnotherDefinition) {
     ASSERT_NE(planes.status, OtherGapStatus::not_converged);
     ASSERT_NE(midpoint.status, OtherGapStatus::not_converged);
   }
+}
+
+TEST(Allocation, HappensInTheSchemeOfCurvesOnlyWhereTheExactRelationDoes) {
+  int answers = 0;
+  for (const auto& [a, b] : all_pairs()) {
+    if (relation(a, b).tier == Tier::exact) continue;
+    const long before = allocations;
+    const TraceContact trace = trace_contact(a, b);
+    ASSERT_EQ(allocations, before);
+    if (trace.status != TraceStatus::ok) continue;
+    ++answers;
+    ASSERT_TRUE(std::isfinite(trace.gap) && trace.normal.allFinite() && trace.arm_b.allFinite());
+  }
+  EXPECT_GT(answers, 100);
 }
 
 TEST(Allocation, HappensInNoTierOfTheGapButTheExactOne) {
