@@ -4,6 +4,9 @@
 ///
 /// One corner stays at the origin, so that the affine velocity at x is rate * x. Inside the
 /// simulator extension is positive; scenes and histories turn the sign (observe.hpp).
+///
+/// A plane cell has dimensions = 2: the bodies lie in the plane z = 0, its edge along z is 1, the
+/// unit thickness, which does not strain, and there are no images along z.
 #pragma once
 
 #include <array>
@@ -19,6 +22,7 @@ struct Cell {
   Vec3 length = Vec3::Ones();            ///< edges along x, y, z; > 0
   Vec3 rate = Vec3::Zero();              ///< strain rate along x, y, z, extension > 0, 1/time
   Vec3 reference_length = Vec3::Ones();  ///< edges where strain is measured from
+  int dimensions = 3;                    ///< 2 or 3: the axes that are periodic and strain
 
   double volume() const { return length.prod(); }
 
@@ -26,6 +30,9 @@ struct Cell {
   Vec3 translation(const Image& image) const {
     return {image[0] * length[0], image[1] * length[1], image[2] * length[2]};
   }
+
+  /// The isotropic strain rate r: r along every axis that strains.
+  Vec3 isotropic(double r) const { return {r, r, dimensions == 3 ? r : 0.0}; }
 
   /// The image number of the cell that holds x: floor(x / length).
   Image image_of(const Vec3& x) const;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 #include <tangency/dem/contacts.hpp>
+#include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/gap.hpp>
 
 namespace tangency::dem {
@@ -11,19 +12,56 @@ namespace {
 /// some 50 us of work, a few times what waking takes.
 constexpr std::size_t worth_sharing = 400;
 
+/// What a contact takes from a Gap, or from a PlaneGap with 0 along z.
+struct Touch {
+  double gap;
+  Vec3 normal, arm_a, arm_b;
+};
+
+Vec3 in_space(const Vec3& v) { return v; }
+Vec3 in_space(const Vec2& v) { return {v[0], v[1], 0.0}; }
+
+template <class AnyGap>
+Touch touch_of(const AnyGap& gap) {
+  return {gap.gap, in_space(gap.normal), in_space(gap.arm_a), in_space(gap.arm_b)};
+}
+
+/// A vector of space as geometry wants it for its solids there or for those in the plane.
+const Vec3& as_for(const Ellipsoid&, const Vec3& v) { return v; }
+Vec2 as_for(const Ellipse&, const Vec3& v) { return v.head<2>(); }
+
+/// A particle's shape and orientation: its centre is not used.
+void assign(std::vector<Ellipsoid>& bodies, std::size_t i, const Particles& particles) {
+  bodies[i] = Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
+}
+void assign(std::vector<Ellipse>& bodies, std::size_t i, const Particles& particles) {
+  const Eigen::Quaterniond& q = particles.orientation[i];  // (cos, 0, 0, sin) of half the angle
+  const Vec2 direction(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z());
+  bodies[i] = Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
+}
+
+void resize(std::vector<Ellipsoid>& bodies, std::size_t count) {
+  bodies.resize(count, Ellipsoid(Vec3::Zero(), Vec3::Ones()));
+}
+void resize(std::vector<Ellipse>& bodies, std::size_t count) {
+  bodies.resize(count, Ellipse(Vec2::Zero(), Vec2::Ones()));
+}
+
 /// The gap of a pair, or nothing where it is known to be > 0 without finding it: the bounding
 /// spheres do not meet, or the plane across the stored normal still parts the bodies (for any unit
 /// n, n.d - h_a - h_b is at most the gap). Leaves the stored normal as a start for next time.
-std::optional<Gap> gap_unless_apart(const Ellipsoid& a, const Ellipsoid& b, Contact& contact) {
+template <class Body>
+std::optional<Touch> touch_unless_apart(const Body& a, const Body& b, Contact& contact) {
   const double reach = a.largest_semi_axis() + b.largest_semi_axis();
   if (contact.branch.squaredNorm() >= reach * reach) {
     contact.normal.setZero();
     return std::nullopt;
   }
-  const Vec3& n = contact.normal;
-  if (n.isZero(0.0)) return signed_gap(a, b, contact.branch);
-  if (n.dot(contact.branch) - a.support(n) - b.support(n) > 0.0) return std::nullopt;
-  return follow_gap(a, b, contact.branch, n);
+  const auto& branch = as_for(a, contact.branch);
+  if (contact.normal.isZero(0.0)) return touch_of(signed_gap(a, b, branch));
+  const auto& n = as_for(a, contact.normal);
+  if (n.dot(branch) - a.support(n) - b.support(n) > 0.0) return std::nullopt;
+  return touch_of(follow_gap(a, b, branch, n));
 }
 
 /// Velocity of b relative to a at the contact point, the cell's strain included [Ouadfel1998,
@@ -54,11 +92,20 @@ double ContactLaws::largest_stiffness() const {
 
 void Contacts::update(const Particles& particles, const Cell& cell, const NeighbourList& list,
                       const ContactLaws& laws, double dt) {
+  if (cell.dimensions == 2)
+    update_with(ellipses_, particles, cell, list, laws, dt);
+  else
+    update_with(ellipsoids_, particles, cell, list, laws, dt);
+  add_up(list, particles.size());
+}
+
+template <class Body>
+void Contacts::update_with(std::vector<Body>& bodies, const Particles& particles, const Cell& cell,
+                           const NeighbourList& list, const ContactLaws& laws, double dt) {
   const std::size_t count = particles.size();
-  bodies_.resize(count, Ellipsoid(Vec3::Zero(), Vec3::Ones()));
+  resize(bodies, count);
 #pragma omp parallel for schedule(static) if (count >= worth_sharing)
-  for (std::size_t i = 0; i < count; ++i)
-    bodies_[i] = Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
+  for (std::size_t i = 0; i < count; ++i) assign(bodies, i, particles);
 
   const std::vector<Pair>& pairs = list.pairs();
 #pragma omp parallel for schedule(dynamic, 64) if (pairs.size() >= worth_sharing)
@@ -67,7 +114,7 @@ void Contacts::update(const Particles& particles, const Cell& cell, const Neighb
     Contact& contact = records_[k];
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     contact.branch = branch_vector(pair, particles, cell);
-    const std::optional<Gap> gap = gap_unless_apart(bodies_[a], bodies_[b], contact);
+    const std::optional<Touch> gap = touch_unless_apart(bodies[a], bodies[b], contact);
     if (!gap || gap->gap >= 0.0) {
       if (gap) contact.normal = gap->normal;
       separate(contact);
@@ -90,7 +137,6 @@ void Contacts::update(const Particles& particles, const Cell& cell, const Neighb
       contact.shear.setZero();
     }
   }
-  add_up(list, count);
 }
 
 void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now) {

@@ -3,13 +3,15 @@
 /// The contacts of an assembly: one record a listed pair. The one place that asks geometry.
 ///
 /// A pair touches where its overlap, minus the signed gap, is > 0. The contact point is the
-/// midpoint of the two witness points. Results do not depend on the number of threads: each pair
-/// writes its own record and each particle adds its own pairs in the order of the list.
+/// midpoint of the two witness points. A plane scene asks for ellipses. Results do not depend on
+/// the number of threads: each pair writes its own record and each particle adds its own pairs in
+/// the order of the list.
 #pragma once
 
 #include <stdexcept>
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/dem/neighbours.hpp>
+#include <tangency/geometry/ellipse.hpp>
 #include <vector>
 
 namespace tangency::dem {
@@ -57,10 +59,15 @@ class Contacts {
   const Resultants& resultants() const { return resultants_; }
 
  private:
+  template <class Body>
+  void update_with(std::vector<Body>& bodies, const Particles& particles, const Cell& cell,
+                   const NeighbourList& list, const ContactLaws& laws, double dt);
   void add_up(const NeighbourList& list, std::size_t particles);
 
   std::vector<Contact> records_;
-  std::vector<Ellipsoid> bodies_;  ///< shapes and orientations; their centres are not used
+  // Shapes and orientations; one of the two is used.
+  std::vector<Ellipsoid> ellipsoids_;
+  std::vector<Ellipse> ellipses_;
   Resultants resultants_;
 };
 

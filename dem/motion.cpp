@@ -39,7 +39,8 @@ void move(Particles& particles, Cell& cell, const Resultants& resultants, double
     Eigen::Quaterniond& axes = particles.orientation[i];
     velocity = keep * velocity + (push / particles.mass[i]) * resultants.force[i];
 
-    const Vec3 inertia = principal_inertia(particles.mass[i], particles.semi_axes[i]);
+    const Vec3 inertia =
+        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
     const Vec3 moment = axes.conjugate() * resultants.moment[i];
     spin = keep * spin + push * (axes * moment.cwiseQuotient(inertia));
 

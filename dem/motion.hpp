@@ -10,6 +10,8 @@
 /// (1) Without force and damping a particle moves and turns uniformly.
 /// (2) Without damping the scheme is time-reversible and of second order.
 /// (3) Orientations stay unit to rounding.
+/// (4) In the plane a force along x and y and a moment about z leave every other component of
+///     velocities, positions and orientations exactly 0: nothing has to be locked.
 #pragma once
 
 #include <stdexcept>

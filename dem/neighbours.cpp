@@ -13,7 +13,9 @@ constexpr std::int32_t max_boxes = 128;
 class Boxes {
  public:
   Boxes(const Particles& particles, const Cell& cell, double reach) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    count_.fill(1);
+    around_.fill(0);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(cell.dimensions); ++k) {
       const double edge = cell.length[static_cast<int>(k)];
       count_[k] = static_cast<std::int32_t>(std::clamp(edge / reach, 1.0, double{max_boxes}));
       around_[k] = static_cast<std::int32_t>(std::ceil(reach * count_[k] / edge));

@@ -8,6 +8,7 @@
 /// (1) Every pair whose bounding spheres meet is listed as long as is_current() is true.
 /// (2) No pair is listed twice; a particle may meet itself through the periodic boundary.
 /// (3) A cell of any size is served, one smaller than a particle included.
+/// (4) In a plane cell no image moves along z.
 #pragma once
 
 #include <compare>

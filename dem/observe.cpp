@@ -40,15 +40,17 @@ Stress stress_of(const Contacts& contacts, const Cell& cell) {
     stiffness += contact.normal_stiffness * along * along;
   }
   const double volume = cell.volume();
-  return {0.5 / volume * (sum + sum.transpose()), stiffness / (3.0 * volume)};
+  return {0.5 / volume * (sum + sum.transpose()), stiffness / (cell.dimensions * volume),
+          cell.dimensions};
 }
 
-double friction_angle_deg(const Mat3& stress) {
-  const Vec3 principal =
-      Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
-  const double sum = principal[2] + principal[0];
-  if (!(sum > 0.0)) return 0.0;
-  const double sine = std::min(1.0, (principal[2] - principal[0]) / sum);
+double friction_angle_deg(const Mat3& stress, int dimensions) {
+  const Eigen::MatrixXd block = stress.topLeftCorner(dimensions, dimensions);
+  const Eigen::VectorXd principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block, Eigen::EigenvaluesOnly).eigenvalues();
+  const double least = principal[0], most = principal[dimensions - 1];
+  if (!(least + most > 0.0)) return 0.0;
+  const double sine = std::min(1.0, (most - least) / (least + most));
   return std::asin(sine) * 180.0 / std::numbers::pi;
 }
 
@@ -89,7 +91,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
                     const NeighbourList& list) {
   Observation seen{};
   const Vec3 strain = cell.logarithmic_strain();
-  seen.axial_strain = 0.0 - strain[2];  // -strain[2] of an unstrained cell is -0
+  seen.axial_strain = 0.0 - strain[cell.dimensions - 1];  // not -0 of an unstrained cell
   seen.volumetric_strain = strain.sum();
   seen.stress = stress_of(contacts, cell);
   for (const Contact& contact : contacts.records()) {
@@ -107,7 +109,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.coordination_std = standard_deviation(contact_counts(particles.size(), contacts, list),
                                              seen.coordination_number);
   double solid = 0.0;
-  for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes);
+  for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes, particles.dimensions);
   seen.porosity = 1.0 - solid / cell.volume();
   seen.balance = balance_of(particles, contacts, list);
   seen.kinetic_energy = kinetic_energy(particles);
@@ -129,7 +131,7 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"s_xy", s(0, 1)},
           {"s_yz", s(1, 2)},
           {"s_zx", s(2, 0)},
-          {"friction_angle_deg", friction_angle_deg(s)},
+          {"friction_angle_deg", friction_angle_deg(s, seen.stress.dimensions)},
           {"coordination_number", seen.coordination_number},
           {"coordination_std", seen.coordination_std},
           {"porosity", seen.porosity},

@@ -3,9 +3,10 @@
 /// What is measured on an assembly. Looks on and changes nothing.
 ///
 /// Signs, as in scenes, histories and reports: compression is positive in stress and in axial
-/// strain, volumetric strain is positive in dilation. The axial direction is z. Strains are
-/// logarithmic and count from the cell at the start of the current stage. Only touching pairs are
-/// contacts.
+/// strain, volumetric strain is positive in dilation. The axial direction is z, in the plane y.
+/// Strains are logarithmic and count from the cell at the start of the current stage. Only touching
+/// pairs are contacts. In the plane stresses, porosity and volumetric strain are those of the unit
+/// thickness: of areas.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +22,18 @@ namespace tangency::dem {
 struct Stress {
   Mat3 tensor = Mat3::Zero();
   /// The rise of mean stress per isotropic linear strain if particles only followed the cell,
-  /// (1/3V) sum K_n (n . branch)^2: an upper bound of the true one, and what a servo needs.
+  /// (1/3V) sum K_n (n . branch)^2, 1/2V in the plane: an upper bound of the true one, and what a
+  /// servo needs.
   double affine_stiffness = 0.0;
+  int dimensions = 3;
 
-  double mean() const { return tensor.trace() / 3.0; }
+  double mean() const { return tensor.trace() / dimensions; }
 };
 Stress stress_of(const Contacts& contacts, const Cell& cell);
 
-/// asin((s1 - s3) / (s1 + s3)) of the principal stresses, in degrees; 0 without stress.
-double friction_angle_deg(const Mat3& stress);
+/// asin((s1 - s3) / (s1 + s3)) of the principal stresses, in the plane of the two there, in
+/// degrees; 0 without stress.
+double friction_angle_deg(const Mat3& stress, int dimensions = 3);
 
 /// How far the particles are from equilibrium. A particle is out of balance by the resultant of
 /// its contact forces; ratios are to the mean length of a contact force, 0 without contacts.

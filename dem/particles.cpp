@@ -5,15 +5,23 @@
 
 namespace tangency::dem {
 
-Vec3 Shape::semi_axes() const {
+Vec3 Shape::semi_axes(int dimensions) const {
+  if (dimensions == 2) {
+    const double root = std::sqrt(elongation);
+    return {mean_radius * root, mean_radius / root, mean_radius / root};
+  }
   const double b = mean_radius * std::cbrt(flatness / elongation);
   return {b * elongation, b, b / flatness};
 }
 
-double volume_of(const Vec3& semi_axes) { return 4.0 / 3.0 * std::numbers::pi * semi_axes.prod(); }
+double volume_of(const Vec3& semi_axes, int dimensions) {
+  if (dimensions == 2) return std::numbers::pi * semi_axes[0] * semi_axes[1];
+  return 4.0 / 3.0 * std::numbers::pi * semi_axes.prod();
+}
 
-Vec3 principal_inertia(double mass, const Vec3& semi_axes) {
+Vec3 principal_inertia(double mass, const Vec3& semi_axes, int dimensions) {
   const Vec3 squares = semi_axes.cwiseAbs2();
+  if (dimensions == 2) return mass / 4.0 * Vec3(squares[1], squares[0], squares[0] + squares[1]);
   return mass / 5.0 * (Vec3::Constant(squares.sum()) - squares);
 }
 
@@ -24,7 +32,7 @@ void Particles::add(const Vec3& centre, const Eigen::Quaterniond& axes, const Ve
   angular_velocity.push_back(Vec3::Zero());
   orientation.push_back(axes.normalized());
   semi_axes.push_back(radii);
-  mass.push_back(density * volume_of(radii));
+  mass.push_back(density * volume_of(radii, dimensions));
   type.push_back(type_index);
 }
 
@@ -32,7 +40,8 @@ double kinetic_energy(const Particles& particles) {
   double twice = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 spin = particles.orientation[i].conjugate() * particles.angular_velocity[i];
-    const Vec3 inertia = principal_inertia(particles.mass[i], particles.semi_axes[i]);
+    const Vec3 inertia =
+        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
     twice +=
         particles.mass[i] * particles.velocity[i].squaredNorm() + inertia.dot(spin.cwiseAbs2());
   }

@@ -2,6 +2,10 @@
 /// @file
 /// The particles of an assembly: solid ellipsoids of uniform density.
 ///
+/// In a plane assembly (dimensions = 2) they are elliptic disks of unit thickness: centres have
+/// z = 0, orientations turn about z alone, the first two semi-axes are those of the ellipse and the
+/// third, which is the second again, is only drawn.
+///
 /// Units are any consistent set; the scenes and files say SI. Frame: that of
 /// geometry/ellipsoid.hpp. A particle's velocity is the *fluctuation*: what it moves in addition to
 /// the homogeneous strain of the cell. Velocities belong to the half step before the positions
@@ -18,15 +22,17 @@ namespace tangency::dem {
 struct Shape {
   double mean_radius;  ///< geometric mean of the semi-axes, > 0, length
   double elongation;   ///< a / b >= 1
-  double flatness;     ///< b / c >= 1
+  double flatness;     ///< b / c >= 1; 1 in the plane
 
-  /// Semi-axes a >= b >= c with a b c = mean_radius^3.
-  Vec3 semi_axes() const;
+  /// Semi-axes a >= b >= c with a b c = mean_radius^3; in the plane a >= b = c with
+  /// a b = mean_radius^2.
+  Vec3 semi_axes(int dimensions = 3) const;
 };
 
 /// Arrays of one length, one entry a particle; a particle is its index for the whole run.
 /// Positions are not wrapped into the cell: an image is chosen where two particles meet.
 struct Particles {
+  int dimensions = 3;                           ///< 2 or 3, the cell's
   std::vector<Vec3> position;                   ///< centre, length
   std::vector<Vec3> velocity;                   ///< relative to the affine motion, length/time
   std::vector<Vec3> angular_velocity;           ///< in space coordinates, 1/time
@@ -41,12 +47,12 @@ struct Particles {
            std::int32_t type_index);
 };
 
-/// Volume of an ellipsoid: 4/3 pi a b c.
-double volume_of(const Vec3& semi_axes);
+/// Volume of an ellipsoid, 4/3 pi a b c; of an elliptic disk of unit thickness, pi a b.
+double volume_of(const Vec3& semi_axes, int dimensions = 3);
 
 /// Moments of inertia about the body axes, (m/5)(b^2 + c^2, c^2 + a^2, a^2 + b^2) [Ouadfel1998,
-/// eq. 3.19].
-Vec3 principal_inertia(double mass, const Vec3& semi_axes);
+/// eq. 3.19]; of a disk (m/4)(b^2, a^2, a^2 + b^2), of which only the last is ever used.
+Vec3 principal_inertia(double mass, const Vec3& semi_axes, int dimensions = 3);
 
 /// Resultants of the contact forces on each particle, about its centre, in space coordinates.
 struct Resultants {

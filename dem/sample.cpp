@@ -37,34 +37,141 @@ struct Lattice {
   Sites sites;
 };
 
-Lattice lattice_for(const std::vector<Batch>& batches, const LatticePlacement& how) {
+Lattice lattice_for(const std::vector<Batch>& batches, const Placement& how) {
   std::int64_t particles = 0;
   double largest = 0.0;
   for (const Batch& batch : batches) {
     particles += static_cast<std::int64_t>(batch.count);
-    largest = std::max(largest, batch.shape.semi_axes().maxCoeff());
+    largest = std::max(largest, batch.shape.semi_axes(how.dimensions).maxCoeff());
   }
   // Jitter moves two neighbours towards each other by up to twice its size along an edge.
   const double spacing = 2.0 * (largest + how.jitter) * (1.0 + clearance);
+  const bool plane = how.dimensions == 2;
   if (!how.cell_size) {
     std::int64_t edge = 1;
-    while (edge * edge * edge < particles) ++edge;
-    return {Vec3::Constant(spacing * static_cast<double>(edge)), Sites::Constant(edge)};
+    while (edge * edge * (plane ? 1 : edge) < particles) ++edge;
+    const double length = spacing * static_cast<double>(edge);
+    return {{length, length, plane ? 1.0 : length}, {edge, edge, plane ? 1 : edge}};
   }
-  const Eigen::Array3d sites = (how.cell_size->array() / spacing).floor();
+  Eigen::Array3d sites = (how.cell_size->array() / spacing).floor();
+  if (plane) sites[2] = 1.0;
   std::ostringstream room;
-  room << "a cubic lattice in it has " << sites.prod() << " sites";
+  room << "a " << (plane ? "square" : "cubic") << " lattice in it has " << sites.prod() << " sites";
   if (sites.prod() < static_cast<double>(particles))
     throw DoesNotFit(room.str() + ", fewer than the " + std::to_string(particles) + " particles");
   if (sites.prod() > most_sites) throw DoesNotFit(room.str() + ", more than 1e8");
   return {*how.cell_size, sites.cast<std::int64_t>()};
 }
 
+/// Draws before random placement gives up on a particle. Chosen: of a thousand equal ones at the
+/// largest bounding fraction, none took more than 500 in the plane and 1500 in space.
+constexpr int most_draws = 100000;
+
+double bounding_volume(double radius, int dimensions) {
+  return volume_of(Vec3::Constant(radius), dimensions);
+}
+
+/// The cell of a random placement. @throws DoesNotFit
+Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
+  double volume = 0.0, largest = 0.0;
+  for (const Batch& batch : batches) {
+    const double radius = batch.shape.semi_axes(how.dimensions).maxCoeff();
+    volume += static_cast<double>(batch.count) * bounding_volume(radius, how.dimensions);
+    largest = std::max(largest, radius);
+  }
+  Vec3 edges = Vec3::Ones();
+  if (how.cell_size)
+    edges = *how.cell_size;
+  else
+    edges.head(how.dimensions)
+        .setConstant(std::pow(volume / how.bounding_fraction, 1.0 / how.dimensions));
+  std::ostringstream room;
+  const char* spheres = how.dimensions == 2 ? "bounding circles" : "bounding spheres";
+  const double filled = volume / edges.prod();
+  const double most = largest_bounding_fraction(how.dimensions) * (1.0 + clearance);
+  if (!(filled <= most)) {
+    room << spheres << " would fill " << filled << " of it, more than " << most;
+    throw DoesNotFit(room.str());
+  }
+  if (!(edges.head(how.dimensions).minCoeff() > 2.0 * largest * (1.0 + clearance))) {
+    room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
+    throw DoesNotFit(room.str());
+  }
+  return edges;
+}
+
+/// Bounding spheres placed so far, by boxes no smaller than the largest of them.
+class PlacedSpheres {
+ public:
+  PlacedSpheres(const Vec3& edges, double largest, int dimensions) : edges_(edges) {
+    for (int k = 0; k < dimensions; ++k)
+      count_[k] = std::max<std::int64_t>(
+          1, static_cast<std::int64_t>(std::min(edges[k] / (2.0 * largest), most_boxes)));
+    members_.resize(static_cast<std::size_t>(count_.prod()));
+  }
+
+  bool meets(const Vec3& x, double radius) const {
+    const Sites home = box_of(x), reach = (count_ > 1).cast<std::int64_t>();
+    Sites at;
+    for (at[0] = -reach[0]; at[0] <= reach[0]; ++at[0])
+      for (at[1] = -reach[1]; at[1] <= reach[1]; ++at[1])
+        for (at[2] = -reach[2]; at[2] <= reach[2]; ++at[2])
+          for (const Sphere& other : members_[index(home + at)])
+            if (meet(other, x, radius)) return true;
+    return false;
+  }
+
+  void add(const Vec3& x, double radius) { members_[index(box_of(x))].push_back({x, radius}); }
+
+ private:
+  static constexpr double most_boxes = 128.0;  // bounds the memory of a nearly empty cell
+  struct Sphere {
+    Vec3 centre;
+    double radius;
+  };
+  /// Does the nearest image?
+  bool meet(const Sphere& other, const Vec3& x, double radius) const {
+    Vec3 d = other.centre - x;
+    d.array() -= edges_.array() * (d.array() / edges_.array()).round();
+    const double apart = (radius + other.radius) * (1.0 + clearance);
+    return d.squaredNorm() < apart * apart;
+  }
+  Sites box_of(const Vec3& x) const {
+    const Eigen::Array3d reduced = x.array() / edges_.array() * count_.cast<double>();
+    return reduced.cast<std::int64_t>().min(count_ - 1);
+  }
+  /// Of a box of this cell or of the next one.
+  std::size_t index(Sites at) const {
+    at += (at < 0).cast<std::int64_t>() * count_ - (at >= count_).cast<std::int64_t>() * count_;
+    return static_cast<std::size_t>((at[0] * count_[1] + at[1]) * count_[2] + at[2]);
+  }
+
+  Vec3 edges_;
+  Sites count_ = Sites::Ones();
+  std::vector<std::vector<Sphere>> members_;
+};
+
+/// Indices of the batches, that of the largest particles first.
+std::vector<std::size_t> largest_first(const std::vector<Batch>& batches, int dimensions) {
+  std::vector<std::size_t> order(batches.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  const auto radius = [&](std::size_t k) {
+    return batches[k].shape.semi_axes(dimensions).maxCoeff();
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return radius(a) > radius(b); });
+  return order;
+}
+
 }  // namespace
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-Eigen::Quaterniond uniform_rotation(std::mt19937_64& random) {
+Eigen::Quaterniond uniform_rotation(std::mt19937_64& random, int dimensions) {
+  if (dimensions == 2) {
+    const double half = std::numbers::pi * uniform(random);
+    return {std::cos(half), 0.0, 0.0, std::sin(half)};
+  }
   const double u = uniform(random);
   const double first = 2.0 * std::numbers::pi * uniform(random);
   const double second = 2.0 * std::numbers::pi * uniform(random);
@@ -72,28 +179,68 @@ Eigen::Quaterniond uniform_rotation(std::mt19937_64& random) {
   return {t * std::cos(second), s * std::sin(first), s * std::cos(first), t * std::sin(second)};
 }
 
-void check_room(const std::vector<Batch>& batches, const LatticePlacement& how) {
-  lattice_for(batches, how);
+void check_room(const std::vector<Batch>& batches, const Placement& how) {
+  if (how.arrangement == Arrangement::random)
+    room_for(batches, how);
+  else
+    lattice_for(batches, how);
 }
 
-Particles place_on_lattice(const std::vector<Batch>& batches, const LatticePlacement& how,
-                           Cell& cell) {
+Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
+  return how.arrangement == Arrangement::random ? place_at_random(batches, how, cell)
+                                                : place_on_lattice(batches, how, cell);
+}
+
+Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   const auto [edges, sites] = lattice_for(batches, how);
-  cell = {edges, Vec3::Zero(), edges};
+  cell = {edges, Vec3::Zero(), edges, how.dimensions};
   std::mt19937_64 random(how.seed);
   const auto kinds = shuffled_kinds(batches, static_cast<std::size_t>(sites.prod()), random);
 
   Particles particles;
+  particles.dimensions = how.dimensions;
   const Vec3 spacing = cell.length.array() / sites.cast<double>();
   for (std::size_t site = 0; site < kinds.size(); ++site) {
     if (kinds[site] < 0) continue;
     const auto index = static_cast<std::int64_t>(site);
     const Sites at(index % sites[0], index / sites[0] % sites[1], index / (sites[0] * sites[1]));
-    Vec3 centre = spacing.array() * (at.cast<double>() + 0.5);
-    for (int k = 0; k < 3; ++k) centre[k] += how.jitter * (2.0 * uniform(random) - 1.0);
+    Vec3 centre = Vec3::Zero();
+    for (int k = 0; k < how.dimensions; ++k)
+      centre[k] = spacing[k] * (static_cast<double>(at[k]) + 0.5) +
+                  how.jitter * (2.0 * uniform(random) - 1.0);
     const Batch& batch = batches[static_cast<std::size_t>(kinds[site])];
-    particles.add(centre, uniform_rotation(random), batch.shape.semi_axes(), batch.density,
-                  kinds[site]);
+    particles.add(centre, uniform_rotation(random, how.dimensions),
+                  batch.shape.semi_axes(how.dimensions), batch.density, kinds[site]);
+  }
+  return particles;
+}
+
+Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
+  const Vec3 edges = room_for(batches, how);
+  cell = {edges, Vec3::Zero(), edges, how.dimensions};
+  const std::vector<std::size_t> order = largest_first(batches, how.dimensions);
+  const auto axes_of = [&](std::size_t k) { return batches[k].shape.semi_axes(how.dimensions); };
+  PlacedSpheres placed(edges, axes_of(order.front()).maxCoeff(), how.dimensions);
+  std::mt19937_64 random(how.seed);
+  Particles particles;
+  particles.dimensions = how.dimensions;
+  for (const std::size_t k : order) {
+    const Vec3 axes = axes_of(k);
+    for (std::size_t i = 0; i < batches[k].count; ++i) {
+      Vec3 centre = Vec3::Zero();
+      int draws = 0;
+      do {
+        if (++draws > most_draws)
+          throw DoesNotFit("random placement found no room for particle " +
+                           std::to_string(particles.size() + 1) + " in " +
+                           std::to_string(most_draws) + " draws; another seed may");
+        for (int axis = 0; axis < how.dimensions; ++axis)
+          centre[axis] = edges[axis] * uniform(random);
+      } while (placed.meets(centre, axes.maxCoeff()));
+      placed.add(centre, axes.maxCoeff());
+      particles.add(centre, uniform_rotation(random, how.dimensions), axes, batches[k].density,
+                    static_cast<std::int32_t>(k));
+    }
   }
   return particles;
 }

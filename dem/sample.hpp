@@ -19,21 +19,35 @@ struct Batch {
   std::size_t count;
 };
 
-/// How they are put on a simple cubic lattice.
-struct LatticePlacement {
+enum class Arrangement { lattice, random };
+
+/// How they are put into the cell.
+struct Placement {
   std::optional<Vec3> cell_size;  ///< edges; without: the smallest cube that holds all
-  double jitter;                  ///< each coordinate moves by up to this, length
+  double jitter;                  ///< lattice: each coordinate moves by up to this, length
   std::uint64_t seed;
+  Arrangement arrangement = Arrangement::lattice;
+  /// random, without a cell_size: the share of the cell that the bounding spheres fill.
+  double bounding_fraction = 0.25;
+  int dimensions = 3;  ///< 2: in the plane, on a square lattice, by bounding circles
 };
 
-/// A cell with too few sites, or too many: what() says how many.
+/// A cell without room, or with too many sites: what() says how much room there is.
 class DoesNotFit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Is there a lattice for them? @throws DoesNotFit, as place_on_lattice() would
-void check_room(const std::vector<Batch>& batches, const LatticePlacement& how);
+/// The largest share of a cell that bounding spheres may fill where they are placed at random.
+/// Chosen: some way below 0.38 and 0.547, where random sequential placement of equal ones finds no
+/// more room [Widom1966, Feder1980].
+constexpr double largest_bounding_fraction(int dimensions) { return dimensions == 2 ? 0.45 : 0.3; }
+
+/// Is there room for them? @throws DoesNotFit, as place() would but for bad luck in random()
+void check_room(const std::vector<Batch>& batches, const Placement& how);
+
+/// place_on_lattice() or place_at_random().
+Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
 /// Puts the particles at rest on the sites of a simple cubic lattice, the kinds shuffled and
 /// surplus sites left empty at random, positions jittered and axes turned by rotations drawn
@@ -43,14 +57,19 @@ void check_room(const std::vector<Batch>& batches, const LatticePlacement& how);
 ///     twice the jitter.
 /// (2) The same seed gives the same sample on every machine.
 /// @throws DoesNotFit
-Particles place_on_lattice(const std::vector<Batch>& batches, const LatticePlacement& how,
-                           Cell& cell);
+Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
+
+/// Puts the particles at rest at random: the largest first, each at the first place drawn where its
+/// bounding sphere meets none of those before it nor an image of its own, axes turned by rotations
+/// drawn uniformly. (1) and (2) hold.
+/// @throws DoesNotFit
+Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
 /// Uniform on [0, 1), from the 53 high bits: unlike std::uniform_real_distribution the same
 /// everywhere.
 double uniform(std::mt19937_64& random);
 
-/// A rotation drawn uniformly [Shoemake1992].
-Eigen::Quaterniond uniform_rotation(std::mt19937_64& random);
+/// A rotation drawn uniformly [Shoemake1992]; in the plane one about z.
+Eigen::Quaterniond uniform_rotation(std::mt19937_64& random, int dimensions = 3);
 
 }  // namespace tangency::dem

@@ -18,6 +18,9 @@ namespace {
 /// The tables of a scene.
 constexpr std::string_view sections = "cell particles contact stage output";
 
+/// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
+constexpr double largest_growth_of_an_increment = 0.01;
+
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
 constexpr double largest_strain_of_a_step = 0.1;
 
@@ -127,6 +130,12 @@ class Section {
     source_.fail(node.source(), label(name) + " = " + text_of(node) + ": " + allowed);
   }
 
+  /// The same for a number that may be the key's default: then at the table's line.
+  void refuse(std::string_view name, std::int64_t value, const std::string& allowed) const {
+    if (has(name)) fail(name, allowed);
+    source_.fail(table_.source(), label(name) + " = " + std::to_string(value) + ": " + allowed);
+  }
+
   bool has(std::string_view name) const { return find(name) != nullptr; }
 
   double real(std::string_view name) const {
@@ -144,6 +153,7 @@ class Section {
     const toml::node* node = find(name);
     return node ? node->ref<std::string>() : std::string(otherwise);
   }
+  std::string text(std::string_view name) const { return text(name, fallback(name)); }
   std::optional<Vec3> optional_real3(std::string_view name) const {
     const toml::array* array = table_.get_as<toml::array>(name);
     if (!array) return std::nullopt;
@@ -232,6 +242,15 @@ class Reader {
   void read_cell() {
     const Section cell(source_, table("cell"), "cell", "cell");
     scene_.cell_size = cell.optional_real3("size");
+    scene_.dimensions = static_cast<int>(cell.integer("dimensions"));
+    if (scene_.dimensions == 2 && scene_.cell_size && (*scene_.cell_size)[2] != 1.0)
+      cell.fail("size", "with dimensions = 2 the third edge is the unit thickness, 1");
+  }
+
+  /// In the plane there is nothing to be flat.
+  void check_flatness(const Section& section) const {
+    if (scene_.dimensions == 2 && section.has("flatness") && section.real("flatness") != 1.0)
+      section.fail("flatness", "with dimensions = 2 it is 1");
   }
 
   void read_particles() {
@@ -242,6 +261,7 @@ class Reader {
         source_.fail(name.source(), path + ": a name of letters, digits and underscores");
       if (!node.is_table()) source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
       const Section type(source_, *node.as_table(), path, "particles");
+      check_flatness(type);
       scene_.particle_types.push_back(
           {std::string(name.str()),
            {{type.real("mean_radius"), type.real("elongation"), type.real("flatness")},
@@ -341,27 +361,55 @@ class Reader {
                                             (first ? "the first stage must be of kind place"
                                                    : "only the first stage may be of kind place"));
     const Section section(source_, stage, path, "stage", kind);
-    Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}});
-    if (kind == "place")
-      added.place = read_place(section, path, stage);
-    else
-      added.compress = read_compress(section, kind);
-    if (added.compress) check_step(section, *added.compress);
+    Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}, {}});
+    if (kind == "place") {
+      added.place = read_place(section);
+      check_placement(path, stage);
+      return;
+    }
+    added.compress = read_compress(section, kind);
+    check_step(section, *added.compress);
+    if (kind == "grow") added.growth = read_growth(section);
   }
 
-  Place read_place(const Section& section, const std::string& path,
-                   const toml::table& stage) const {
-    const Place place{static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter")};
+  Place read_place(const Section& section) const {
+    const Place place{
+        section.text("arrangement") == "random" ? Arrangement::random : Arrangement::lattice,
+        static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter"),
+        section.real("bounding_fraction")};
+    const double most = largest_bounding_fraction(scene_.dimensions);
+    if (place.bounding_fraction > most)
+      section.fail("bounding_fraction",
+                   "a finite number > 0 and <= " + short_text(most) +
+                       " with dimensions = " + std::to_string(scene_.dimensions));
+    return place;
+  }
+
+  void check_placement(const std::string& path, const toml::table& stage) const {
     try {
-      const LatticePlacement how{scene_.cell_size, place.jitter * scene_.smallest_mean_radius(),
-                                 place.seed};
-      check_room(scene_.batches(), how);
+      check_room(scene_.batches(), scene_.placement());
     } catch (const DoesNotFit& error) {
       const toml::node* size = root_["cell"]["size"].node();
       if (size) source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
       source_.fail(stage.source(), path + ": " + error.what());
     }
-    return place;
+  }
+
+  Growth read_growth(const Section& section) const {
+    check_flatness(section);
+    Growth growth{section.real("elongation"), section.optional_real("flatness"),
+                  section.integer("increments"), section.real("max_inertial_fraction")};
+    double change = 0.0;
+    for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
+      change =
+          std::max(change, growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
+                                                 scene_.dimensions));
+    if (change > largest_growth_of_an_increment)
+      section.refuse("increments", growth.increments,
+                     "more: an increment would change a semi-axis by " + short_text(change) +
+                         " of itself, and at most " + short_text(largest_growth_of_an_increment) +
+                         " is allowed");
+    return growth;
   }
 
   static Compress read_compress(const Section& section, const std::string& kind) {
@@ -369,7 +417,8 @@ class Reader {
         {section.real("mean_stress"), section.real("servo_gain"), section.real("max_strain_rate")},
         section.real("damping"),
         section.real("time_step_factor"),
-        section.optional_real("friction_coefficient"),
+        kind == "grow" ? std::optional(section.real("friction_coefficient"))
+                       : section.optional_real("friction_coefficient"),
         section.real("stress_tolerance"),
         kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
         section.integer("max_cycles")};
@@ -383,7 +432,9 @@ class Reader {
                        ": a step that damps more would turn velocities round");
     double lightest = std::numeric_limits<double>::infinity();
     for (const Batch& batch : scene_.batches())
-      lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes()));
+      lightest = std::min(
+          lightest,
+          batch.density * volume_of(batch.shape.semi_axes(scene_.dimensions), scene_.dimensions));
     const double largest =
         largest_strain_of_a_step /
         (stage.time_step_factor * std::sqrt(lightest / scene_.laws.largest_stiffness()));
@@ -417,6 +468,24 @@ double Scene::smallest_mean_radius() const {
   for (const ParticleType& type : particle_types)
     smallest = std::min(smallest, type.batch.shape.mean_radius);
   return smallest;
+}
+
+Placement Scene::placement() const {
+  const Place& place = stages.front().place.value();
+  return {cell_size,
+          place.jitter * smallest_mean_radius(),
+          place.seed,
+          place.arrangement,
+          place.bounding_fraction,
+          dimensions};
+}
+
+Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const {
+  Shape shape = particle_types[type].batch.shape;
+  for (std::size_t k = 0; k < stages.size() && k <= stage; ++k)
+    if (const auto& growth = stages[k].growth)
+      shape = growth->shape_after(shape, k < stage ? growth->increments : increments);
+  return shape;
 }
 
 Scene parse_scene(const std::string& text, const std::string& name) {

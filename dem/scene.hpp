@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <tangency/dem/contacts.hpp>
+#include <tangency/dem/growth.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/sample.hpp>
 #include <vector>
@@ -28,12 +29,14 @@ struct ParticleType {
 
 /// Puts the particles into the cell.
 struct Place {
+  Arrangement arrangement;
   std::uint64_t seed;
-  double jitter;  ///< in mean radii of the smallest type
+  double jitter;             ///< in mean radii of the smallest type
+  double bounding_fraction;  ///< of a random arrangement without a cell size
 };
 
-/// Strains the cell isotropically until the mean stress is reached and, if so asked, until the
-/// particles are in equilibrium.
+/// How a stage moves: strains the cell isotropically until the mean stress is reached and, if so
+/// asked, until the particles are in equilibrium.
 struct Compress {
   PressureServo servo;
   double damping;           ///< in 1 / characteristic_time()
@@ -44,11 +47,13 @@ struct Compress {
   std::int64_t max_cycles;
 };
 
-/// One of the two is set: the stage's kind.
+/// Either places or moves; one that moves may also grow the particles, and then ends when they are
+/// grown, relaxed to its max_inertial_fraction and at the mean stress.
 struct Stage {
   std::string name;
   std::optional<Place> place;
   std::optional<Compress> compress;
+  std::optional<Growth> growth;  ///< set besides compress
 };
 
 struct OutputIntervals {
@@ -56,6 +61,7 @@ struct OutputIntervals {
 };
 
 struct Scene {
+  int dimensions = 3;
   std::optional<Vec3> cell_size;
   std::vector<ParticleType> particle_types;
   ContactLaws laws;
@@ -65,6 +71,10 @@ struct Scene {
   std::vector<Batch> batches() const;
   std::size_t particle_count() const;
   double smallest_mean_radius() const;
+  Placement placement() const;
+  /// The shape of a type in stage number `stage` after so many increments of it; in a stage that
+  /// does not grow these do not matter.
+  Shape shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const;
 };
 
 /// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema

@@ -20,6 +20,7 @@ constexpr Range above_to(double low, double high) { return {low, high, false, tr
 /// Chosen: 32-bit indices hold them, and a run of more needs another program.
 constexpr double most_particles = 1e6;
 constexpr double most_cycles = 1e12;
+constexpr double most_increments = 1e6;
 /// What has a unit. Chosen: no laboratory comes near these bounds, and within them masses, moments
 /// of inertia, sqrt(m/K) and its inverse are normal doubles, at most 1e200 and at least 1e-200.
 constexpr Range positive = between(1e-30, 1e30);
@@ -31,21 +32,23 @@ constexpr Range axis_ratio = between(1.0, 1e4);
 /// friction angle silently falls from 44 to 33 degrees.
 constexpr double largest_time_step_factor = 0.3;
 
-constexpr std::string_view kinds = "place compress relax";
-constexpr std::string_view moving = "compress relax";
+constexpr std::string_view kinds = "place compress grow relax";
+constexpr std::string_view moving = "compress grow relax";
 
 constexpr std::array table{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
 
-    Key{"cell", "size", real3, "m", "(smallest cubic lattice)", positive, "", "",
+    Key{"cell", "size", real3, "m", "(as the placing needs)", positive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
+    Key{"cell", "dimensions", integer, "-", "3", between(2, 3), "", "",
+        "2: elliptic disks of unit thickness in the plane z = 0; a size then has 1 along z"},
 
     Key{"particles", "count", integer, "-", "", between(1, most_particles), "", "",
         "Number of particles of this type"},
     Key{"particles", "mean_radius", real, "m", "", positive, "", "",
-        "Geometric mean of the semi-axes a >= b >= c"},
+        "Geometric mean of the semi-axes a >= b >= c, in the plane of a and b"},
     Key{"particles", "elongation", real, "-", "1.0", axis_ratio, "", "", "a / b"},
-    Key{"particles", "flatness", real, "-", "1.0", axis_ratio, "", "", "b / c"},
+    Key{"particles", "flatness", real, "-", "1.0", axis_ratio, "", "", "b / c; 1 in the plane"},
     Key{"particles", "density", real, "kg/m^3", "1000.0", positive, "", "",
         "Mass over volume; scales time, and nothing else in slow motion"},
 
@@ -61,12 +64,24 @@ constexpr std::array table{
     Key{"stage", "kind", text, "-", "", any, kinds, kinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", any, "", kinds,
         "Name in the column stage of history.csv"},
+    Key{"stage", "arrangement", text, "-", "lattice", any, "lattice random", "place",
+        "A simple cubic (in the plane square) lattice, or drawn places that do not overlap"},
     Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
         "Start of the random numbers"},
     Key{"stage", "jitter", real, "mean_radius", "1e-3", between(0.0, 1.0), "", "place",
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
+    Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
+        "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
     Key{"stage", "mean_stress", real, "Pa", "", positive, "", moving,
-        "Mean stress to reach (compress) or to hold (relax)"},
+        "Mean stress to reach (compress) or to hold (grow, relax)"},
+    Key{"stage", "elongation", real, "-", "", axis_ratio, "", "grow",
+        "a / b at the end, of all types; mean radii and masses stay"},
+    Key{"stage", "flatness", real, "-", "(as it is)", axis_ratio, "", "grow",
+        "b / c at the end, of all types; 1 in the plane"},
+    Key{"stage", "increments", integer, "-", "200", between(1, most_increments), "", "grow",
+        "Steps in which elongation and flatness change; one changes a semi-axis by at most 0.01"},
+    Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
+        "Increments wait for the inertial fraction to be at most this, and so does the end"},
     Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", moving,
         "Bound on the size of the isotropic linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", moving,
@@ -76,7 +91,9 @@ constexpr std::array table{
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",
-        moving, "Used for all contacts during this stage"},
+        "compress relax", "Used for all contacts during this stage"},
+    Key{"stage", "friction_coefficient", real, "-", "0.0", not_negative, "", "grow",
+        "Used for all contacts during this stage"},
     Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", moving,
         "The stage ends with the mean stress this close to the wanted, relatively"},
     Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax",

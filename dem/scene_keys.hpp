@@ -33,8 +33,8 @@ struct Key {
   std::string_view name;
   KeyType type;
   std::string_view unit;  ///< "-" for none
-  /// "" for a key that must be given; a value as written in TOML; or, in parentheses, what holds
-  /// without one.
+  /// "" for a key that must be given; a value as written in TOML, a text without quotes; or, in
+  /// parentheses, what holds without one.
   std::string_view fallback;
   Range range;
   std::string_view choices;  ///< of a text, separated by blanks; "" for any name
@@ -50,7 +50,7 @@ std::span<const Key> scene_keys();
 /// Is `word` one of the blank-separated words?
 bool is_among(std::string_view word, std::string_view words);
 
-/// "an integer from 1 to 1000000", "a number > 0 (m)", "one of place, compress, relax".
+/// "an integer from 1 to 1000000", "a number > 0 (m)", "one of place, compress, grow, relax".
 std::string allowed_values(const Key& key);
 
 /// Every key with type, unit, default, range and meaning, section by section.

@@ -22,6 +22,7 @@ struct State {
   std::size_t stage = 0;  ///< the current one; the number of stages when all are done
   std::int64_t stage_cycle = 0;
   double servo_integral = 0.0;
+  std::int64_t increments = 0;  ///< of growth, made in the current stage
 };
 
 enum class StageStatus {
@@ -33,6 +34,7 @@ enum class StageStatus {
 class Simulation {
  public:
   /// Places the particles: the scene's first stage.
+  /// @throws DoesNotFit  where random placement has bad luck
   explicit Simulation(const Scene& scene);
 
   /// Continues from a saved state.
@@ -65,6 +67,9 @@ class Simulation {
 
  private:
   void prepare_stage();
+  bool is_relaxed() const;
+  bool is_grown() const;
+  void grow();
   void renew_list();
 
   Scene scene_;

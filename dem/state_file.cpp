@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
 constexpr std::string_view magic = "TANGSTAT";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 class Writer {
  public:
@@ -124,11 +124,13 @@ void pass_plain(Archive& archive, S& state) {
   pass_particles(archive, state.particles);
   for (auto* v : {&state.cell.length, &state.cell.rate, &state.cell.reference_length})
     pass(archive, *v);
+  archive(state.cell.dimensions);
   archive(state.cycle);
   archive(state.time);
   archive(state.stage);
   archive(state.stage_cycle);
   archive(state.servo_integral);
+  archive(state.increments);
 }
 
 template <class Archive, class R>
@@ -166,9 +168,8 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
 bool is_positive(const Vec3& v) { return v.minCoeff() > 0.0; }
 
 bool lengths_are_positive(const State& state, const NeighbourList::Reference& reference) {
-  const auto& [length, rate, reference_length] = state.cell;
   const std::vector<Vec3>& axes = state.particles.semi_axes;
-  return is_positive(length) && is_positive(reference_length) &&
+  return is_positive(state.cell.length) && is_positive(state.cell.reference_length) &&
          is_positive(reference.cell_length) && reference.skin > 0.0 &&
          reference.largest_radius > 0.0 && std::all_of(axes.begin(), axes.end(), is_positive);
 }
@@ -188,6 +189,9 @@ State state_of(std::string_view bytes) {
   const std::vector<double>& mass = state.particles.mass;
   if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
     throw Damaged{"it holds a mass that is not > 0"};
+  if (state.cell.dimensions != 2 && state.cell.dimensions != 3)
+    throw Damaged{"its dimensions are neither 2 nor 3"};
+  state.particles.dimensions = state.cell.dimensions;
   if (state.stage == 0) throw Damaged{"its stage is 0, and a run's are counted from 1"};
   state.list.restore(std::move(reference), std::move(pairs));
   state.contacts.restore(std::move(records), state.particles, state.list);

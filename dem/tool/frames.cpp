@@ -82,8 +82,9 @@ std::string xyz_of(const Simulation& simulation) {
   const Particles& p = state.particles;
   const Vec3& l = state.cell.length;
   std::string text = to_text(p.size()) + "\nLattice=\"" + to_text(l[0]) + " 0 0 0 " +
-                     to_text(l[1]) + " 0 0 0 " + to_text(l[2]) +
-                     "\" pbc=\"T T T\" Properties=species:S:1:pos:R:3:orientation:R:4:"
+                     to_text(l[1]) + " 0 0 0 " + to_text(l[2]) + "\" pbc=\"T T " +
+                     (state.cell.dimensions == 2 ? "F" : "T") +
+                     "\" Properties=species:S:1:pos:R:3:orientation:R:4:"
                      "aspherical_shape:R:3:velo:R:3 cycle=" +
                      to_text(state.cycle) + " Time=" + to_text(state.time) + "\n";
   for (std::size_t i = 0; i < p.size(); ++i)

@@ -38,7 +38,7 @@ logarithmic and count from the start of the stage:
   cycle                 from 0
   time                  s
   stage                 its name
-  axial_strain          along z
+  axial_strain          along z; with dimensions = 2 along y
   volumetric_strain     dilation is positive
   mean_stress           Pa
   s_xx s_yy s_zz s_xy s_yz s_zx

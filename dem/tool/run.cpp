@@ -184,7 +184,11 @@ class Run {
 
 Simulation simulation_of(const RunOptions& options) {
   const Scene scene = load_scene(options.scene);
-  if (!options.resume) return Simulation(scene);
+  try {
+    if (!options.resume) return Simulation(scene);
+  } catch (const DoesNotFit& error) {
+    throw SceneError(options.scene.string() + ": " + error.what());
+  }
   State state = load_state(*options.resume);
   try {
     return Simulation(scene, std::move(state));

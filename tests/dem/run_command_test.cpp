@@ -68,6 +68,13 @@ TEST(RunCommand, RefusesAMissingKey) {
             ":3: particles.grain.mean_radius is missing: a finite number from 1e-30 to 1e+30 (m)");
 }
 
+TEST(RunCommand, RefusesABadKeyOfThePlaneAndOfGrowth) {
+  EXPECT_EQ(refused_change("[cell]", "[cell]\ndimensions = 4"),
+            ":3: cell.dimensions = 4: an integer from 2 to 3");
+  EXPECT_EQ(refused_change("kind = \"compress\"", "kind = \"grow\"\nelongation = 0.5"),
+            ":14: stage[1].elongation = 0.5: a finite number from 1 to 10000");
+}
+
 TEST(RunCommand, RefusesWhatIsNoToml) {
   EXPECT_EQ(refused_change("[cell]", "[cell").find(":2: not TOML: "), 0u);
 }

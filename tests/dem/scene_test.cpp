@@ -96,7 +96,7 @@ TEST(Scene, AWrongTypeIsNamed) {
             "scene.toml:3: cell.size = [ 1.0, 2.0 ]: 3 finite numbers from 1e-30 to 1e+30 (m)");
   EXPECT_EQ(refusal_with("[cell]", "cell = 3"), "scene.toml:2: cell = 3: a table");
   EXPECT_EQ(refusal_with("\"compress\"", "7"),
-            "scene.toml:13: stage[1].kind = 7: one of place, compress, relax");
+            "scene.toml:13: stage[1].kind = 7: one of place, compress, grow, relax");
 }
 
 TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
@@ -108,7 +108,7 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
-            "kind, name, seed, jitter");
+            "kind, name, arrangement, seed, jitter, bounding_fraction");
   EXPECT_EQ(refusal_with("[contact]", "[contact.grain-stone]"),
             "scene.toml:7: contact.grain-stone: NAME-NAME of two of the scene's particle types");
 }
@@ -118,7 +118,7 @@ TEST(Scene, AMissingKeyIsNamedWithItsTable) {
             "scene.toml:3: particles.grain.count is missing: an integer from 1 to 1000000");
   EXPECT_EQ(refusal_with("schema = 1\n", ""), "scene.toml:1: schema is missing: an integer 1");
   EXPECT_EQ(refusal_with("kind = \"place\"\n", ""),
-            "scene.toml:10: stage[0].kind is missing: one of place, compress, relax");
+            "scene.toml:10: stage[0].kind is missing: one of place, compress, grow, relax");
 }
 
 TEST(Scene, AMissingSectionIsNamed) {
@@ -190,11 +190,68 @@ TEST(Scene, ADampingThatTurnsVelocitiesRoundIsRefused) {
 
 TEST(Scene, AStageOfAnotherKindOrOutOfPlaceIsRefused) {
   EXPECT_EQ(refusal_with("\"compress\"", "\"melt\""),
-            "scene.toml:13: stage[1].kind = 'melt': one of place, compress, relax");
+            "scene.toml:13: stage[1].kind = 'melt': one of place, compress, grow, relax");
   EXPECT_EQ(refusal_with("\"compress\"", "\"place\""),
             "scene.toml:13: stage[1].kind = 'place': only the first stage may be of kind place");
   EXPECT_EQ(refusal_with("kind = \"place\"\n[[stage]]\n", ""),
             "scene.toml:11: stage[0].kind = 'compress': the first stage must be of kind place");
+}
+
+TEST(Scene, OfThePlaneHasNeitherFlatnessNorAThirdEdge) {
+  const std::string plane = with(small_scene(), "[cell]", "[cell]\ndimensions = 2");
+  EXPECT_EQ(refusal(plane), "");
+  EXPECT_EQ(parse_scene(plane, "scene.toml").dimensions, 2);
+  EXPECT_EQ(refusal_with("[cell]", "[cell]\ndimensions = 4"),
+            "scene.toml:3: cell.dimensions = 4: an integer from 2 to 3");
+  EXPECT_EQ(
+      refusal(with(plane, "dimensions = 2", "dimensions = 2\nsize = [900, 900, 900]")),
+      "scene.toml:4: cell.size = [ 900, 900, 900 ]: with dimensions = 2 the third edge is the "
+      "unit thickness, 1");
+  EXPECT_EQ(refusal(with(plane, "dimensions = 2", "dimensions = 2\nsize = [90, 90, 1]")),
+            "scene.toml:4: cell.size = [ 90, 90, 1 ]: a square lattice in it has 9 sites, fewer "
+            "than the 27 particles");
+  EXPECT_EQ(refusal(with(plane, "elongation = 1.4", "flatness = 1.1")),
+            "scene.toml:7: particles.grain.flatness = 1.1: with dimensions = 2 it is 1");
+}
+
+TEST(Scene, WithoutRoomForARandomPlacementIsRefused) {
+  const std::string place = "kind = \"place\"\narrangement = \"random\"";
+  const std::string random = with(small_scene(), "kind = \"place\"", place);
+  EXPECT_EQ(refusal(random), "");
+  EXPECT_EQ(refusal(with(random, "\"random\"", "\"random\"\nbounding_fraction = 0.4")),
+            "scene.toml:13: stage[0].bounding_fraction = 0.4: a finite number > 0 and <= 0.3 with "
+            "dimensions = 3");
+  EXPECT_EQ(refusal(with(random, "[cell]", "[cell]\nsize = [80, 80, 80]"))
+                .find("scene.toml:3: cell.size = [ 80, 80, 80 ]: bounding spheres would fill 0."),
+            0u);
+  EXPECT_EQ(
+      refusal(with(random, "[cell]", "[cell]\nsize = [800, 800, 20]"))
+          .find("scene.toml:3: cell.size = [ 800, 800, 20 ]: an edge of it is shorter than the "
+                "largest particle, 2"),
+      0u);
+  EXPECT_EQ(refusal(with(random, "random", "heap")),
+            "scene.toml:12: stage[0].arrangement = 'heap': one of lattice, random");
+}
+
+TEST(Scene, ThatGrowsNeedsAShapeAndIncrementsThatAreSmall) {
+  const auto growing = [](const std::string& keys) {
+    return refusal_with("kind = \"compress\"\n", "kind = \"grow\"\n" + keys);
+  };
+  EXPECT_EQ(growing("elongation = 1.5\n"), "");
+  EXPECT_EQ(growing(""),
+            "scene.toml:12: stage[1].elongation is missing: a finite number from 1 to 10000");
+  EXPECT_EQ(growing("elongation = 0.7\n"),
+            "scene.toml:14: stage[1].elongation = 0.7: a finite number from 1 to 10000");
+  EXPECT_EQ(
+      growing("elongation = 1.5\nincrements = 2\n"),
+      "scene.toml:15: stage[1].increments = 2: more: an increment would change a semi-axis by "
+      "0.0237 of itself, and at most 0.01 is allowed");
+  EXPECT_EQ(growing("elongation = 9000.0\n").find("scene.toml:12: stage[1].increments = 200: more"),
+            0u)
+      << growing("elongation = 9000.0\n");
+  EXPECT_EQ(refusal_with("kind = \"compress\"", "kind = \"compress\"\nelongation = 1.5")
+                .find("scene.toml:14: stage[1].elongation: no such key in a stage of this kind"),
+            0u);
 }
 
 TEST(Scene, ThatDoesNotFitItsCellIsRefused) {
@@ -210,13 +267,15 @@ TEST(Scene, ThatIsNoTomlIsRefusedWithItsLine) {
 }
 
 TEST(Scene, PassesItsOwnTableOfKeys) {
-  for (const char* name : {"assembly-27", "assembly-125", "assembly-1000"})
+  for (const char* name : {"assembly-27", "assembly-125", "assembly-1000", "plane-1000"})
     EXPECT_NO_THROW(load_scene(std::string(TANGENCY_SCENES) + "/" + name + ".toml")) << name;
 }
 
 TEST(SceneKeys, ThatHaveADefaultHaveOneThatTheyAllow) {
   for (const Key& key : scene_keys())
-    if (key.has_default()) {
+    if (key.has_default() && key.type == KeyType::text) {
+      EXPECT_TRUE(is_among(key.fallback, key.choices)) << key.name;
+    } else if (key.has_default()) {
       EXPECT_TRUE(key.range.holds(std::stod(std::string(key.fallback)))) << key.name;
     }
 }

@@ -62,9 +62,9 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
   save_state(half_way().state(), folder.path("a.state"));
   const std::string bytes = read_whole(folder.path("a.state")).value();
   std::string changed = bytes;
-  changed[8] = 2;
+  changed[8] = 3;
   EXPECT_EQ(failure(folder.write("v.state", changed)),
-            folder.path("v.state") + ": state of version 2: this program reads version 1");
+            folder.path("v.state") + ": state of version 3: this program reads version 2");
   changed = bytes;
   changed[bytes.size() / 2] ^= 1;
   EXPECT_EQ(failure(folder.write("d.state", changed)),
