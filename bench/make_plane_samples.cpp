@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes tests/data/plane_samples again, byte for byte on a machine with the same libm:
+//     make_plane_samples dem/scenes/plane-1000.toml tests/data/plane_samples
+// Runs the scene, and where a stage ends whose name starts with "depth" writes DIR/STAGE.csv, a row
+// an ellipse: centre x, y wrapped into the cell, semi-axes a >= b, direction ux, uy of the first.
+// DIR/samples.csv has a row a sample: the periodic cell's edges, and what to expect of it.
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <string>
+#include <tangency/dem/files.hpp>
+#include <tangency/dem/simulation.hpp>
+
+namespace {
+
+using namespace tangency;
+
+const std::string head =
+    "# SPDX-License-Identifier: GPL-3.0-or-later\n"
+    "# Made by: make_plane_samples dem/scenes/plane-1000.toml tests/data/plane_samples\n";
+
+/// Reads back to the same double, the shortest.
+std::string text_of(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string bodies(const dem::State& state) {
+  std::string text = head + "x,y,a,b,ux,uy\n";
+  const dem::Particles& p = state.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec3 x = p.position[i] - state.cell.translation(state.cell.image_of(p.position[i]));
+    const Eigen::Quaterniond& q = p.orientation[i];
+    text += text_of(x[0]) + "," + text_of(x[1]) + "," + text_of(p.semi_axes[i][0]) + "," +
+            text_of(p.semi_axes[i][1]) + "," + text_of(q.w() * q.w() - q.z() * q.z()) + "," +
+            text_of(2.0 * q.w() * q.z()) + "\n";
+  }
+  return text;
+}
+
+/// Depth over the mean radius.
+std::string index_row(const dem::Simulation& simulation) {
+  const dem::State& state = simulation.state();
+  const dem::Observation seen = simulation.observe();
+  const double radius = simulation.scene().smallest_mean_radius();
+  return simulation.stage().name + "," + text_of(state.cell.length[0]) + "," +
+         text_of(state.cell.length[1]) + "," + std::to_string(seen.contacts) + "," +
+         text_of(seen.mean_overlap / radius) + "\n";
+}
+
+int make(const std::string& scene, const std::string& directory) {
+  dem::Simulation simulation(dem::load_scene(scene));
+  std::string index = head + "sample,cell_x,cell_y,contacts,mean_depth\n";
+  while (!simulation.finished()) {
+    const dem::StageStatus status = simulation.status();
+    const std::string& name = simulation.stage().name;
+    if (status == dem::StageStatus::out_of_cycles) {
+      std::cerr << "make_plane_samples: stage " << name << " did not end\n";
+      return 1;
+    }
+    if (status == dem::StageStatus::running) {
+      simulation.step();
+      continue;
+    }
+    if (name.starts_with("depth")) {
+      dem::write_whole(directory + "/" + name + ".csv", bodies(simulation.state()));
+      index += index_row(simulation);
+    }
+    simulation.next_stage();
+  }
+  dem::write_whole(directory + "/samples.csv", index);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: make_plane_samples SCENE.toml DIR\n";
+    return 2;
+  }
+  try {
+    return make(argv[1], argv[2]);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}
