@@ -3,16 +3,19 @@
 /// Overlap against displacement for four kinds of contact and three motions, as computed by
 /// follow_gap, as expected, and by other contact schemes. Writes CSV to standard output, one row a
 /// displacement:
-///   contact, motion, displacement, overlap, expected, published, status, trace
+///   contact, motion, displacement, overlap, expected, published, status, trace, chord
 /// Lengths in short semi-axes, angles in radians; a negative overlap is a distance.
 /// `expected` and `published`: families/displacement.hpp. `trace`: trace_contact's depth, empty
-/// where that has no answer. docs/profiles.md shows the curves.
+/// where that has no answer; `chord`: that of the plane scheme on the sections by the common plane
+/// of symmetry, empty where there is none (skew). docs/profiles.md shows the curves.
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <tangency/bench/families/displacement.hpp>
+#include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <vector>
@@ -35,7 +38,37 @@ std::optional<double> by_trace(const Ellipsoid& a, const Ellipsoid& b) {
   return -contact.gap;
 }
 
-constexpr std::array<Scheme, 1> schemes{{{"trace", by_trace}}};
+/// The section of a body by the plane through its centre along e1 and e2, two of its own axes but
+/// for sign and order; nothing where they are not.
+std::optional<Ellipse> section(const Ellipsoid& body, const Vec3& e1, const Vec3& e2) {
+  constexpr double parallel = 1e-12;  // rad: rounding of the stored axes, generously
+  const Vec3 across = e1.cross(e2);
+  for (int k = 0; k < 3; ++k) {
+    if (body.rotation().col(k).cross(across).norm() > parallel) continue;
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Vec3 first = body.rotation().col(i), &centre = body.centre();
+    return Ellipse({centre.dot(e1), centre.dot(e2)}, {body.semi_axes()[i], body.semi_axes()[j]},
+                   {first.dot(e1), first.dot(e2)});
+  }
+  return std::nullopt;
+}
+
+/// The chord of the sections by the plane of symmetry that both bodies share, if there is one.
+std::optional<double> by_chord(const Ellipsoid& a, const Ellipsoid& b) {
+  const Vec3 d = b.centre() - a.centre();
+  for (int k = 0; k < 3; ++k) {
+    const auto axes = a.rotation();
+    if (std::abs(axes.col(k).dot(d)) > 1e-12 * d.norm()) continue;
+    const Vec3 e1 = axes.col((k + 1) % 3), e2 = axes.col((k + 2) % 3);
+    const std::optional<Ellipse> in_a = section(a, e1, e2), in_b = section(b, e1, e2);
+    if (!in_a || !in_b) continue;
+    const ChordContact contact = chord_contact(*in_a, *in_b);
+    return contact.status == ChordStatus::ok ? std::optional(contact.depth) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+constexpr std::array<Scheme, 2> schemes{{{"trace", by_trace}, {"chord", by_chord}}};
 
 constexpr double short_over_long = 0.7;  // the thesis' spheroids
 constexpr double initial_overlap = 0.02;

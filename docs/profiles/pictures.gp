@@ -55,7 +55,7 @@ plot NaN with lines linewidth 1.6 dashtype (6,4) linecolor rgb grey title 'publi
 unset multiplot
 set output
 
-# What the trace scheme gives too much.
+# What the trace scheme and the chord give too much.
 reset
 set encoding utf8
 set minussign
@@ -71,17 +71,23 @@ do for [m = 1:3] {
   if (m == 3) { set xrange [-19:19]; set xtics 9; set yrange [-0.45:0.05] }
   set ytics autofreq
   set title word(motions, m) font ',17' offset 0,-0.4
-  if (m == 1) { set ylabel "trace − common normal,\n% of the overlap" offset -0.5,0 } \
+  if (m == 1) { set ylabel "scheme − common normal,\n% of the overlap" offset -0.5,0 } \
   else { unset ylabel }
   set xlabel label[m] offset 0,0.4
   plot for [c = 1:4] 'profile-'.word(motions, m).'-'.word(contacts, c).'.csv' \
     using (across[m] * column('displacement')): \
       (column('overlap') > 1e-4 ? 100 * (column('trace') / column('overlap') - 1) : NaN) \
-    with lines linewidth 2.2 linecolor rgb colours[c]
+    with lines linewidth 2.2 linecolor rgb colours[c], \
+  for [c = 1:3] 'profile-'.word(motions, m).'-'.word(contacts, c).'.csv' \
+    using (across[m] * column('displacement')): \
+      (column('overlap') > 1e-4 ? 100 * (column('chord') / column('overlap') - 1) : NaN) \
+    with lines linewidth 2.2 dashtype (6,4) linecolor rgb colours[c]
 }
 @legend
 set size 1,0.12
-plot for [c = 1:4] NaN with lines linewidth 2.2 linecolor rgb colours[c] title word(contacts, c)
+plot for [c = 1:4] NaN with lines linewidth 2.2 linecolor rgb colours[c] \
+       title 'trace, '.word(contacts, c), \
+     NaN with lines linewidth 2.2 dashtype (6,4) linecolor rgb '#222222' title 'chord, alike'
 unset multiplot
 set output
 
