@@ -6,17 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/bench/nearest_rank.hpp>
+
 namespace tangency::peers {
-namespace {
 
-/// The least value that at least the share of all values do not exceed. Requires sorted values.
-double nearest_rank(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::max<std::size_t>(rank, 1) - 1];
-}
-
-}  // namespace
+using bench::nearest_rank;
 
 Score score(std::span<const std::optional<PeerContact>> answers, std::span<const Truth> truth) {
   assert(answers.size() == truth.size());

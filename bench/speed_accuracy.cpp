@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Speed against accuracy: every method, option and number of steps on families of pairs whose
+// truth the 100-digit oracle knows. Answers are checked before anything is timed; where a method
+// that promises no wrong answer has one, the program names the pair and ends with status 1.
+// docs/speed-accuracy.md says how it was run and what came out.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <tangency/bench/level.hpp>
+#include <tangency/bench/speed_accuracy/ahead.hpp>
+#include <tangency/bench/speed_accuracy/count.hpp>
+#include <tangency/bench/speed_accuracy/methods.hpp>
+#include <tangency/bench/speed_accuracy/picture.hpp>
+#include <tangency/bench/speed_accuracy/report.hpp>
+#include <tangency/bench/speed_accuracy/timing.hpp>
+#include <tangency/geometry/tool/output_file.hpp>
+
+namespace {
+
+using namespace tangency::speed_accuracy;
+using tangency::BodyArray;
+using tangency::bench::force_level;
+
+// Callgrind is some fifty times slower: instructions are those of four blocks of the batch.
+constexpr std::size_t kCounted = 256;
+
+struct Options {
+  std::vector<std::string> families;
+  bool quick = false, count = false;
+  bool counted = false;  ///< this is the run under valgrind
+  std::string csv, json, ahead, markdown, picture;
+
+  std::size_t pairs() const { return quick ? 100 : 1000; }
+  Effort effort() const { return quick ? Effort{3, 1e-4, 0.01} : Effort{25, 1e-3, 0.5}; }
+};
+
+void say(const std::string& what) {
+  static const auto start = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+  std::fprintf(stderr, "%6.1f s  %s\n", since.count(), what.c_str());
+}
+
+/// A family with all that is asked about it.
+struct Subject {
+  std::unique_ptr<Pairs> pairs;
+  std::vector<Truth> truth;
+  std::vector<Method> methods;
+};
+
+void print_pair(const Pairs& pairs, std::size_t i) {
+  for (const auto* e : {&pairs.raw[2 * i], &pairs.raw[2 * i + 1]}) {
+    for (const double x : e->centre) std::fprintf(stderr, "%a,", x);
+    for (const double x : e->semi_axes) std::fprintf(stderr, "%a,", x);
+    for (const double x : e->orientation) std::fprintf(stderr, "%a,", x);
+  }
+  std::fprintf(stderr, "\n");
+}
+
+Row row_of(const Pairs& pairs, const Method& method) {
+  Row row;
+  row.family = pairs.name;
+  row.method = method.name;
+  row.option = method.option;
+  row.steps = method.steps;
+  row.level = level_name(method.level);
+  row.definition = to_string(method.definition);
+  return row;
+}
+
+/// Asks every method. False where one breaks its promise.
+bool check(Subject& subject, std::vector<Row>& rows) {
+  bool right = true;
+  for (const Method& method : subject.methods) {
+    Row row = row_of(*subject.pairs, method);
+    force_level(method.level);
+    method.run();
+    row.score = score(method.answers(), subject.truth);
+    force_level(0);
+    if (method.promises && row.score.wrong > 0) {
+      std::fprintf(stderr, "%s: %zu wrong answers, the first for pair %zu: ", row.key().c_str(),
+                   row.score.wrong, *row.score.first_wrong);
+      print_pair(*subject.pairs, *row.score.first_wrong);
+      right = false;
+    }
+    rows.push_back(row);
+  }
+  return right;
+}
+
+std::vector<Subject> make_subjects(const Options& options) {
+  const auto levels = tangency::bench::best_levels();
+  std::vector<Subject> subjects;
+  for (const std::string& family : options.families) {
+    Subject subject;
+    subject.pairs =
+        draw_pairs(family, options.counted ? std::min(options.pairs(), kCounted) : options.pairs());
+    subject.methods = methods_on(*subject.pairs, levels);
+    subjects.push_back(std::move(subject));
+  }
+  return subjects;
+}
+
+/// The run under valgrind.
+int count_all(const Options& options) {
+  for (const Subject& subject : make_subjects(options)) {
+    say("counting " + subject.pairs->name);
+    for (const Method& method : subject.methods) {
+      force_level(method.level);
+      count_row(row_of(*subject.pairs, method).key(), method.run);
+      force_level(0);
+    }
+  }
+  return 0;
+}
+
+void add_instructions(const Options& options, std::vector<Row>& rows) {
+  std::vector<std::string> arguments = {"--counted"};
+  if (options.quick) arguments.push_back("--quick");
+  for (const std::string& family : options.families)
+    arguments.insert(arguments.end(), {"--families", family});
+  const auto counts = count_by_valgrind(arguments);
+  const auto pairs = static_cast<double>(std::min(options.pairs(), kCounted));
+  for (Row& row : rows) {
+    const auto found = counts.find(row.key());
+    if (found != counts.end()) row.instructions = found->second / pairs;
+  }
+}
+
+void time_all(const Options& options, const std::vector<Subject>& subjects,
+              std::vector<Row>& rows) {
+  auto row = rows.begin();
+  double inverse = std::numeric_limits<double>::infinity();
+  for (const Subject& subject : subjects) {
+    say("timing " + subject.pairs->name);
+    std::vector<Job> jobs = {inverse_job()};
+    for (const Method& method : subject.methods)
+      jobs.push_back({method.run, subject.pairs->size(), method.level});
+    time_by_turns(jobs, options.effort());
+    inverse = std::min(inverse, jobs[0].least);
+    for (std::size_t i = 1; i < jobs.size(); ++i) (row++)->ns = jobs[i].least;
+  }
+  for (Row& r : rows) r.inverse = inverse;
+}
+
+/// The yes/no question ahead of the contact. False where an answer is wrong.
+bool run_ahead(const Options& options, std::vector<AheadRow>& rows) {
+  const auto levels = tangency::bench::best_levels();
+  for (const char* family : {"class1", "class2"}) {
+    for (const int touching : touching_shares()) {
+      say(std::string("yes or no first, ") + family + ", " + std::to_string(touching) +
+          " % touching");
+      const ListedPairs pairs = listed_pairs(family, touching, options.pairs());
+      const BodyArray array(pairs.bodies);
+      std::vector<Job> jobs;
+      const std::vector<Ahead> ways = ways_to_contacts(pairs, array, levels);
+      for (const Ahead& way : ways) {
+        force_level(way.level);
+        way.all();
+        way.asked();
+        force_level(0);
+        if (!way.right()) {
+          std::fprintf(stderr, "%s, %s: wrong contacts: no timing\n", way.method.c_str(), family);
+          return false;
+        }
+        jobs.push_back({way.all, pairs.list.size(), way.level});
+        jobs.push_back({way.asked, pairs.list.size(), way.level});
+      }
+      time_by_turns(jobs, options.effort());
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        rows.push_back({family, ways[i].method, level_name(ways[i].level), touching,
+                        jobs[2 * i].least, jobs[2 * i + 1].least});
+      }
+    }
+  }
+  return true;
+}
+
+void write(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  tangency::csv::OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+int run(const Options& options) {
+  std::vector<Subject> subjects = make_subjects(options);
+  std::vector<Row> rows;
+  bool right = true;
+  for (Subject& subject : subjects) {
+    say("truth of " + subject.pairs->name);
+    for (std::size_t i = 0; i < subject.pairs->size(); ++i)
+      subject.truth.push_back(truth_of(*subject.pairs, i));
+    right = check(subject, rows) && right;
+  }
+  if (!right) return 1;
+  std::vector<AheadRow> ahead;
+  time_all(options, subjects, rows);
+  if (!run_ahead(options, ahead)) return 1;
+  if (options.count) add_instructions(options, rows);
+  write(options.csv, to_csv(rows));
+  write(options.json, to_json(rows));
+  write(options.ahead, to_csv(ahead));
+  write(options.markdown, to_markdown(rows, ahead));
+  write(options.picture, options.picture.empty() ? "" : draw(rows));
+  const bool silent = options.csv.empty() && options.json.empty() && options.markdown.empty();
+  if (silent) std::fputs(to_markdown(rows, ahead).c_str(), stdout);
+  say("done");
+  return 0;
+}
+
+/// Those whose name contains one of the texts.
+std::vector<std::string> chosen_families(const std::vector<std::string>& texts) {
+  std::vector<std::string> chosen = family_names();
+  if (texts.empty()) return chosen;
+  std::erase_if(chosen, [&](const std::string& name) {
+    return std::none_of(texts.begin(), texts.end(), [&](const std::string& text) {
+      return name.find(text) != std::string::npos;
+    });
+  });
+  return chosen;
+}
+
+std::string footer() {
+  std::string text = "Families:\n";
+  for (const std::string& name : family_names()) text += "  " + name + "\n";
+  return text + "Columns of CSV and JSON:\n" + describe_columns();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  std::vector<std::string> texts;
+  CLI::App app{"Error against time of every way to the gap of two ellipsoids"};
+  app.add_option("--families", texts, "families whose name contains one of these; else all");
+  app.add_flag("--quick", options.quick,
+               "100 pairs a family and a few rounds: seconds, no figures");
+  app.add_flag("--count", options.count, "count instructions, by valgrind");
+  app.add_flag("--counted", options.counted)->group("");
+  app.add_option("--csv", options.csv, "write the table here");
+  app.add_option("--json", options.json, "the same as an array of objects");
+  app.add_option("--ahead", options.ahead, "CSV of the yes/no question ahead of the contact");
+  app.add_option("--markdown", options.markdown, "short tables; to standard output by default");
+  app.add_option("--picture", options.picture, "SVG of error against time, drawn by gnuplot");
+  app.footer(footer());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int status = app.exit(e);
+    return status == 0 ? 0 : 2;
+  }
+  options.families = chosen_families(texts);
+  if (options.families.empty()) {
+    std::fprintf(stderr, "--families: no family has such a name; --help lists them\n");
+    return 2;
+  }
+  if (options.count && !can_count()) {
+    std::fprintf(stderr, "--count: not built with <valgrind/callgrind.h>\n");
+    return 2;
+  }
+  try {
+    return options.counted ? count_all(options) : run(options);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  }
+}

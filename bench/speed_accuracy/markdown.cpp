@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/bench/speed_accuracy/report.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace tangency::speed_accuracy {
+namespace {
+
+// The family whose every named option is shown.
+constexpr std::string_view kShown = "class2";
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::string largest(const std::optional<Errors>& errors) {
+  return errors ? format("%.1e", errors->largest) : "";
+}
+
+const Row* find(const std::vector<Row>& rows, const Row& like, const std::string& level) {
+  const auto same = [&](const Row& row) {
+    return row.family == like.family && row.method == like.method && row.option == like.option &&
+           row.steps == like.steps && row.level == level;
+  };
+  const auto found = std::find_if(rows.begin(), rows.end(), same);
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// Levels of the batch calls, the best first.
+std::vector<std::string> levels_of(const std::vector<Row>& rows) {
+  std::vector<std::string> levels;
+  for (const Row& row : rows) {
+    if (row.level != "single" && std::find(levels.begin(), levels.end(), row.level) == levels.end())
+      levels.push_back(row.level);
+  }
+  return levels;
+}
+
+std::string name_of(const Row& row) {
+  std::string name = "`" + row.method + "`";
+  if (!row.option.empty()) name += ", " + row.option;
+  if (row.steps) name += format(", %d steps", *row.steps);
+  return name;
+}
+
+std::string times(const Row& row) { return format("%.1f (%.1f)", row.ns, row.ns / row.inverse); }
+
+std::string options_table(const std::vector<Row>& rows) {
+  const std::vector<std::string> levels = levels_of(rows);
+  std::string text = "| call | gap: median | largest | proven | normal, rad | point | single |";
+  std::string rule = "\n|---|---:|---:|---:|---:|---:|---:|";
+  for (const std::string& level : levels) text += " " + level + " |", rule += "---:|";
+  text += rule + "\n";
+  for (const Row& row : rows) {
+    const bool first = row.level == "single" || row.level == levels.front();
+    if (row.family != kShown || !first) continue;
+    const Score& s = row.score;
+    text += "| " + name_of(row) + " | " + (s.gap ? format("%.1e", s.gap->median) : "") + " | " +
+            largest(s.gap) + " | " + (s.gap_error ? format("%.1e", *s.gap_error) : "") + " | " +
+            largest(s.normal) + " | " + largest(s.point) + " | " +
+            (row.level == "single" ? times(row) : "") + " |";
+    for (const std::string& level : levels) {
+      const Row* there = row.level == "single" ? nullptr : find(rows, row, level);
+      text += " " + (there ? times(*there) : "") + " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string families_table(const std::vector<Row>& rows) {
+  const std::vector<std::string> levels = levels_of(rows);
+  std::string text =
+      "| family | `overlaps` | `signed_gap` | largest error | local | `signed_gaps` fast, " +
+      (levels.empty() ? std::string() : levels.front()) + " | largest error | proven |\n" +
+      "|---|---:|---:|---:|---:|---:|---:|---:|\n";
+  for (const Row& row : rows) {
+    if (row.method != "signed_gap") continue;
+    Row like = row;
+    like.method = "overlaps";
+    const Row* yes_or_no = find(rows, like, "single");
+    like.method = "signed_gaps", like.option = "fast";
+    const Row* fast = levels.empty() ? nullptr : find(rows, like, levels.front());
+    text += "| " + row.family + " | " + (yes_or_no ? format("%.0f", yes_or_no->ns) : "") + " | " +
+            format("%.0f", row.ns) + " | " + largest(row.score.gap) + " | " +
+            format("%zu", row.score.local) + " | " + (fast ? format("%.0f", fast->ns) : "") +
+            " | " + (fast ? largest(fast->score.gap) : "") + " | " +
+            (fast && fast->score.gap_error ? format("%.1e", *fast->score.gap_error) : "") + " |\n";
+  }
+  return text;
+}
+
+bool same_way(const AheadRow& a, const AheadRow& b) {
+  return a.family == b.family && a.method == b.method && a.level == b.level;
+}
+
+std::string ahead_table(const std::vector<AheadRow>& rows) {
+  std::string text = "| contact by | family |", rule = "\n|---|---|";
+  for (const AheadRow& row : rows) {
+    if (same_way(row, rows.front())) text += format(" %d %% |", row.touching), rule += "---:|";
+  }
+  text += rule;
+  for (const AheadRow& row : rows) {
+    const auto first = std::find_if(rows.begin(), rows.end(),
+                                    [&](const AheadRow& other) { return same_way(row, other); });
+    if (&*first != &row) continue;
+    text += "\n| `" + row.method + "`, " + row.level + " | " + row.family + " |";
+    for (const AheadRow& other : rows) {
+      if (same_way(row, other)) text += format(" %.2f |", other.ns_ahead / other.ns_all);
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string to_markdown(const std::vector<Row>& rows, const std::vector<AheadRow>& ahead) {
+  if (rows.empty()) return {};
+  std::string text = format(
+      "### Calls and options, %s\n\nErrors in the smallest semi-axis of the pair; ns a pair, in "
+      "brackets over those of Eigen's 3x3 inverse (%.2f ns). Of %zu pairs.\n\n",
+      std::string(kShown).c_str(), rows.front().inverse, rows.front().score.pairs);
+  text += options_table(rows) + "\n### Families\n\nns a pair.\n\n" + families_table(rows);
+  if (!ahead.empty()) {
+    text +=
+        "\n### Yes or no first\n\nTime of `overlaps` for all listed pairs and the contact of those "
+        "that overlap, over that of the contact for all pairs, by the share of pairs that "
+        "touch.\n\n" +
+        ahead_table(ahead);
+  }
+  return text;
+}
+
+}  // namespace tangency::speed_accuracy

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/bench/speed_accuracy/methods.hpp>
+
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include <tangency/geometry/methods/gap_lanes.hpp>
+#include <tangency/geometry/methods/perram_wertheim.hpp>
+#include <tangency/geometry/other_gaps.hpp>
+
+namespace tangency::speed_accuracy {
+namespace {
+
+using methods::LaneBlock;
+
+// What calls answer, as an Answer. Another method that answers one pair at a time needs a function
+// here, unless its answer is one of these, and a line in add_singles().
+
+Answer to_answer(const Gap& gap) {
+  const bool ok = gap.status == GapStatus::ok;
+  return {ok ? Standing::proven : Standing::local,
+          std::nullopt,
+          gap.gap,
+          gap.gap_error,
+          gap.normal,
+          gap.arm_a,
+          gap.arm_b};
+}
+
+Answer to_answer(const OtherGap& gap) {
+  if (gap.status != OtherGapStatus::ok) return {};
+  return {Standing::estimate, std::nullopt, gap.gap, 0, gap.normal, gap.arm_a, gap.arm_b};
+}
+
+Answer to_answer(const OverlapAnswer& answer) {
+  Answer a;
+  a.standing = Standing::proven;
+  a.overlaps = answer.overlaps;
+  return a;
+}
+
+Answer to_answer(const Answer& answer) { return answer; }
+
+/// The gap at the Perram-Wertheim normal after some steps: where the searches start, and never
+/// above the signed gap. No answer for bodies that its polynomials do not fit.
+Answer start_alone(const Ellipsoid& a, const Ellipsoid& b, int steps) {
+  if (!a.moderate() || !b.moderate()) return {};
+  const Vec3 d = b.centre() - a.centre();
+  const methods::PerramWertheimForm form(a, b, d);
+  const Vec3 n = form.normal_direction(form.maximise(steps)).stableNormalized();
+  const Vec3 arm_a = a.support_point(n), arm_b = -b.support_point(n);
+  return {Standing::estimate, std::nullopt, n.dot(d - arm_a + arm_b), 0, n, arm_a, arm_b};
+}
+
+/// Adds call(i) for every pair.
+template <class Call>
+Method& add_single(std::vector<Method>& all, const Pairs& pairs, const char* name,
+                   const char* option, const Call& call) {
+  using Result = std::invoke_result_t<Call, std::size_t>;
+  const auto results = std::make_shared<std::vector<Result>>(pairs.size());
+  Method method{name, option, {}, 0, {}, false, {}, {}};
+  method.run = [call, results] {
+    for (std::size_t i = 0; i < results->size(); ++i) (*results)[i] = call(i);
+  };
+  method.answers = [results] {
+    std::vector<Answer> answers;
+    for (const Result& result : *results) answers.push_back(to_answer(result));
+    return answers;
+  };
+  all.push_back(std::move(method));
+  return all.back();
+}
+
+void add_singles(std::vector<Method>& all, const Pairs& pairs) {
+  const Pairs& p = pairs;
+  add_single(all, p, "signed_gap", "", [&p](std::size_t i) {
+    return signed_gap(p.a(i), p.b(i));
+  }).promises = true;
+  add_single(all, p, "follow_gap", "", [&p](std::size_t i) {
+    return follow_gap(p.a(i), p.b(i), p.b(i).centre(), p.previous_normal[i]);
+  }).promises = true;
+  add_single(all, p, "overlaps", "", [&p](std::size_t i) {
+    return overlap_answer(p.a(i), p.b(i));
+  }).promises = true;
+  add_single(all, p, "perram_wertheim_gap", "", [&p](std::size_t i) {
+    return perram_wertheim_gap(p.a(i), p.b(i));
+  }).definition = Definition::perram_wertheim;
+  add_single(all, p, "midpoint_potential_gap", "", [&p](std::size_t i) {
+    return midpoint_potential_gap(p.a(i), p.b(i));
+  }).definition = Definition::midpoint_potential;
+  for (int steps = 1; steps <= 6; ++steps) {
+    add_single(all, p, "start alone", "", [&p, steps](std::size_t i) {
+      return start_alone(p.a(i), p.b(i), steps);
+    }).steps = steps;
+  }
+}
+
+/// Answers of a batch by columns, with room for whole blocks.
+struct Columns {
+  std::size_t count;
+  std::vector<double> gap, gap_error;
+  std::vector<Vec3> normal, arm_a, arm_b;
+  std::vector<GapStatus> status;
+  std::vector<std::uint64_t> settled;  ///< bits by block, of the lanes alone
+
+  explicit Columns(std::size_t pairs)
+      : count(pairs),
+        gap(padded()),
+        gap_error(padded()),
+        normal(padded()),
+        arm_a(padded()),
+        arm_b(padded()),
+        status(padded()),
+        settled(padded() / LaneBlock::kPairs, ~std::uint64_t{0}) {}
+
+  std::size_t padded() const {
+    return (count + LaneBlock::kPairs - 1) / LaneBlock::kPairs * LaneBlock::kPairs;
+  }
+  /// The columns that bench_batch times, too.
+  GapColumns usual() {
+    return {std::span(gap).first(count),
+            std::span(gap_error).first(count),
+            std::span(normal).first(count),
+            {},
+            {},
+            std::span(status).first(count)};
+  }
+  GapColumns arms() {
+    return {{}, {}, {}, std::span(arm_a).first(count), std::span(arm_b).first(count), {}};
+  }
+  std::vector<Answer> answers() const {
+    std::vector<Answer> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool answered = (settled[i / LaneBlock::kPairs] >> i % LaneBlock::kPairs & 1) != 0;
+      const Gap gap_i{gap[i],       normal[i], arm_a[i],     arm_b[i],
+                      gap_error[i], status[i], GapTier::fast};
+      all.push_back(answered ? to_answer(gap_i) : Answer{});
+    }
+    return all;
+  }
+};
+
+struct NamedAccuracy {
+  const char* name;
+  Accuracy accuracy;
+};
+
+/// The tolerances in lengths are parts of the smallest semi-axis of the family.
+std::vector<NamedAccuracy> accuracies(double least) {
+  return {{"fast", Accuracy::fast()},
+          {"standard", Accuracy::standard()},
+          {"certified", Accuracy::certified()},
+          {"within 1e-3", Accuracy::within(1e-3 * least)},
+          {"within 1e-6", Accuracy::within(1e-6 * least)},
+          {"within 1e-9", Accuracy::within(1e-9 * least)}};
+}
+
+void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy& named,
+               bool following, std::int64_t level) {
+  const Pairs& p = pairs;
+  const auto columns = std::make_shared<Columns>(p.size());
+  const auto call = [&p, following, accuracy = named.accuracy](const GapColumns& to) {
+    if (following)
+      follow_gaps(*p.array, {p.list, {}}, p.previous_normal, to, accuracy);
+    else
+      signed_gaps(*p.array, {p.list, {}}, to, accuracy);
+  };
+  Method method{following ? "follow_gaps" : "signed_gaps", named.name, {}, level, {}, true, {}, {}};
+  method.run = [columns, call] { call(columns->usual()); };
+  method.answers = [columns, call] {
+    call(columns->arms());  // of the same answers: they depend on the pair alone
+    return columns->answers();
+  };
+  all.push_back(std::move(method));
+}
+
+/// What gap_lanes() settles after so many steps of Newton's method, then more where the sign or
+/// that the answer is global is not proven by then: however wide the error. Pairs that the lanes
+/// leave to the single call have no answer.
+void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool following,
+               std::int64_t level) {
+  struct Padded {
+    std::vector<IndexedPair> list;
+    std::vector<Vec3> normals;
+  };
+  const auto columns = std::make_shared<Columns>(pairs.size());
+  const auto in = std::make_shared<Padded>(Padded{pairs.list, pairs.previous_normal});
+  in->list.resize(columns->padded(), pairs.list.front());
+  in->normals.resize(columns->padded(), pairs.previous_normal.front());
+  const auto solve = [&pairs, columns, in, steps, following](bool arms) {
+    Columns& c = *columns;
+    for (std::size_t first = 0; first < c.count; first += LaneBlock::kPairs) {
+      LaneBlock block{};
+      block.bodies_a = block.bodies_b = pairs.array->lanes();
+      block.pairs = &in->list[first];
+      block.count = static_cast<int>(std::min<std::size_t>(LaneBlock::kPairs, c.count - first));
+      block.normals = following ? in->normals[first].data() : nullptr;
+      block.centres_are_exact = true;
+      block.tolerance = std::numeric_limits<double>::infinity();
+      block.first_steps = steps;
+      block.gap = &c.gap[first];
+      block.gap_error = &c.gap_error[first];
+      block.normal = c.normal[first].data();
+      if (arms) block.arm_a = c.arm_a[first].data(), block.arm_b = c.arm_b[first].data();
+      c.settled[first / LaneBlock::kPairs] = methods::gap_lanes(block);
+    }
+  };
+  Method method{"gap_lanes", following ? "following" : "cold", steps, level, {}, true, {}, {}};
+  method.run = [solve] { solve(false); };
+  method.answers = [solve, columns] {
+    solve(true);
+    return columns->answers();
+  };
+  all.push_back(std::move(method));
+}
+
+void add_batch_overlaps(std::vector<Method>& all, const Pairs& pairs, std::int64_t level) {
+  const std::size_t count = pairs.size();
+  const std::shared_ptr<bool[]> meet(new bool[count]);
+  Method method{"overlaps", "", {}, level, {}, true, {}, {}};
+  method.run = [&pairs, meet, count] {
+    overlaps(*pairs.array, {pairs.list, {}}, std::span(meet.get(), count));
+  };
+  method.answers = [meet, count] {
+    std::vector<Answer> answers;
+    for (std::size_t i = 0; i < count; ++i)
+      answers.push_back(to_answer(OverlapAnswer{meet.get()[i], Tier::filter}));
+    return answers;
+  };
+  all.push_back(std::move(method));
+}
+
+}  // namespace
+
+std::string_view to_string(Definition definition) {
+  switch (definition) {
+    case Definition::common_normal:
+      return "common normal";
+    case Definition::perram_wertheim:
+      return "perram-wertheim";
+    case Definition::midpoint_potential:
+      return "midpoint potential";
+  }
+  return "";
+}
+
+std::string level_name(std::int64_t level) {
+  return level == 0 ? "single" : hwy::TargetName(level);
+}
+
+std::vector<Method> methods_on(const Pairs& pairs, std::span<const std::int64_t> levels) {
+  std::vector<Method> all;
+  add_singles(all, pairs);
+  for (const std::int64_t level : levels) {
+    for (const bool following : {false, true}) {
+      for (const NamedAccuracy& named : accuracies(pairs.least))
+        add_batch(all, pairs, named, following, level);
+      for (int steps = 0; steps <= 4; ++steps) add_lanes(all, pairs, steps, following, level);
+    }
+    add_batch_overlaps(all, pairs, level);
+  }
+  return all;
+}
+
+}  // namespace tangency::speed_accuracy
