@@ -5,9 +5,13 @@
 // docs/speed-accuracy.md says how it was run and what came out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <limits>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <tangency/bench/level.hpp>
@@ -30,12 +34,14 @@ constexpr std::size_t kCounted = 256;
 
 struct Options {
   std::vector<std::string> families;
+  std::size_t pairs = 1000;  ///< of a family
+  int rounds = 25;
   bool quick = false, count = false;
   bool counted = false;  ///< this is the run under valgrind
   std::string csv, json, ahead, markdown, picture;
 
-  std::size_t pairs() const { return quick ? 100 : 1000; }
-  Effort effort() const { return quick ? Effort{3, 1e-4, 0.01} : Effort{25, 1e-3, 0.5}; }
+  std::size_t counted_pairs() const { return std::min(pairs, kCounted); }
+  Effort effort() const { return quick ? Effort{3, 1e-4, 0.01} : Effort{rounds, 1e-3, 0.5}; }
 };
 
 void say(const std::string& what) {
@@ -71,6 +77,20 @@ Row row_of(const Pairs& pairs, const Method& method) {
   return row;
 }
 
+/// The oracle's answers, by as many threads as there are processors.
+std::vector<Truth> truth_of_all(const Pairs& pairs) {
+  std::vector<Truth> truth(pairs.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < pairs.size(); i = next++) truth[i] = truth_of(pairs, i);
+  };
+  std::vector<std::jthread> pool;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) pool.emplace_back(work);
+  work();
+  pool.clear();  // waits for all
+  return truth;
+}
+
 /// Asks every method. False where one breaks its promise.
 bool check(Subject& subject, std::vector<Row>& rows) {
   bool right = true;
@@ -96,8 +116,7 @@ std::vector<Subject> make_subjects(const Options& options) {
   std::vector<Subject> subjects;
   for (const std::string& family : options.families) {
     Subject subject;
-    subject.pairs =
-        draw_pairs(family, options.counted ? std::min(options.pairs(), kCounted) : options.pairs());
+    subject.pairs = draw_pairs(family, options.counted ? options.counted_pairs() : options.pairs);
     subject.methods = methods_on(*subject.pairs, levels);
     subjects.push_back(std::move(subject));
   }
@@ -118,12 +137,11 @@ int count_all(const Options& options) {
 }
 
 void add_instructions(const Options& options, std::vector<Row>& rows) {
-  std::vector<std::string> arguments = {"--counted"};
-  if (options.quick) arguments.push_back("--quick");
+  std::vector<std::string> arguments = {"--counted", "--pairs", std::to_string(options.pairs)};
   for (const std::string& family : options.families)
     arguments.insert(arguments.end(), {"--families", family});
   const auto counts = count_by_valgrind(arguments);
-  const auto pairs = static_cast<double>(std::min(options.pairs(), kCounted));
+  const auto pairs = static_cast<double>(options.counted_pairs());
   for (Row& row : rows) {
     const auto found = counts.find(row.key());
     if (found != counts.end()) row.instructions = found->second / pairs;
@@ -153,7 +171,7 @@ bool run_ahead(const Options& options, std::vector<AheadRow>& rows) {
     for (const int touching : touching_shares()) {
       say(std::string("yes or no first, ") + family + ", " + std::to_string(touching) +
           " % touching");
-      const ListedPairs pairs = listed_pairs(family, touching, options.pairs());
+      const ListedPairs pairs = listed_pairs(family, touching, options.pairs);
       const BodyArray array(pairs.bodies);
       std::vector<Job> jobs;
       const std::vector<Ahead> ways = ways_to_contacts(pairs, array, levels);
@@ -192,8 +210,7 @@ int run(const Options& options) {
   bool right = true;
   for (Subject& subject : subjects) {
     say("truth of " + subject.pairs->name);
-    for (std::size_t i = 0; i < subject.pairs->size(); ++i)
-      subject.truth.push_back(truth_of(*subject.pairs, i));
+    subject.truth = truth_of_all(*subject.pairs);
     right = check(subject, rows) && right;
   }
   if (!right) return 1;
@@ -253,6 +270,7 @@ int main(int argc, char** argv) {
     const int status = app.exit(e);
     return status == 0 ? 0 : 2;
   }
+  if (options.quick) options.pairs = 40;
   options.families = chosen_families(texts);
   if (options.families.empty()) {
     std::fprintf(stderr, "--families: no family has such a name; --help lists them\n");
