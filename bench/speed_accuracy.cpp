@@ -254,8 +254,13 @@ int main(int argc, char** argv) {
   std::vector<std::string> texts;
   CLI::App app{"Error against time of every way to the gap of two ellipsoids"};
   app.add_option("--families", texts, "families whose name contains one of these; else all");
-  app.add_flag("--quick", options.quick,
-               "100 pairs a family and a few rounds: seconds, no figures");
+  app.add_option("--pairs", options.pairs, "of each family")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}))
+      ->capture_default_str();
+  app.add_option("--rounds", options.rounds, "in each of which everything is timed once")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--quick", options.quick, "40 pairs of each, a few short rounds: a try, no figures");
   app.add_flag("--count", options.count, "count instructions, by valgrind");
   app.add_flag("--counted", options.counted)->group("");
   app.add_option("--csv", options.csv, "write the table here");
