@@ -13,11 +13,6 @@ namespace tangency::speed_accuracy {
 /// Was <valgrind/callgrind.h> there when this was built?
 bool can_count();
 
-/// In the second run: run() once with the counter on, under the name `row`. Some instructions of
-/// the call itself are counted, too.
-template <class Run>
-void count_row(const std::string& row, const Run& run);
-
 /// In the first run: instructions of every count_row() of the second, which is this program with
 /// `arguments`.
 /// @throws std::runtime_error  valgrind cannot be started, or the second run failed
@@ -26,6 +21,8 @@ std::map<std::string, double> count_by_valgrind(const std::vector<std::string>& 
 void start_counting();
 void stop_counting(const std::string& row);
 
+/// In the second run: run() with the counter on, under the name `row`. A few instructions of the
+/// call itself are counted, too.
 template <class Run>
 void count_row(const std::string& row, const Run& run) {
   run();  // what is only done once is not counted

@@ -2,8 +2,8 @@
 #include <tangency/bench/speed_accuracy/report.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+
+#include <tangency/bench/speed_accuracy/format.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
@@ -11,13 +11,6 @@ namespace {
 // The family whose options are shown, and of limited steps those up to where nothing improves.
 constexpr std::string_view kShown = "class2";
 constexpr int kShownSteps = 3;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::string largest(const std::optional<Errors>& errors) {
   return errors ? format("%.1e", errors->largest) : "";
@@ -30,16 +23,6 @@ const Row* find(const std::vector<Row>& rows, const Row& like, const std::string
   };
   const auto found = std::find_if(rows.begin(), rows.end(), same);
   return found == rows.end() ? nullptr : &*found;
-}
-
-/// Levels of the batch calls, the best first.
-std::vector<std::string> levels_of(const std::vector<Row>& rows) {
-  std::vector<std::string> levels;
-  for (const Row& row : rows) {
-    if (row.level != "single" && std::find(levels.begin(), levels.end(), row.level) == levels.end())
-      levels.push_back(row.level);
-  }
-  return levels;
 }
 
 std::string name_of(const Row& row) {

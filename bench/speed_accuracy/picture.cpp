@@ -147,16 +147,6 @@ struct Panel {
   }
 };
 
-/// Levels of the batch calls, the best first.
-std::vector<std::string> levels_of(const std::vector<Row>& rows) {
-  std::vector<std::string> levels;
-  for (const Row& row : rows) {
-    if (row.level != "single" && std::find(levels.begin(), levels.end(), row.level) == levels.end())
-      levels.push_back(row.level);
-  }
-  return levels;
-}
-
 std::string panel_of(const std::vector<Row>& rows, std::string_view family,
                      std::string_view title) {
   Panel panel;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/bench/speed_accuracy/report.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include <tangency/bench/speed_accuracy/format.hpp>
 #include <tangency/geometry/tool/csv.hpp>
 
 namespace tangency::speed_accuracy {
@@ -83,6 +86,9 @@ const std::vector<Column>& columns() {
   return all;
 }
 
+/// To four digits: more are noise.
+double rounded(double value) { return std::strtod(format("%.3e", value).c_str(), nullptr); }
+
 /// JSON has no infinity, and readers of CSV expect none.
 std::string infinite_as_text(double value) { return std::isnan(value) ? "nan" : "inf"; }
 
@@ -91,7 +97,7 @@ void write(const Cell& cell, csv::RowText& to) {
   if (const auto* s = std::get_if<std::string>(&cell)) return to.text(*s);
   if (const auto* n = std::get_if<std::uint64_t>(&cell)) return to.integer(*n);
   const double value = std::get<double>(cell);
-  std::isfinite(value) ? to.number(value) : to.text(infinite_as_text(value));
+  std::isfinite(value) ? to.number(rounded(value)) : to.text(infinite_as_text(value));
 }
 
 nlohmann::ordered_json json_of(const Cell& cell) {
@@ -100,7 +106,7 @@ nlohmann::ordered_json json_of(const Cell& cell) {
   if (const auto* n = std::get_if<std::uint64_t>(&cell)) return *n;
   const double value = std::get<double>(cell);
   if (!std::isfinite(value)) return infinite_as_text(value);
-  return value;
+  return rounded(value);
 }
 
 constexpr std::string_view kLicence = "# SPDX-License-Identifier: MIT\n";
@@ -110,6 +116,15 @@ constexpr std::string_view kLicence = "# SPDX-License-Identifier: MIT\n";
 std::string Row::key() const {
   return family + "|" + method + "|" + option + "|" + (steps ? std::to_string(*steps) : "") + "|" +
          level;
+}
+
+std::vector<std::string> levels_of(const std::vector<Row>& rows) {
+  std::vector<std::string> levels;
+  for (const Row& row : rows) {
+    if (row.level != "single" && std::find(levels.begin(), levels.end(), row.level) == levels.end())
+      levels.push_back(row.level);
+  }
+  return levels;
 }
 
 std::string describe_columns() {
@@ -131,13 +146,13 @@ std::string to_csv(const std::vector<Row>& rows) {
 }
 
 std::string to_json(const std::vector<Row>& rows) {
-  auto all = nlohmann::ordered_json::array();
+  std::string all;
   for (const Row& row : rows) {
     nlohmann::ordered_json object;
     for (const Column& column : columns()) object[column.name] = json_of(column.of(row));
-    all.push_back(std::move(object));
+    all += (all.empty() ? "" : ",\n") + object.dump();
   }
-  return all.dump(1) + "\n";
+  return "[\n" + all + "\n]\n";
 }
 
 std::string to_csv(const std::vector<AheadRow>& rows) {
@@ -150,9 +165,9 @@ std::string to_csv(const std::vector<AheadRow>& rows) {
     table.text(row.method);
     table.text(row.level);
     table.integer(static_cast<std::uint64_t>(row.touching));
-    table.number(row.ns_all);
-    table.number(row.ns_ahead);
-    table.number(row.ns_ahead / row.ns_all);
+    table.number(rounded(row.ns_all));
+    table.number(rounded(row.ns_ahead));
+    table.number(rounded(row.ns_ahead / row.ns_all));
     table.end_row();
   }
   return std::string(kLicence) + std::string(table.view());

@@ -27,6 +27,9 @@ struct Row {
   std::string key() const;
 };
 
+/// Levels of the batch calls in these rows, in order: the best first.
+std::vector<std::string> levels_of(const std::vector<Row>& rows);
+
 /// Contacts of the touching pairs of a list: one share, one way to call.
 struct AheadRow {
   std::string family, method, level;
