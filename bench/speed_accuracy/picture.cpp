@@ -35,10 +35,10 @@ struct Series {
 };
 
 constexpr Series kSeries[] = {
-    {"gap_lanes", "cold", "#7fa8d9", true, "left offset 0.6,0.5"},
+    {"gap_lanes", "cold", "#7fa8d9", true, "left offset 0.8,0"},
     {"gap_lanes", "following", "#8cc7a1", true, "right offset -0.6,-0.5"},
     {"signed_gaps", "", "#1f4e8c", false, "left offset 0.6,0.6", "left offset -0.5,-0.8"},
-    {"follow_gaps", "", "#2e7d4f", false, "right offset -0.6,0.6", "right offset 0.5,-0.8"},
+    {"follow_gaps", "", "#2e7d4f", false, "right offset -0.6,0.6", "right offset 0.5,-1.6"},
     {"signed_gap", "", "#111111", false, "center offset 0,0.9"},
     {"follow_gap", "", "#8a6d00", false, "center offset 0,-0.9"},
     {"start alone", "", "#d9730d", true, "left offset 0.6,0.5"},
@@ -160,7 +160,7 @@ std::string panel_of(const std::vector<Row>& rows, std::string_view family,
   }
   if (panel.plots.empty()) return {};
   std::ostringstream range;
-  range << "set yrange [" << panel.least / 30 << ":" << panel.largest * 10 << "]\n";
+  range << "set yrange [" << panel.least / 300 << ":" << panel.largest * 10 << "]\n";
   std::string text =
       panel.data.str() + range.str() + "set title '" + std::string(title) + "'\nplot ";
   for (std::size_t i = 0; i < panel.plots.size(); ++i)
