@@ -12,6 +12,7 @@
 #include <tangency/geometry/methods/gap_lanes.hpp>
 #include <tangency/geometry/methods/perram_wertheim.hpp>
 #include <tangency/geometry/other_gaps.hpp>
+#include <tangency/geometry/trace_contact.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
@@ -35,6 +36,13 @@ Answer to_answer(const Gap& gap) {
 Answer to_answer(const OtherGap& gap) {
   if (gap.status != OtherGapStatus::ok) return {};
   return {Standing::estimate, std::nullopt, gap.gap, 0, gap.normal, gap.arm_a, gap.arm_b};
+}
+
+/// `ok` or no answer: the scheme has nothing to say of pairs that do not overlap.
+Answer to_answer(const TraceContact& contact) {
+  if (contact.status != TraceStatus::ok) return {};
+  return {Standing::estimate, std::nullopt,  contact.gap,  0,
+          contact.normal,     contact.arm_a, contact.arm_b};
 }
 
 Answer to_answer(const OverlapAnswer& answer) {
@@ -93,6 +101,9 @@ void add_singles(std::vector<Method>& all, const Pairs& pairs) {
   add_single(all, p, "midpoint_potential_gap", "", [&p](std::size_t i) {
     return midpoint_potential_gap(p.a(i), p.b(i));
   }).definition = Definition::midpoint_potential;
+  add_single(all, p, "trace_contact", "", [&p](std::size_t i) {
+    return trace_contact(p.a(i), p.b(i));
+  }).definition = Definition::trace;
   for (int steps = 1; steps <= 6; ++steps) {
     add_single(all, p, "start alone", "", [&p, steps](std::size_t i) {
       return start_alone(p.a(i), p.b(i), steps);
@@ -245,6 +256,8 @@ std::string_view to_string(Definition definition) {
       return "perram-wertheim";
     case Definition::midpoint_potential:
       return "midpoint potential";
+    case Definition::trace:
+      return "trace";
   }
   return "";
 }

@@ -17,7 +17,7 @@ namespace tangency::speed_accuracy {
 
 /// What the gap of a method is. Beside the signed gap an "error" of the others is a difference of
 /// definition, not of accuracy.
-enum class Definition { common_normal, perram_wertheim, midpoint_potential };
+enum class Definition { common_normal, perram_wertheim, midpoint_potential, trace };
 std::string_view to_string(Definition definition);
 
 /// One way to answer all pairs of a family.

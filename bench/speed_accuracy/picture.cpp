@@ -43,6 +43,7 @@ constexpr Series kSeries[] = {
     {"follow_gap", "", "#8a6d00", false, "center offset 0,-0.9"},
     {"start alone", "", "#d9730d", true, "left offset 0.6,0.5"},
     {"perram_wertheim_gap", "", "#b3261e", false, "right offset -0.6,0.7"},
+    {"trace_contact", "", "#c2185b", false, "right offset -0.6,0.7"},
     {"midpoint_potential_gap", "", "#6a3d9a", false, "right offset -0.6,-0.7"},
 };
 
