@@ -269,6 +269,8 @@ int main(int argc, char** argv) {
   app.add_option("--markdown", options.markdown, "short tables; to standard output by default");
   app.add_option("--picture", options.picture, "SVG of error against time, drawn by gnuplot");
   app.footer(footer());
+  app.failure_message(
+      [](const CLI::App*, const CLI::Error& e) { return e.what() + std::string("\n"); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

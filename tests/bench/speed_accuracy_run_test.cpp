@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/bench/level.hpp>
@@ -110,12 +111,15 @@ TEST(SpeedAccuracyRun, AQuickRunFillsEveryColumnWhereItIsPromised) {
   EXPECT_NE(read_file(picture).find("</svg>"), std::string::npos);
 }
 
-TEST(SpeedAccuracyRun, AFamilyThatIsNotThereIsRefusedInOneLine) {
-  const Finished run = run_tool({"--families", "no such family"});
-  EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
-  EXPECT_NE(run.err.find("--families"), std::string::npos);
+TEST(SpeedAccuracyRun, BadOptionsAreRefusedInOneLine) {
+  for (const auto& [option, value] :
+       {std::pair("--families", "no such family"), {"--pairs", "0"}, {"--rounds", "x"}}) {
+    const Finished run = run_tool({option, value});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_NE(run.err.find(option), std::string::npos) << run.err;
+  }
 }
 
 TEST(SpeedAccuracyRun, HelpNamesFamiliesAndColumns) {
