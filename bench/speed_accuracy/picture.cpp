@@ -188,13 +188,13 @@ std::string script(const std::vector<Row>& rows) {
           "set tics nomirror out scale 0.5 textcolor '#222222'\n"
           "set grid linewidth 0.5 linetype 1 linecolor '#dddddd'\n"
           "set logscale xy\nset format x '%g'\nset format y '1e%T'\n"
-          "set xrange [5:10000]\nset ytics 100\n"
+          "set xrange [5:300000]\nset ytics 100\n"
           "set xlabel 'ns a pair  ("
        << symbols
        << ")'\n"
           "set ylabel 'largest error of the gap / smallest semi-axis'\n"
-          "set bmargin 7\n"
-          "set key below center horizontal maxrows 2 samplen 1.5 font ',13' textcolor '#222222'\n"
+          "set bmargin 8\n"
+          "set key below center vertical maxrows 4 samplen 1.5 font ',13' textcolor '#222222'\n"
           "set multiplot layout "
        << panels.size() << ",1\n";
   for (const std::string& panel : panels) text << panel;
