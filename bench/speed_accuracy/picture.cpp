@@ -188,7 +188,7 @@ std::string script(const std::vector<Row>& rows) {
           "set tics nomirror out scale 0.5 textcolor '#222222'\n"
           "set grid linewidth 0.5 linetype 1 linecolor '#dddddd'\n"
           "set logscale xy\nset format x '%g'\nset format y '1e%T'\n"
-          "set xrange [5:300000]\nset ytics 100\n"
+          "set xrange [2:200000]\nset ytics 100\n"
           "set xlabel 'ns a pair  ("
        << symbols
        << ")'\n"
