@@ -109,8 +109,8 @@ void aim(const Task& task, LaneBlock& block) {
   block.tolerance = accuracy.length;
   block.polish = accuracy.normals;
   // A moment ago the normal was good to some 1e-4; the start of a cold search is to 1e-2.
-  const bool coarse = accuracy.of_size >= kCoarse;
-  block.first_steps = (task.previous_normals != nullptr ? 1 : 2) - (coarse ? 1 : 0);
+  block.first_steps = task.previous_normals != nullptr ? 1 : 2;
+  block.coarse = kCoarse;
 }
 
 void gather(const Task& task, std::size_t first, std::size_t count, Workspace& work) {

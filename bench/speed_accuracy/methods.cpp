@@ -214,6 +214,7 @@ void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool fol
       block.centres_are_exact = true;
       block.tolerance = std::numeric_limits<double>::infinity();
       block.first_steps = steps;
+      block.coarse = std::numeric_limits<double>::quiet_NaN();  // no pair is: a step is a step
       block.gap = &c.gap[first];
       block.gap_error = &c.gap_error[first];
       block.normal = c.normal[first].data();

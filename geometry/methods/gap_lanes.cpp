@@ -207,9 +207,13 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   // False for NaN, which is how bodies that are not moderate() stay out.
   PackMask going = (pair.size <= all(kLargest)) & (largest_component(pair.d) >= all(kSmallest));
   const PackMask in_range = going;
+  const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
   for (int k = 0; k < block.first_steps; ++k) {
+    PackMask moving = k == 0 ? without(going, coarse) : going;
+    if (none(moving)) continue;
     const PackPoint at = point_of(pair, n, glance(shape_a, n), glance(shape_b, n));
-    move(newton_step(shape_a, shape_b, pair.size, n, at), going, n);
+    move(newton_step(shape_a, shape_b, pair.size, n, at), moving, n);
+    going = moving | (k == 0 ? going & coarse : moving);
   }
   PackPoint at;
   PackProof proof;

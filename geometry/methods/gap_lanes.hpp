@@ -54,6 +54,7 @@ struct LaneBlock {
   /// What gap_error may be beyond rounding: a part of L, and a length.
   double tolerance_of_size, tolerance;
   int first_steps;  ///< of Newton's method before anything is proven
+  double coarse;    ///< of L: pairs of a tolerance from here on take one of them less
   bool polish;      ///< one step more than the gap needs, for the normal's sake
 
   double* gap;  ///< null, here and below: not wanted
