@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/plane_gap.hpp>
 #include <tangency/geometry/methods/scaled_plane_pair.hpp>
 
@@ -17,7 +18,6 @@ using methods::PlanePair;
 using methods::PlaneProof;
 
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60, kThinnest = 0x1p-300;  // PlanePair
-constexpr double kWidestOk = 100.0;                                             // u L, as for Gap
 
 struct Solved {
   PlaneProof proof;
@@ -33,6 +33,10 @@ struct Asked {
   Relation relation() const {
     if (separation == nullptr) return tangency::relation(a, b).relation;
     return tangency::relation(a.moved_to(Vec2::Zero()), b.moved_to(*separation)).relation;
+  }
+  bool overlaps(GapTier&) const {
+    const Relation found = relation();
+    return found != Relation::separate && found != Relation::external_touch;
   }
 };
 
@@ -60,62 +64,13 @@ Solved follow(const PlanePair& pair, const Vec2& start, const Asked& asked) {
   solved.tier = GapTier::factored;
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
   if (solved.proof.global || solved.proof.low >= 0.0) return solved;
-  const Relation found = asked.relation();
-  const bool apart = found == Relation::separate || found == Relation::external_touch;
-  return apart ? solve(pair) : solved;
+  return asked.overlaps(solved.tier) ? solved : solve(pair);
 }
 
-/// Where the proof leaves the sign open, the exact relation decides. No gap is above |d|.
-void settle_sign(Solved& solved, const Asked& asked, double distance) {
-  PlaneProof& proof = solved.proof;
-  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-  if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
-  if (proof.high >= 0.0) solved.tier = GapTier::exact;
-  const Relation found = asked.relation();
-  if (found == Relation::external_touch) {
-    proof.gap = proof.low = proof.high = 0.0;
-    proof.global = true;
-  } else if (found == Relation::separate) {
-    // What is known of a branch below 0 says nothing about bodies that are apart.
-    if (!proof.global) proof.high = distance;
-    proof.high = std::max(proof.high, kLeast);
-    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * std::min(proof.high, -proof.low), kLeast);
-    proof.low = 0.0;
-  } else {
-    proof.high = std::min(proof.high, 0.0);
-    proof.low = std::min(proof.low, -kLeast);
-    if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
-  }
-}
-
-/// The sign is that of the number before it was scaled, whatever underflows.
-double scaled(double value, int exponent) {
-  const double result = std::scalbn(value, exponent);
-  if (result != 0.0 || value == 0.0) return result;
-  return std::copysign(std::numeric_limits<double>::denorm_min(), value);
-}
-
-/// @param in_own_unit  is the pair the one that was asked about, or one in units of 2^exponent?
 PlaneGap finish(Solved& solved, const Asked& asked, const PlanePair& pair, bool in_own_unit,
                 int exponent) {
   const double distance = 1.5 * pair.d.cwiseAbs().maxCoeff();  // |d| and above
-  solved.proof.high = std::min(solved.proof.high, distance);
-  settle_sign(solved, asked, distance);
-  const PlaneProof& proof = solved.proof;
-  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
-  const bool narrow = error <= kWidestOk * kUnitRoundoff * pair.size;
-  const GapStatus status = proof.global && narrow ? GapStatus::ok : GapStatus::local;
-  if (in_own_unit)
-    return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
-  // In the caller's unit both numbers may be subnormal, and so rounded.
-  constexpr double kSubnormal = 4.0 * std::numeric_limits<double>::denorm_min();
-  return {scaled(proof.gap, exponent),
-          proof.normal,
-          asked.a.support_point(proof.normal),
-          -asked.b.support_point(proof.normal),
-          error == 0.0 ? 0.0 : std::scalbn(error, exponent) + kSubnormal,
-          status,
-          solved.tier};
+  return methods::finished_gap<PlaneGap>(solved, asked, pair, distance, in_own_unit, exponent);
 }
 
 double size_of(const Ellipse& a, const Ellipse& b, const Vec2& d) {

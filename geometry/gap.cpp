@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <tangency/geometry/methods/gap_factored.hpp>
+#include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
@@ -25,7 +26,6 @@ using methods::Stationary;
 
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
 constexpr double kThinnest = 0x1p-300;                    // of the size: Pair's requirement
-constexpr double kWidestOk = 100.0;  // u L; chosen: what is proven no better is not called ok
 // Patches of the sphere: chosen, a hundred times what pairs of aspect 5 need.
 constexpr int kBudget = 20000;
 
@@ -163,60 +163,6 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   return solved;
 }
 
-/// Where the proof leaves the sign open, the exact relation decides. No gap is above |d|.
-void settle_sign(Solved& solved, const Asked& asked, double distance) {
-  GapProof& proof = solved.proof;
-  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-  if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
-  if (proof.high >= 0.0) solved.tier = GapTier::exact;
-  if (asked.overlaps(solved.tier)) {
-    proof.high = std::min(proof.high, 0.0);
-    proof.low = std::min(proof.low, -kLeast);
-    if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
-  } else if (asked.relation() == Relation::external_touch) {
-    proof.gap = proof.low = proof.high = 0.0;
-    proof.global = true;
-  } else {
-    // What is known of a branch below 0 says nothing about bodies that are apart.
-    if (!proof.global) proof.high = distance;
-    proof.high = std::max(proof.high, kLeast);
-    // f(n) <= 0 is nearer to the truth than `high`, which the curvature may bound loosely.
-    if (proof.gap <= 0.0) proof.gap = std::max(0.5 * std::min(proof.high, -proof.low), kLeast);
-    proof.low = 0.0;
-  }
-}
-
-/// The sign is that of the number before it was scaled, whatever underflows.
-double scaled(double value, int exponent) {
-  if (exponent == 0) return value;
-  const double result = std::scalbn(value, exponent);
-  if (result != 0.0 || value == 0.0) return result;
-  return std::copysign(std::numeric_limits<double>::denorm_min(), value);
-}
-
-/// @param in_own_unit  is the pair the one that was asked about, or one in units of 2^exponent?
-Gap finish(Solved& solved, const Asked& asked, const Pair& pair, bool in_own_unit, int exponent) {
-  // sqrt(3) times the largest component, and more than enough for rounding: |d| and above.
-  const double distance = 1.75 * pair.d.cwiseAbs().maxCoeff();
-  solved.proof.high = std::min(solved.proof.high, distance);
-  settle_sign(solved, asked, distance);
-  const GapProof& proof = solved.proof;
-  const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
-  const bool narrow = error <= kWidestOk * kUnitRoundoff * pair.size;
-  const GapStatus status = proof.global && narrow ? GapStatus::ok : GapStatus::local;
-  if (in_own_unit)
-    return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
-  // In the caller's unit both numbers may be subnormal, and so rounded.
-  constexpr double kSubnormal = 4.0 * std::numeric_limits<double>::denorm_min();
-  return {scaled(proof.gap, exponent),
-          proof.normal,
-          asked.a.support_point(proof.normal),
-          -asked.b.support_point(proof.normal),
-          error == 0.0 ? 0.0 : std::scalbn(error, exponent) + kSubnormal,
-          status,
-          solved.tier};
-}
-
 /// Is the pair in its own unit what Pair asks for?
 bool in_range(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
   const double reach = d.cwiseAbs().maxCoeff();
@@ -247,7 +193,9 @@ template <class Solve>
 Gap answer(const Asked& asked, const Solve& solve_pair) {
   return in_unit(asked, [&](const Pair& pair, bool in_own_unit, int exponent) {
     Solved solved = solve_pair(pair);
-    return finish(solved, asked, pair, in_own_unit, exponent);
+    // sqrt(3) times the largest component, and more than enough for rounding: |d| and above.
+    const double distance = 1.75 * pair.d.cwiseAbs().maxCoeff();
+    return methods::finished_gap<Gap>(solved, asked, pair, distance, in_own_unit, exponent);
   });
 }
 
