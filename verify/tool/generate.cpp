@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/verify/corpus/corpus.hpp>
+#include <tangency/verify/tool/command_line.hpp>
+
+namespace tangency::verify {
+namespace {
+
+constexpr const char* kHelp = R"(
+Writes DIR/NAME.csv, the inputs, and DIR/NAME.truth.csv, what is true of them: the same
+bytes every time. The larger corpora take half a minute.
+
+Exit status: 0 written; 2 refused command line, or a failed write.
+
+Example:
+  $ tangency-verify generate quadrics --out corpora
+)";
+
+std::string list() {
+  std::string text;
+  for (const CorpusInfo& corpus : corpora()) {
+    const char* kind = corpus.kind == CorpusKind::pairs      ? "pairs     "
+                       : corpus.kind == CorpusKind::ellipses ? "ellipses  "
+                                                             : "quadrics  ";
+    std::string name(corpus.name);
+    name.resize(11, ' ');
+    text += name + kind + std::string(corpus.what) + '\n';
+  }
+  return text;
+}
+
+std::string check_name(const std::string& name) {
+  if (std::ranges::find(corpora(), name, &CorpusInfo::name) != corpora().end()) return {};
+  return name + " is not a corpus; `tangency-verify generate --list` names all";
+}
+
+void write(const std::filesystem::path& folder, const std::string& name, const CorpusText& text) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) {
+    throw csv::Error({.file = folder.string(), .rule = "cannot be made: " + problem.message()});
+  }
+  csv::OutputFile inputs((folder / (name + ".csv")).string());
+  csv::OutputFile truth((folder / (name + ".truth.csv")).string());
+  inputs.write(text.inputs);
+  truth.write(text.truth);
+  inputs.commit();
+  truth.commit();
+}
+
+}  // namespace
+
+Subcommand add_generate(CLI::App& program) {
+  struct Options {
+    bool list = false;
+    std::string name, folder;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App& app = *program.add_subcommand("generate", "Writes a corpus and its truth");
+  const auto list_flag = app.add_flag("--list", options->list, "Name all corpora, and write none");
+  app.add_option("NAME", options->name, "The corpus")
+      ->check(CLI::Validator(check_name, ""))
+      ->excludes(list_flag)
+      ->type_name("");
+  app.add_option("--out", options->folder, "Folder to write to; made where it is missing")
+      ->excludes(list_flag)
+      ->type_name("DIR");
+  app.footer(kHelp);
+  return {&app, [options] {
+            if (options->list) {
+              csv::OutputFile("-").write(list());
+              return passed;
+            }
+            if (options->name.empty() || options->folder.empty()) {
+              throw CLI::RequiredError(options->name.empty() ? "NAME or --list" : "--out");
+            }
+            write(options->folder, options->name, generate(options->name));
+            return passed;
+          }};
+}
+
+}  // namespace tangency::verify
