@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "tangency-verify " TANGENCY_VERSION);
   program.footer(kProgramHelp);
   program.require_subcommand(1);
-  const std::vector<Subcommand> subcommands{add_generate(program)};
+  const std::vector<Subcommand> subcommands{add_generate(program), add_grade(program)};
   try {
     program.parse(argc, argv);
     for (const Subcommand& subcommand : subcommands) {

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/verify/answers/tool_run.hpp>
+#include <utility>
+
+namespace tangency::verify {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Chosen: how often a tool that says nothing is looked after.
+constexpr int kLookMilliseconds = 20;
+// Chosen: what is kept of standard error to find its last line in.
+constexpr std::size_t kLastWords = 2000;
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+void write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR) fail("answers cannot be kept in memory");
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+csv::Descriptor memory_file(const char* name) {
+  csv::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
+  if (!file.is_open()) fail("no file in memory");
+  return file;
+}
+
+// The table without its comments, from its start.
+csv::Descriptor without_comments(const std::string& path) {
+  std::ifstream from(path, std::ios::binary);
+  if (!from) {
+    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
+  }
+  csv::Descriptor table = memory_file("inputs");
+  std::string line, text;
+  while (std::getline(from, line)) {
+    if (!line.starts_with('#')) text += line + '\n';
+    if (text.size() > (std::size_t{1} << 20)) write_all(table.get(), std::exchange(text, {}));
+  }
+  write_all(table.get(), text);
+  ::lseek(table.get(), 0, SEEK_SET);
+  return table;
+}
+
+struct Pipe {
+  csv::Descriptor ours, theirs;
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe");
+    ours = csv::Descriptor(ends[0]);
+    theirs = csv::Descriptor(ends[1]);
+  }
+};
+
+pid_t start(const std::string& command, int input, int output, int error) {
+  const pid_t child = ::fork();
+  if (child < 0) fail("no process for the tool");
+  if (child > 0) {
+    ::setpgid(child, child);  // whichever of the two comes first
+    return child;
+  }
+  ::setpgid(0, 0);
+  for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(error, STDERR_FILENO);
+  ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+  ::_exit(127);
+}
+
+class Watch {
+ public:
+  Watch(pid_t tool, Pipe& output, Pipe& error, ToolRun& run, const ToolLimits& limits)
+      : tool_(tool), limits_(limits), run_(run) {
+    output.theirs.close();
+    error.theirs.close();
+    events_[0] = {output.ours.get(), POLLIN, 0};
+    events_[1] = {error.ours.get(), POLLIN, 0};
+  }
+
+  void until_it_ends() {
+    bool quiet = false;
+    while (!stopped_ && !(ended_ && quiet)) {
+      // An ended tool may leave a child that holds the pipes; what it left in them is read.
+      quiet = !read_what_is_there();
+      if (!ended_) ended_ = ::waitpid(tool_, &status_, WNOHANG) == tool_;
+      if (ended_) continue;
+      if (elapsed() > limits_.seconds) stop("had not ended after " + shown(limits_.seconds) + " s");
+      if (bytes_ > limits_.most_bytes) {
+        stop("printed more than " + std::to_string(limits_.most_bytes) + " bytes");
+      }
+    }
+    ::kill(-tool_, SIGKILL);
+    if (!ended_) ::waitpid(tool_, &status_, 0);
+    if (!stopped_) describe_end();
+    run_.seconds = elapsed();
+    run_.last_words = last_line();
+  }
+
+ private:
+  static std::string shown(double seconds) {
+    std::string text = std::to_string(seconds);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+  }
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  void stop(std::string why) {
+    stopped_ = true;
+    run_.sound = false;
+    run_.ending = std::move(why);
+  }
+  void describe_end() {
+    run_.sound = WIFEXITED(status_);
+    run_.ending = run_.sound ? "ended with status " + std::to_string(WEXITSTATUS(status_))
+                             : "was ended by signal " + std::to_string(WTERMSIG(status_)) + " (" +
+                                   ::strsignal(WTERMSIG(status_)) + ")";
+  }
+  bool read_what_is_there() {
+    // A closed end is asked no more: poll skips negative descriptors.
+    if (::poll(events_.data(), events_.size(), kLookMilliseconds) <= 0) return false;
+    bool any = false;
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      if (events_[i].fd < 0 || events_[i].revents == 0) continue;
+      const ssize_t got = ::read(events_[i].fd, buffer_.data(), buffer_.size());
+      if (got <= 0) {
+        events_[i].fd = -1;
+        continue;
+      }
+      any = true;
+      keep(i == 0, {buffer_.data(), static_cast<std::size_t>(got)});
+    }
+    return any;
+  }
+  void keep(bool is_output, std::string_view text) {
+    if (is_output) {
+      bytes_ += text.size();
+      write_all(run_.output.get(), text);
+    } else {
+      words_ += text;
+      if (words_.size() > kLastWords) words_.erase(0, words_.size() - kLastWords);
+    }
+  }
+  std::string last_line() const {
+    const std::size_t end = words_.find_last_not_of(" \t\r\n");
+    if (end == std::string::npos) return {};
+    std::string line = words_.substr(0, end + 1);
+    line.erase(0, line.rfind('\n') + 1);
+    for (char& c : line) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    return line;
+  }
+
+  pid_t tool_;
+  ToolLimits limits_;
+  ToolRun& run_;
+  Clock::time_point begin_ = Clock::now();
+  std::array<pollfd, 2> events_{};
+  std::array<char, 1 << 16> buffer_{};
+  std::size_t bytes_ = 0;
+  std::string words_;
+  bool ended_ = false, stopped_ = false;
+  int status_ = 0;
+};
+
+}  // namespace
+
+ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits) {
+  const csv::Descriptor table = without_comments(inputs);
+  ToolRun run{memory_file("answers"), {}, false, {}, {}, 0};
+  run.output_path = "/proc/self/fd/" + std::to_string(run.output.get());
+  Pipe output, error;
+  Watch(start(command, table.get(), output.theirs.get(), error.theirs.get()), output, error, run,
+        limits)
+      .until_it_ends();
+  return run;
+}
+
+}  // namespace tangency::verify

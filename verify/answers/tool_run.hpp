@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One run of a tool under test: inputs in, answers out, whatever the tool does.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <tangency/geometry/tool/descriptor.hpp>
+
+namespace tangency::verify {
+
+struct ToolLimits {
+  double seconds;          // of wall time
+  std::size_t most_bytes;  // of standard output
+};
+
+struct ToolRun {
+  csv::Descriptor output;   // a file in memory with what came on standard output; never closed yet
+  std::string output_path;  // by which this process opens it again
+  bool sound;               // ended by itself, not by a signal or a limit
+  std::string ending;       // "ended with status 0", "was ended by signal 11 (Segmentation fault)",
+                            // "had not ended after 300 s", "printed more than 2097152 bytes"
+  std::string last_words;   // last line on standard error
+  double seconds;
+};
+
+// `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
+// comment lines left out. The group is killed at a limit; what was printed until then is kept.
+// Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
+ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
+
+}  // namespace tangency::verify

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/verify/answers/truth_table.hpp>
+#include <tangency/verify/oracles/real_ellipsoid.hpp>
+
+namespace tangency::verify {
+namespace {
+
+using csv::Column;
+using csv::RowCursor;
+using Columns3 = std::array<Column, 3>;
+
+CorpusKind kind_of(const csv::Header& header) {
+  if (header.find("type")) return CorpusKind::quadrics;
+  return header.find("crossings") ? CorpusKind::ellipses : CorpusKind::pairs;
+}
+
+TwoDoubles two_doubles(const RowCursor& row, Column column) {
+  const double high = row.number(column);
+  const std::string text(row.text(column));
+  if (text.find_first_of("xX") != std::string::npos) return {high, 0};
+  return {high, Real(Real(text) - high).convert_to<double>()};
+}
+
+std::array<double, 3> numbers(const RowCursor& row, const Columns3& columns) {
+  return {row.number(columns[0]), row.number(columns[1]), row.number(columns[2])};
+}
+
+Columns3 require3(const csv::Header& header, const std::array<const char*, 3>& names) {
+  return {header.require(names[0]), header.require(names[1]), header.require(names[2])};
+}
+
+int small_count(const RowCursor& row, Column column) {
+  const double count = row.number(column);
+  if (count >= 0 && count <= 4 && count == static_cast<int>(count)) return static_cast<int>(count);
+  throw row.error(column, "two ellipses have 0 to 4 crossings");
+}
+
+// What all kinds have in common, and the order of rows.
+class TableReader {
+ public:
+  TableReader(const csv::Header& header, CorpusKind kind)
+      : row_(header.require("row")), family_(header.require("family")), table_{kind, {}, {}, {}} {}
+
+  // The row of the table that this line is about; `again` where it has been seen.
+  TruthRow& enter(const RowCursor& line, bool& again) {
+    const double number = line.number(row_);
+    const auto count = static_cast<double>(table_.rows.size());
+    again = table_.kind == CorpusKind::pairs && count > 0 && number == count - 1;
+    if (!again && number != count) {
+      throw line.error(row_, "rows must be numbered from 0 in order");
+    }
+    if (!again) table_.rows.emplace_back().family = family(line);
+    return table_.rows.back();
+  }
+  TruthTable& table() { return table_; }
+
+ private:
+  std::size_t family(const RowCursor& line) {
+    auto& names = table_.families;
+    const std::string_view name = line.text(family_);
+    if (names.empty() || names.back() != name) {
+      const auto found = std::ranges::find(names, name);
+      if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+      names.emplace_back(name);
+    }
+    return names.size() - 1;
+  }
+
+  Column row_, family_;
+  TruthTable table_;
+};
+
+Relation read_relation(const RowCursor& line, Column column) {
+  if (const auto relation = relation_named(line.text(column))) return *relation;
+  throw line.error(column, "this is not a relation");
+}
+
+class PairReader {
+ public:
+  PairReader(const csv::Header& header, Definition definition)
+      : definition_(definition),
+        relation_(header.require("relation")),
+        size_(header.require("size")),
+        set_(header.require("normals")),
+        axis_(require3(header, {"ax", "ay", "az"})) {
+    const bool common = definition == Definition::common_normal;
+    gap_ = header.require(common                                      ? "gap"
+                          : definition == Definition::perram_wertheim ? "pw.gap"
+                                                                      : "mp.gap");
+    normal_ = common ? require3(header, {"nx", "ny", "nz"})
+                     : require3(header, {"pw.nx", "pw.ny", "pw.nz"});
+  }
+
+  void read(const RowCursor& line, bool again, TruthTable& table) const {
+    TruthRow& row = table.rows.back();
+    const bool common = definition_ == Definition::common_normal;
+    if (!again) {
+      row.relation = read_relation(line, relation_);
+      row.size = line.number(size_);
+      if (!(row.size > 0)) throw line.error(size_, "a size must be > 0");
+      if (!line.text(gap_).empty()) row.gap = two_doubles(line, gap_);
+      row.first_normal = table.maximisers.size();
+    }
+    if (!row.gap || (again && !common)) return;
+    const std::string_view set = common ? line.text(set_) : "point";
+    if (set == "all") {
+      row.every_normal = true;
+      return;
+    }
+    if (set != "point" && set != "circle") throw line.error(set_, "this is not a set of normals");
+    Maximiser one{numbers(line, normal_), std::nullopt};
+    if (set == "circle") one.axis = numbers(line, axis_);
+    table.maximisers.push_back(one);
+    ++row.normals;
+  }
+
+ private:
+  Definition definition_;
+  Column relation_, size_, set_, gap_;
+  Columns3 axis_, normal_;
+};
+
+class EllipseReader {
+ public:
+  explicit EllipseReader(const csv::Header& header)
+      : relation_(header.require("relation")),
+        crossings_(header.require("crossings")),
+        size_(header.require("size")),
+        area_(header.require("area")),
+        smaller_area_(header.require("smaller_area")),
+        gap_(header.require("gap")) {}
+
+  void read(const RowCursor& line, TruthRow& row) const {
+    row.relation = read_relation(line, relation_);
+    row.crossings = line.text(crossings_).empty() ? -1 : small_count(line, crossings_);
+    row.size = line.number(size_);
+    row.area = line.number(area_);
+    row.smaller_area = line.number(smaller_area_);
+    row.gap = two_doubles(line, gap_);
+    if (!(row.size > 0)) throw line.error(size_, "a size must be > 0");
+    if (!(row.smaller_area > 0)) throw line.error(smaller_area_, "an area must be > 0");
+  }
+
+ private:
+  Column relation_, crossings_, size_, area_, smaller_area_, gap_;
+};
+
+}  // namespace
+
+std::optional<Relation> relation_named(std::string_view word) {
+  using enum Relation;
+  for (const Relation relation :
+       {separate, external_touch, overlap, internal_touch, a_in_b, b_in_a, equal}) {
+    if (word == name(relation)) return relation;
+  }
+  return std::nullopt;
+}
+
+CorpusKind kind_of_truth(const std::string& path) { return kind_of(csv::Reader(path).header()); }
+
+TruthTable read_truth(const std::string& path, Definition definition) {
+  csv::Reader file(path);
+  const csv::Header& header = file.header();
+  TableReader reader(header, kind_of(header));
+  TruthTable& table = reader.table();
+  bool again = false;
+  switch (table.kind) {
+    case CorpusKind::pairs: {
+      const PairReader pairs(header, definition);
+      csv::for_each_row(file, [&](const RowCursor& line) {
+        reader.enter(line, again);
+        pairs.read(line, again, table);
+      });
+      break;
+    }
+    case CorpusKind::ellipses: {
+      const EllipseReader ellipses(header);
+      csv::for_each_row(
+          file, [&](const RowCursor& line) { ellipses.read(line, reader.enter(line, again)); });
+      break;
+    }
+    case CorpusKind::quadrics: {
+      const Column type = header.require("type");
+      csv::for_each_row(file, [&](const RowCursor& line) {
+        reader.enter(line, again).type = std::string(line.text(type));
+      });
+      break;
+    }
+  }
+  return std::move(table);
+}
+
+}  // namespace tangency::verify

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The truth of a corpus as a grader holds it: NAME.truth.csv (verify/corpus/corpus.hpp), read back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tangency/verify/corpus/corpus.hpp>
+#include <tangency/verify/oracles/relation.hpp>
+#include <vector>
+
+namespace tangency::verify {
+
+// A number of 40 digits as the sum of two doubles, to 2^-106 of itself.
+struct TwoDoubles {
+  double high = 0, low = 0;
+};
+
+// Which gap and normal are meant.
+enum class Definition { common_normal, perram_wertheim, midpoint_potential };
+
+// A true normal; of a circle, all turns about `axis`.
+struct Maximiser {
+  std::array<double, 3> normal;
+  std::optional<std::array<double, 3>> axis;
+};
+
+struct TruthRow {
+  std::size_t family = 0;
+  Relation relation = Relation::separate;
+  double size = 1;                // unit of the gap's error
+  std::optional<TwoDoubles> gap;  // nothing where the definition does not apply
+  bool every_normal = false;
+  std::size_t first_normal = 0, normals = 0;  // in TruthTable::maximisers
+  int crossings = -1;                         // of ellipses; -1: equal
+  double area = 0, smaller_area = 1;          // of ellipses
+  std::string type;                           // of a quadric
+};
+
+struct TruthTable {
+  CorpusKind kind;
+  std::vector<std::string> families;  // in the order of their first rows
+  std::vector<TruthRow> rows;
+  std::vector<Maximiser> maximisers;
+};
+
+// By the columns: `type` makes quadrics, `crossings` ellipses. Throws csv::Error.
+CorpusKind kind_of_truth(const std::string& path);
+
+// `definition` is for pairs; it changes nothing else. Throws csv::Error: a table that cannot be
+// read, lacks a column, skips a row or returns to one.
+TruthTable read_truth(const std::string& path, Definition definition);
+
+// `relation` says the interiors meet.
+constexpr bool interiors_meet(Relation relation) {
+  return relation != Relation::separate && relation != Relation::external_touch;
+}
+
+// Nothing for a word that names none.
+std::optional<Relation> relation_named(std::string_view word);
+
+}  // namespace tangency::verify

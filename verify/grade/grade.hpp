@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The grade of one table of answers, family by family.
+//
+// An answer is a line with `row` and any of: relation; overlaps (0 or 1); gap; nx, ny, nz; and with
+// gap: gap_error, a claimed bound, and status, whose word `local` says that the bound is for a
+// local gap; of ellipses also crossings and area; of quadrics type. Rows come in any order. What
+// the table's header offers, and what is demanded, is asked of every row.
+//
+//  (1) wrong: the relation, crossings, type or yes/no differ from the truth. `overlaps` 1 on an
+//      external touch is counted apart (`touches`) and never wrong.
+//  (2) missing: an answer that was asked for and is not there, or is no finite number or known
+//  word. (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes; the difference is
+//  taken with
+//      106 bits, so that a correctly rounded gap is seen as that.
+//  (4) normal error: length of the difference to the nearest true normal.
+//  (5) area error: |area - truth| / area of the smaller ellipse.
+//  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error.
+//  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
+//  twice
+//      the first answer counts.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tangency/verify/answers/truth_table.hpp>
+#include <vector>
+
+namespace tangency::verify {
+
+inline constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
+
+// Of the answers that there are; nearest rank.
+struct ErrorSummary {
+  std::size_t count = 0;
+  double median = 0, percentile_99 = 0, largest = 0;
+  std::size_t worst_row = kNoRow;
+};
+
+struct FamilyGrade {
+  std::string name;
+  std::size_t rows = 0;
+  std::size_t wrong = 0, first_wrong = kNoRow;
+  std::size_t touches = 0;  // overlaps 1 on an external touch
+  std::size_t missing = 0, first_missing = kNoRow;
+  std::size_t broken_bounds = 0, first_broken = kNoRow;
+  ErrorSummary gap, normal, area;
+};
+
+struct Grade {
+  std::vector<FamilyGrade> families;
+  FamilyGrade all;                  // of the whole corpus
+  std::vector<std::string> faults;  // the first ten: duplicates, unknown rows, rubbish
+  std::size_t fault_count = 0;
+  bool judges_words = false;   // relation, overlaps, crossings or type were answered
+  bool claims_bounds = false;  // gap_error was answered
+};
+
+// Asked of every row even where the answers' header does not offer it.
+struct Demands {
+  bool words = false, gap = false, normal = false;
+};
+
+// `answers` is a path. Never throws for what stands in it.
+Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands);
+
+}  // namespace tangency::verify

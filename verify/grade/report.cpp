@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <tangency/verify/grade/report.hpp>
+
+namespace tangency::verify {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+std::string row_name(std::size_t row) { return row == kNoRow ? "" : std::to_string(row); }
+
+struct Errors {
+  const char* title;
+  ErrorSummary FamilyGrade::*summary;
+};
+
+constexpr Errors kGap{"gap error / L", &FamilyGrade::gap};
+constexpr Errors kNormal{"normal error", &FamilyGrade::normal};
+constexpr Errors kArea{"area error", &FamilyGrade::area};
+
+std::vector<Errors> answered(const CorpusGrade& grade) {
+  std::vector<Errors> kinds;
+  for (const Errors& errors : {kGap, kNormal, kArea}) {
+    if ((grade.grade.all.*errors.summary).count > 0) kinds.push_back(errors);
+  }
+  return kinds;
+}
+
+std::string table_line(const CorpusGrade& grade, const FamilyGrade& family, std::size_t width) {
+  const Grade& g = grade.grade;
+  std::string line = family.name + std::string(width - family.name.size(), ' ');
+  line += padded(std::to_string(family.rows), 9);
+  line += padded(g.judges_words ? std::to_string(family.wrong) : "-", 7);
+  line += padded(std::to_string(family.touches), 8) + padded(std::to_string(family.missing), 9);
+  if (g.claims_bounds) line += padded(std::to_string(family.broken_bounds), 8);
+  for (const Errors& errors : answered(grade)) {
+    const ErrorSummary& s = family.*errors.summary;
+    const bool any = s.count > 0;
+    line += "  |" + padded(any ? number(s.median) : "-", 9) +
+            padded(any ? number(s.percentile_99) : "-", 9) +
+            padded(any ? number(s.largest) : "-", 9) + padded(row_name(s.worst_row), 8);
+  }
+  return line + '\n';
+}
+
+void add_counts(const CorpusGrade& grade, std::vector<std::string>& lines) {
+  const FamilyGrade& all = grade.grade.all;
+  for (const auto& [count, what, first] :
+       {std::tuple(all.missing, " missing answers, the first is row ", all.first_missing),
+        std::tuple(all.broken_bounds, " errors above the claimed gap_error, the first in row ",
+                   all.first_broken)}) {
+    if (count > 0)
+      lines.push_back(grade.corpus + ": " + std::to_string(count) + what + row_name(first));
+  }
+  if (grade.grade.fault_count > 0) {
+    lines.push_back(grade.corpus + ": " + std::to_string(grade.grade.fault_count) +
+                    " faulty lines or cells, the first: " + grade.grade.faults.front());
+  }
+  if (grade.run && !grade.run->sound)
+    lines.push_back(grade.corpus + ": the tool " + grade.run->ending);
+}
+
+void add_excess(const CorpusGrade& grade, const Errors& errors, const std::optional<double>& most,
+                std::vector<std::string>& lines) {
+  const ErrorSummary& s = grade.grade.all.*errors.summary;
+  if (!most || s.count == 0 || s.largest <= *most) return;
+  lines.push_back(grade.corpus + ": " + errors.title + ' ' + number(s.largest) + " in row " +
+                  row_name(s.worst_row) + " is above " + number(*most));
+}
+
+}  // namespace
+
+std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
+                                  const Thresholds& thresholds) {
+  std::vector<std::string> lines;
+  std::size_t wrong = 0;
+  std::string where;
+  for (const CorpusGrade& grade : grades) {
+    add_counts(grade, lines);
+    add_excess(grade, kGap, thresholds.gap_error, lines);
+    add_excess(grade, kNormal, thresholds.normal_error, lines);
+    const FamilyGrade& all = grade.grade.all;
+    if (wrong == 0 && all.wrong > 0) where = grade.corpus + " row " + row_name(all.first_wrong);
+    wrong += all.wrong;
+  }
+  if (thresholds.wrong && wrong > *thresholds.wrong) {
+    lines.push_back(std::to_string(wrong) + " wrong answers are more than " +
+                    std::to_string(*thresholds.wrong) + "; the first: " + where);
+  }
+  return lines;
+}
+
+std::string as_table(const CorpusGrade& grade) {
+  const Grade& g = grade.grade;
+  std::size_t width = 12;
+  for (const FamilyGrade& family : g.families) width = std::max(width, family.name.size() + 1);
+  const std::vector<Errors> kinds = answered(grade);
+  std::string text = grade.corpus;
+  if (grade.run) {
+    text += ": the tool " + grade.run->ending + ", " + number(grade.run->seconds) + " s";
+    if (!grade.run->last_words.empty()) text += "; its last words: " + grade.run->last_words;
+  }
+  text += '\n' + std::string(width + 33 + (g.claims_bounds ? 8 : 0), ' ');
+  for (const Errors& errors : kinds)
+    text += "  | " + std::string(errors.title) +
+            std::string(34 - std::string(errors.title).size(), ' ');
+  text += "\nfamily" + std::string(width - 6, ' ') + "    pairs  wrong touches  missing";
+  if (g.claims_bounds) text += "  broken";
+  for (std::size_t i = 0; i < kinds.size(); ++i) text += "  |   median     99 %  largest     row";
+  text += '\n';
+  for (const FamilyGrade& family : g.families) text += table_line(grade, family, width);
+  if (g.families.size() > 1) text += table_line(grade, g.all, width);
+  for (const std::string& fault : g.faults) text += "  " + fault + '\n';
+  if (g.fault_count > g.faults.size()) {
+    text += "  and " + std::to_string(g.fault_count - g.faults.size()) + " more faults\n";
+  }
+  return text;
+}
+
+std::string as_json(const std::vector<CorpusGrade>& grades) {
+  nlohmann::ordered_json values = nlohmann::ordered_json::array();
+  const auto add = [&](const std::string& name, const char* unit, auto value) {
+    values.push_back({{"name", name}, {"unit", unit}, {"value", value}});
+  };
+  for (const CorpusGrade& grade : grades) {
+    std::vector<FamilyGrade> families = grade.grade.families;
+    families.push_back(grade.grade.all);
+    for (const FamilyGrade& family : families) {
+      const std::string name = grade.corpus + '/' + family.name + '/';
+      add(name + "pairs", "pairs", family.rows);
+      if (grade.grade.judges_words) add(name + "wrong relations", "pairs", family.wrong);
+      add(name + "overlaps on an external touch", "pairs", family.touches);
+      add(name + "missing answers", "pairs", family.missing);
+      if (grade.grade.claims_bounds) add(name + "broken bounds", "pairs", family.broken_bounds);
+      for (const auto& [errors, what, unit] :
+           {std::tuple(kGap, "gap error", "L"), std::tuple(kNormal, "normal error", "1"),
+            std::tuple(kArea, "area error", "smaller area")}) {
+        const ErrorSummary& s = family.*errors.summary;
+        if (s.count == 0) continue;
+        add(name + what + ", median", unit, s.median);
+        add(name + what + ", 99 %", unit, s.percentile_99);
+        add(name + what + ", largest", unit, s.largest);
+      }
+    }
+    add(grade.corpus + "/faulty lines or cells", "cells", grade.grade.fault_count);
+    if (grade.run) add(grade.corpus + "/time", "s", grade.run->seconds);
+  }
+  using Json = nlohmann::ordered_json;
+  return values.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace tangency::verify

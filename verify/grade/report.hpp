@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Grades as text, as an array of {name, unit, value} and as a page of its own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tangency/verify/grade/grade.hpp>
+#include <vector>
+
+namespace tangency::verify {
+
+struct RunNote {
+  bool sound;  // ended by itself
+  std::string ending;
+  std::string last_words;
+  double seconds;
+};
+
+struct CorpusGrade {
+  std::string corpus;
+  CorpusKind kind;
+  Grade grade;
+  std::optional<RunNote> run;  // of a tool
+};
+
+struct Thresholds {
+  std::optional<std::size_t> wrong;  // in all corpora together
+  std::optional<double> gap_error, normal_error;
+};
+
+// What fails, one line each, naming corpora and rows; nothing where all is well.
+std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
+                                  const Thresholds& thresholds);
+
+std::string as_table(const CorpusGrade& grade);
+// Names are CORPUS/FAMILY/QUANTITY, and CORPUS/all/QUANTITY for a whole corpus.
+std::string as_json(const std::vector<CorpusGrade>& grades);
+// `title` says what was graded. Self-contained, without scripts.
+std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& title,
+                    const std::vector<std::string>& failures);
+
+}  // namespace tangency::verify

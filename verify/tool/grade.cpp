@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/verify/answers/tool_run.hpp>
+#include <tangency/verify/grade/report.hpp>
+#include <tangency/verify/tool/command_line.hpp>
+
+namespace tangency::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTruthSuffix = ".truth.csv";
+
+constexpr const char* kHelp = R"(
+What is graded is a table with the column row, the number of the input row from 0, and
+any of these; what its header names is asked of every row:
+  relation     separate, external_touch, overlap, internal_touch, a_in_b, b_in_a, equal
+  overlaps     0 or 1: do the interiors meet
+  gap          signed; and gap_error, a bound on its error that is claimed to hold (of a
+               row with the status local: for a local gap, the true one is not below
+               gap - gap_error)
+  nx ny nz     unit normal from a to b (of ellipsoids)
+  crossings, area   of ellipses
+  type         of quadrics
+A tool gets the inputs on standard input, a table without comment lines whose numbers are
+hex floats, in the columns of `tangency contact`, `ellipse` or `classify`.
+
+The grade, family by family:
+  wrong        answers that differ from the exact relation, crossings or type
+  touches      overlaps 1 on an external touch: counted here and never as wrong
+  missing      rows without a whole answer, cells that are no number included
+  broken       rows whose error is above their gap_error
+  gap error    |gap - truth| / L, L the distance of the centres and both largest semi-axes
+  normal error length of the difference to the nearest true normal
+  area error   |area - truth| / area of the smaller ellipse
+  with median, 99 %, largest and the row of the largest; then rows that are answered twice,
+  that the corpus does not have, or that cannot be read.
+
+Exit status: 0 every row answered, every threshold kept; 1 answers are missing, faulty or
+beyond a threshold, a claimed bound is broken, or the tool died, hung or printed without end;
+2 refused command line or corpus, or a failed write.
+
+Example:
+  $ tangency-verify grade --tool 'tangency contact' --max-wrong 0 --max-gap-error 1e-15
+)";
+
+struct Options {
+  std::string answers, tool, corpora, json, html;
+  std::string definition = "common-normal";
+  std::vector<std::string> names;
+  Thresholds thresholds;
+  double seconds = 300;  // chosen: a thousand times what a corpus takes
+};
+
+[[noreturn]] void refuse(const std::string& file, const std::string& rule) {
+  throw csv::Error({.file = file, .rule = rule});
+}
+
+// Beside the installed tool, or in the source tree.
+fs::path default_corpora() {
+  std::error_code unknown;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+  const fs::path installed = program.parent_path().parent_path() / "share/tangency/corpora";
+  if (!unknown && fs::is_directory(installed, unknown)) return installed;
+  return TANGENCY_SOURCE_CORPORA;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::error_code problem;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder, problem)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with(kTruthSuffix)) {
+      names.push_back(file.substr(0, file.size() - kTruthSuffix.size()));
+    }
+  }
+  if (problem) refuse(folder.string(), "cannot be read: " + problem.message());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string truth_of(const fs::path& folder, const std::string& name) {
+  return (folder / (name + std::string(kTruthSuffix))).string();
+}
+
+std::vector<std::string> chosen_corpora(const Options& options, const fs::path& folder) {
+  const std::vector<std::string> all = names_in(folder);
+  for (const std::string& name : options.names) {
+    if (std::ranges::find(all, name) != all.end()) continue;
+    std::string rule = "there is no corpus " + name + " here; there are:";
+    for (const std::string& known : all) rule += ' ' + known;
+    refuse(folder.string(), rule);
+  }
+  if (!options.names.empty()) return options.names;
+  std::vector<std::string> pairs = all;
+  std::erase_if(pairs, [&](const std::string& name) {
+    return kind_of_truth(truth_of(folder, name)) != CorpusKind::pairs;
+  });
+  if (pairs.empty()) refuse(folder.string(), "there is no corpus of pairs here");
+  return pairs;
+}
+
+constexpr std::array<std::pair<std::string_view, Definition>, 3> kDefinitions{
+    {{"common-normal", Definition::common_normal},
+     {"perram-wertheim", Definition::perram_wertheim},
+     {"midpoint-potential", Definition::midpoint_potential}}};
+
+Definition definition_named(std::string_view name) {
+  return std::ranges::find(kDefinitions, name, &std::pair<std::string_view, Definition>::first)
+      ->second;
+}
+
+void require_readable(const std::string& path) {
+  if (path != "-" && ::access(path.c_str(), R_OK) != 0) {
+    refuse(path, "cannot be read: " + std::generic_category().message(errno));
+  }
+}
+
+CorpusGrade graded(const Options& options, const fs::path& folder, const std::string& name) {
+  const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
+  if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
+  const Thresholds& limits = options.thresholds;
+  const Demands demands{limits.wrong.has_value(), limits.gap_error.has_value(),
+                        limits.normal_error.has_value() && truth.kind == CorpusKind::pairs};
+  if (options.tool.empty()) {
+    require_readable(options.answers);
+    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
+  }
+  // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
+  const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
+  const ToolRun run =
+      run_tool(options.tool, (folder / (name + ".csv")).string(), {options.seconds, most_bytes});
+  return {name, truth.kind, grade(truth, run.output_path, demands),
+          RunNote{run.sound, run.ending, run.last_words, run.seconds}};
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  csv::OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+ExitStatus run(const Options& options) {
+  const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
+  csv::OutputFile screen("-");
+  std::vector<CorpusGrade> grades;
+  for (const std::string& name : chosen_corpora(options, folder)) {
+    grades.push_back(graded(options, folder, name));
+    screen.write(as_table(grades.back()) + '\n');
+  }
+  const std::vector<std::string> failed_by = failures(grades, options.thresholds);
+  for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
+  write_file(options.json, as_json(grades));
+  write_file(options.html,
+             as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by));
+  return failed_by.empty() ? passed : failed;
+}
+
+std::string check_definition(const std::string& name) {
+  for (const auto& [known, definition] : kDefinitions) {
+    if (name == known) return {};
+  }
+  return name + " is not a definition; common-normal, perram-wertheim and midpoint-potential are";
+}
+
+void require_fitting(const Options& options) {
+  if (options.tool.empty() == options.answers.empty()) {
+    throw CLI::RequiredError("either --answers or --tool");
+  }
+  if (!options.answers.empty() && options.names.size() != 1) {
+    throw CLI::RequiredError("one --corpus, which the answers are for,");
+  }
+}
+
+}  // namespace
+
+Subcommand add_grade(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& app = *program.add_subcommand("grade", "Grades answers, or a tool that gives them");
+  app.add_option("--answers", options->answers,
+                 "A table of answers to one corpus; - is standard input")
+      ->type_name("FILE");
+  app.add_option("--tool", options->tool,
+                 "A shell command, started once a corpus: inputs come on its standard input, "
+                 "answers are read from its standard output")
+      ->type_name("COMMAND");
+  app.add_option("--corpus", options->names,
+                 "Which; may be given several times for a tool (default: all corpora of pairs of "
+                 "ellipsoids)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app.add_option("--corpora", options->corpora,
+                 "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
+      ->type_name("DIR");
+  app.add_option("--definition", options->definition,
+                 "What gap and normal mean: common-normal (default), perram-wertheim or "
+                 "midpoint-potential")
+      ->check(CLI::Validator(check_definition, ""))
+      ->type_name("D");
+  Thresholds& limits = options->thresholds;
+  app.add_option("--max-wrong", limits.wrong, "Most wrong answers, over all corpora")
+      ->type_name("N");
+  app.add_option("--max-gap-error", limits.gap_error, "Largest gap error")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X");
+  app.add_option("--max-normal-error", limits.normal_error, "Largest normal error")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X");
+  app.add_option("--time-limit", options->seconds,
+                 "Seconds a tool has for a corpus before it is killed (default: 300)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  app.add_option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
+      ->type_name("FILE");
+  app.add_option("--html", options->html, "Also write it as a page with plots")->type_name("FILE");
+  app.footer(kHelp);
+  return {&app, [options] {
+            require_fitting(*options);
+            return run(*options);
+          }};
+}
+
+}  // namespace tangency::verify
