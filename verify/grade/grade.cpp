@@ -230,7 +230,7 @@ class Grader {
       if (const auto gap = number(line, *columns.gap, verdict)) {
         const double off = excess(*gap, *row.gap);
         verdict.gap = std::abs(off) / row.size;
-        if (columns.gap_error) {
+        if (columns.gap_error && !line.text(*columns.gap_error).empty()) {
           const auto bound = number(line, *columns.gap_error, verdict);
           const bool local = columns.status && line.text(*columns.status) == "local";
           verdict.broken = bound && !((local ? off : std::abs(off)) <= *bound);

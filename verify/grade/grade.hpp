@@ -15,7 +15,8 @@
 //      106 bits, so that a correctly rounded gap is seen as that.
 //  (4) normal error: length of the difference to the nearest true normal.
 //  (5) area error: |area - truth| / area of the smaller ellipse.
-//  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error.
+//  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
+//      without gap_error claims none.
 //  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
 //  twice
 //      the first answer counts.

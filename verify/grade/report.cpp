@@ -110,10 +110,12 @@ std::string as_table(const CorpusGrade& grade) {
     text += ": the tool " + grade.run->ending + ", " + number(grade.run->seconds) + " s";
     if (!grade.run->last_words.empty()) text += "; its last words: " + grade.run->last_words;
   }
-  text += '\n' + std::string(width + 33 + (g.claims_bounds ? 8 : 0), ' ');
-  for (const Errors& errors : kinds)
-    text += "  | " + std::string(errors.title) +
-            std::string(34 - std::string(errors.title).size(), ' ');
+  if (!kinds.empty()) text += '\n' + std::string(width + 33 + (g.claims_bounds ? 8 : 0), ' ');
+  for (const Errors& errors : kinds) {
+    std::string title = "  | " + std::string(errors.title);
+    if (errors.title != kinds.back().title) title.resize(38, ' ');
+    text += title;
+  }
   text += "\nfamily" + std::string(width - 6, ' ') + "    pairs  wrong touches  missing";
   if (g.claims_bounds) text += "  broken";
   for (std::size_t i = 0; i < kinds.size(); ++i) text += "  |   median     99 %  largest     row";

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The golden corpora: that they are what the generator makes, and that they say the truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/tests/tool/process.hpp>
+#include <tangency/verify/answers/truth_table.hpp>
+#include <tangency/verify/corpus/coaxial.hpp>
+#include <tangency/verify/corpus/corpus.hpp>
+#include <tangency/verify/corpus/draw.hpp>
+#include <tangency/verify/oracles/ascent.hpp>
+#include <tangency/verify/oracles/gap.hpp>
+
+namespace tangency::verify {
+namespace {
+
+const std::string kFolder = TANGENCY_TEST_DATA "/corpora/";
+
+std::string committed(std::string_view name, const char* suffix) {
+  return test::read_file(kFolder + std::string(name) + suffix);
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
+// The rows of each family: inputs, and truth lines without their row numbers.
+struct FamilyRows {
+  std::vector<std::string> inputs, truth;
+};
+
+std::map<std::string, FamilyRows> by_family(const CorpusText& text, std::size_t most) {
+  std::vector<std::string> inputs;
+  for (const std::string& line : lines(text.inputs)) {
+    if (!line.starts_with('#')) inputs.push_back(line);
+  }
+  std::map<std::string, FamilyRows> families;
+  std::string last_row;
+  bool header = true;
+  for (const std::string& line : lines(text.truth)) {
+    if (line.starts_with('#')) continue;
+    if (std::exchange(header, false)) continue;
+    const std::size_t first = line.find(','), second = line.find(',', first + 1);
+    const std::string row = line.substr(0, first);
+    FamilyRows& family = families[line.substr(first + 1, second - first - 1)];
+    if (row != last_row && family.inputs.size() == most) continue;
+    if (row != last_row) family.inputs.push_back(inputs.at(std::stoul(row) + 1));
+    last_row = row;
+    family.truth.push_back(line.substr(second));
+  }
+  return families;
+}
+
+TEST(Corpus, FirstRowsOfEveryFamilyAreGeneratedAgainByteForByte) {
+  for (const CorpusInfo& corpus : corpora()) {
+    constexpr std::size_t kMost = 2;
+    const auto made = by_family(generate(corpus.name, kMost), kMost);
+    const auto kept =
+        by_family({committed(corpus.name, ".csv"), committed(corpus.name, ".truth.csv")}, kMost);
+    ASSERT_EQ(made.size(), kept.size()) << corpus.name;
+    for (const auto& [family, rows] : made) {
+      ASSERT_TRUE(kept.contains(family)) << family;
+      EXPECT_EQ(rows.inputs.size(), kMost) << family;
+      EXPECT_EQ(rows.inputs, kept.at(family).inputs) << corpus.name << ' ' << family;
+      EXPECT_EQ(rows.truth, kept.at(family).truth) << corpus.name << ' ' << family;
+    }
+  }
+}
+
+TEST(Corpus, WholeFilesAreWrittenByteForByte) {
+  for (const char* name : {"quadrics", "near"}) {
+    const test::TemporaryFolder folder;
+    const test::Finished run = test::run_tool({"generate", name, "--out", folder.path("made")});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* suffix : {".csv", ".truth.csv"}) {
+      EXPECT_EQ(test::read_file(folder.path("made/" + std::string(name) + suffix)),
+                committed(name, suffix));
+    }
+  }
+}
+
+TEST(Corpus, AllTogetherStayBelowThreeMebibytes) {
+  std::uintmax_t bytes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kFolder)) bytes += file.file_size();
+  EXPECT_LE(bytes, std::uintmax_t{3} << 20);
+}
+
+TEST(Corpus, HoldsEveryRelationAndEveryType) {
+  std::set<Relation> pairs, ellipses;
+  std::set<std::string> types;
+  for (const CorpusInfo& corpus : corpora()) {
+    const TruthTable truth =
+        read_truth(kFolder + std::string(corpus.name) + ".truth.csv", Definition::common_normal);
+    EXPECT_EQ(truth.kind, corpus.kind);
+    for (const TruthRow& row : truth.rows) {
+      if (truth.kind == CorpusKind::pairs) pairs.insert(row.relation);
+      if (truth.kind == CorpusKind::ellipses) ellipses.insert(row.relation);
+      if (truth.kind == CorpusKind::quadrics) types.insert(row.type);
+    }
+  }
+  EXPECT_EQ(pairs.size(), 7U);
+  EXPECT_EQ(ellipses.size(), 7U);
+  EXPECT_EQ(types.size(), 20U);
+}
+
+RawEllipsoid body(const csv::RowCursor& row, const csv::Header& header, const std::string& who) {
+  const auto cell = [&](const char* field) { return row.number(header.require(who + field)); };
+  return {{cell(".x"), cell(".y"), cell(".z")},
+          {cell(".r1"), cell(".r2"), cell(".r3")},
+          {cell(".qw"), cell(".qx"), cell(".qy"), cell(".qz")}};
+}
+
+// f(n) is the gap at every normal that the truth names, and nowhere on a coarse grid more.
+TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
+  Draw draw(1);
+  for (const CorpusInfo& corpus : corpora()) {
+    if (corpus.kind != CorpusKind::pairs) continue;
+    const std::string path = kFolder + std::string(corpus.name);
+    const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+    csv::Reader reader(path + ".csv");
+    csv::for_each_row(reader, [&](const csv::RowCursor& line) {
+      if (line.index() % 5 != 0) return;
+      const TruthRow& row = truth.rows.at(line.index());
+      const auto pair = separation(real(body(line, reader.header(), "a")),
+                                   real(body(line, reader.header(), "b")));
+      const Real gap = Real(row.gap.value().high) + row.gap->low;
+      ASSERT_LT(abs(ascent::extent(pair) / row.size - 1), 1e-15);
+      const auto f = [&](const std::array<double, 3>& n) {
+        return ascent::value(pair, ascent::normalised(Real3{n[0], n[1], n[2]})).f;
+      };
+      for (std::size_t i = 0; i < row.normals; ++i) {
+        const Real off = f(truth.maximisers.at(row.first_normal + i).normal) - gap;
+        // A rounded normal loses up to the square of its error times the curvature, never gains.
+        EXPECT_LT(abs(off), 1e-15 * row.size) << corpus.name << " row " << line.index();
+      }
+      EXPECT_TRUE(row.every_normal || row.normals > 0);
+      for (int i = 0; i < 20; ++i) {
+        const Real3 n = draw.direction();
+        EXPECT_LE(ascent::value(pair, n).f, gap + 1e-30 * row.size)
+            << corpus.name << " row " << line.index();
+      }
+    });
+  }
+}
+
+TEST(CoaxialGap, IsTheGlobalGapOfTheSearchOverAllNormals) {
+  Draw draw(2);
+  int compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double round_a = draw.log_uniform(0.2, 5), round_b = draw.log_uniform(0.2, 5);
+    const double polar_a = draw.log_uniform(0.2, 5), polar_b = draw.log_uniform(0.2, 5);
+    const double distance = draw.real(0, 1.1) * (polar_a + polar_b);
+    const RealEllipsoid a = real({{}, {round_a, polar_a, round_a}, {1, 0, 0, 0}});
+    const RealEllipsoid b = real({{0, distance, 0}, {round_b, polar_b, round_b}, {1, 0, 0, 0}});
+    const auto found = coaxial_gap(a, b);
+    ASSERT_TRUE(found);
+    const GapTruth truth = signed_gap(a, b);
+    EXPECT_LT(abs(found->gap - truth.gap), Real("1e-100"));
+    ASSERT_FALSE(found->cosines.empty());
+    for (const Real& cosine : found->cosines) {
+      const Real3 n{sqrt(1 - cosine * cosine), cosine, 0};
+      EXPECT_LT(abs(ascent::value(separation(a, b), n).f - found->gap), Real("1e-100"));
+    }
+    compared += truth.global;
+  }
+  EXPECT_GT(compared, 20);  // the search proves those whose best normal is the axis
+}
+
+TEST(CoaxialGap, SaysNothingOfPairsWithoutACommonAxis) {
+  const RealEllipsoid a = real({{}, {1, 2, 1}, {1, 0, 0, 0}});
+  EXPECT_FALSE(coaxial_gap(a, real({{0, 1, 0x1p-300}, {1, 2, 1}, {1, 0, 0, 0}})));
+  EXPECT_FALSE(coaxial_gap(a, real({{0, 1, 0}, {1, 2, 1}, {1, 0x1p-52, 0, 0}})));
+  EXPECT_FALSE(coaxial_gap(a, real({{0, 1, 0}, {1, 2, 1.5}, {1, 0, 0, 0}})));
+  EXPECT_TRUE(coaxial_gap(a, real({{0, -1, 0}, {2, 2, 2}, {1, 2, 3, 4}})));
+}
+
+}  // namespace
+}  // namespace tangency::verify

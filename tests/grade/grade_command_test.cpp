@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tangency-verify grade` on tools that are good, bad, and worse: each is reported for what it is.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tangency/tests/tool/process.hpp>
+
+namespace tangency::test {
+namespace {
+
+const std::string kKernel = TANGENCY_CONTACT " contact";
+
+/// What `grade` said, and the values of its JSON by name.
+struct Report {
+  Finished run;
+  nlohmann::json values;
+
+  double value(const std::string& name) const {
+    for (const auto& entry : values) {
+      if (entry.at("name") == name) return entry.at("value").get<double>();
+    }
+    ADD_FAILURE() << "no value " << name << " in\n" << run.out << run.err;
+    return -1;
+  }
+  bool says(const std::string& text) const { return run.out.find(text) != std::string::npos; }
+};
+
+Report grade(std::vector<std::string> arguments) {
+  const TemporaryFolder folder;
+  const std::string json = folder.path("grade.json");
+  arguments.insert(arguments.begin(), "grade");
+  arguments.insert(arguments.end(), {"--json", json});
+  Report report{run_tool(arguments), {}};
+  const std::string text = read_file(json);
+  if (!text.empty()) report.values = nlohmann::json::parse(text);
+  return report;
+}
+
+Report grade_tool(const std::string& command, const std::string& corpus,
+                  std::vector<std::string> more = {}) {
+  more.insert(more.end(), {"--tool", command, "--corpus", corpus});
+  return grade(std::move(more));
+}
+
+/// The kernel's answers, changed by an awk program. Columns: 1 row, 2 relation, 3 gap, 4-6 normal.
+std::string changed(const std::string& program) {
+  return kKernel + " | awk -F, -v OFS=, '" + program + "'";
+}
+
+TEST(GradeCommand, TheKernelPasses) {
+  const Report report =
+      grade_tool(kKernel, "near", {"--max-wrong", "0", "--max-gap-error", "1e-15"});
+  EXPECT_EQ(report.run.status, 0) << report.run.out;
+  EXPECT_EQ(report.run.err, "");
+  EXPECT_EQ(report.value("near/all/pairs"), 360);
+  EXPECT_EQ(report.value("near/all/broken bounds"), 0);
+  EXPECT_LT(report.value("near/all/gap error, largest"), 1e-15);
+  EXPECT_GT(report.value("near/all/gap error, largest"), 0);
+}
+
+TEST(GradeCommand, BoundingSpheresAreWrongAndFarOff) {
+  const Report report = grade_tool(TANGENCY_SPHERE_TOOL, "classes", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("wrong answers are more than 0; the first: classes row"));
+  EXPECT_EQ(report.value("classes/all/missing answers"), 0);
+  EXPECT_GT(report.value("classes/all/wrong relations"), 100);
+  EXPECT_GT(report.value("classes/all/gap error, largest"), 0.01);
+  const Report on_spheres = grade_tool(TANGENCY_SPHERE_TOOL, "symmetric");
+  EXPECT_LT(on_spheres.value("symmetric/spheres/gap error, largest"), 1e-15);
+}
+
+TEST(GradeCommand, AToleranceOfAMillionthShowsBelowIt) {
+  const Report report =
+      grade_tool(changed("NR > 1 && $3 * $3 < 1e-12 { $2 = \"external_touch\"; $3 = 0 } { print }"),
+                 "near", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_EQ(report.value("near/gap 1e-03/wrong relations"), 0);
+  EXPECT_EQ(report.value("near/gap 1e-05/wrong relations"), 0);
+  EXPECT_EQ(report.value("near/gap 1e-08/wrong relations"), 24);
+  EXPECT_EQ(report.value("near/gap 1e-17/wrong relations"), 24);
+  EXPECT_EQ(report.value("near/gap 1e-03/gap error, largest") < 1e-15, true);
+  EXPECT_GT(report.value("near/gap 1e-08/gap error, largest"), 1e-11);
+  EXPECT_GT(report.value("near/all/broken bounds"), 200);  // it kept the kernel's gap_error
+}
+
+TEST(GradeCommand, AnExchangedNormalIsTwoOff) {
+  const std::string tool = changed("NR > 1 { $4 = -$4; $5 = -$5; $6 = -$6 } { print }");
+  EXPECT_EQ(grade_tool(tool, "classes", {"--max-wrong", "0"}).run.status, 0);
+  const Report report = grade_tool(tool, "classes", {"--max-normal-error", "1e-5"});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_NEAR(report.value("classes/all/normal error, median"), 2, 1e-4);
+  EXPECT_LT(report.value("classes/all/gap error, largest"), 1e-15);
+  EXPECT_TRUE(report.says("FAILED classes: normal error 2 in row "));
+}
+
+TEST(GradeCommand, AHangingToolIsKilledAndItsAnswersAreGraded) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Report report = grade({"--tool", "printf 'row,overlaps\\n3,1\\n'; sleep 1000; true",
+                               "--corpus", "near", "--corpus", "deep", "--time-limit", "0.4"});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("near: the tool had not ended after 0.4 s"));
+  EXPECT_TRUE(report.says("FAILED deep: the tool had not ended after 0.4 s"));
+  EXPECT_EQ(report.value("near/all/missing answers"), 359);
+  EXPECT_EQ(report.value("deep/all/missing answers"), 359);
+  EXPECT_EQ(report.value("deep/all/wrong relations"), 0);
+}
+
+TEST(GradeCommand, ADyingToolIsNamedAndItsAnswersAreGraded) {
+  const Report report = grade_tool(kKernel + " | head -n 21; echo out of luck >&2; kill -SEGV $$",
+                                   "near", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("was ended by signal 11")) << report.run.out;
+  EXPECT_TRUE(report.says("its last words: out of luck"));
+  EXPECT_EQ(report.value("near/all/missing answers"), 340);
+  EXPECT_EQ(report.value("near/gap 1e-03/missing answers"), 4);
+  EXPECT_TRUE(report.says("missing answers, the first is row 20"));
+  EXPECT_EQ(grade_tool("no-such-tool-anywhere", "near").value("near/all/missing answers"), 360);
+}
+
+TEST(GradeCommand, RubbishWithoutEndIsCutOff) {
+  const Report report = grade_tool("yes '%^&*'", "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("near: the tool printed more than 1540096 bytes"));
+  EXPECT_EQ(report.value("near/all/missing answers"), 360);
+  EXPECT_TRUE(report.says("row: this column is missing"));
+}
+
+TEST(GradeCommand, SilenceIsAllMissing) {
+  const Report report = grade_tool("cat > /dev/null", "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_EQ(report.value("near/all/missing answers"), 360);
+  EXPECT_TRUE(report.says("a header line that names the columns is missing"));
+}
+
+TEST(GradeCommand, RubbishAmongAnswersIsNamedByRowAndTheRestGraded) {
+  const Report report = grade_tool(
+      changed("NR == 3 { $3 = \"nan\" } NR == 4 { $2 = \"touching\" } NR == 5 { $5 = \"0.1.2\" } "
+              "NR == 6 { $1 = 360 } NR == 7 { $1 = \"six\" } NR == 8 { $1 = -1 } "
+              "NR == 9 { print \"x,y\"; next } NR == 10 { $6 = \"\" } { print }"),
+      "near", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 1);
+  for (const char* text :
+       {"row 1, line 3: gap = nan: a number must be finite",
+        "row 2, line 4: relation = touching: this is not a relation",
+        "row 3, line 5: ny = 0.1.2: a cell must hold a number",
+        "line 6: row = 360: the corpus has the rows 0 to 359",
+        "line 7: row = six: a cell must hold a number", "line 8: row = -1: the corpus has",
+        "line 9: 2 cells: a row must have as many cells as the header"}) {
+    EXPECT_TRUE(report.says(text)) << text << '\n' << report.run.out;
+  }
+  EXPECT_EQ(report.value("near/faulty lines or cells"), 7);
+  EXPECT_EQ(report.value("near/all/missing answers"), 8);
+  EXPECT_EQ(report.value("near/all/wrong relations"), 0);
+}
+
+TEST(GradeCommand, SkippedRowsAreCountedAndTheFirstNamed) {
+  const Report report = grade_tool(changed("NR == 1 || $1 % 10 != 7"), "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_EQ(report.value("near/all/missing answers"), 36);
+  EXPECT_TRUE(report.says("near: 36 missing answers, the first is row 7"));
+  EXPECT_EQ(report.value("near/faulty lines or cells"), 0);
+}
+
+TEST(GradeCommand, OfARowAnsweredTwiceTheFirstCountsAndTheSecondIsNamed) {
+  const Report report = grade_tool(changed("{ print } $1 == 4 { $2 = \"equal\"; $3 = 7; print }"),
+                                   "near", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("line 7: row = 4: this row is answered again"));
+  EXPECT_EQ(report.value("near/all/wrong relations"), 0);
+  EXPECT_EQ(report.value("near/all/missing answers"), 0);
+  EXPECT_EQ(report.value("near/faulty lines or cells"), 1);
+}
+
+TEST(GradeCommand, OverlapsOnAnExternalTouchIsCountedApart) {
+  const Report report = grade_tool(changed("NR == 1 { print \"row,overlaps\"; next } "
+                                           "{ print $1, ($2 == \"separate\" ? 0 : 1) }"),
+                                   "touching", {"--max-wrong", "0"});
+  EXPECT_EQ(report.run.status, 0) << report.run.out;
+  EXPECT_EQ(report.value("touching/integer_touch_outside/overlaps on an external touch"), 90);
+  EXPECT_EQ(report.value("touching/all/wrong relations"), 0);
+  const Report never =
+      grade_tool(changed("NR == 1 { print \"row,overlaps\"; next } { print $1, 0 }"), "touching",
+                 {"--max-wrong", "0"});
+  EXPECT_EQ(never.run.status, 1);
+  EXPECT_EQ(never.value("touching/all/overlaps on an external touch"), 0);
+}
+
+TEST(GradeCommand, AClaimedBoundThatIsTooSmallIsBroken) {
+  const Report report = grade_tool(
+      changed("NR == 1 { print $1, $3, $13; next } { print $1, $3 + 1e-9, $13 }"), "classes");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_EQ(report.value("classes/all/broken bounds"), 450);
+  EXPECT_TRUE(report.says("450 errors above the claimed gap_error, the first in row 0"));
+}
+
+TEST(GradeCommand, AThresholdAsksForTheColumn) {
+  const std::string tool = changed("{ print $1, $2 }");
+  EXPECT_EQ(grade_tool(tool, "classes", {"--max-wrong", "0"}).run.status, 0);
+  for (const char* threshold : {"--max-gap-error", "--max-normal-error"}) {
+    const Report report = grade_tool(tool, "classes", {threshold, "1"});
+    EXPECT_EQ(report.run.status, 1);
+    EXPECT_EQ(report.value("classes/all/missing answers"), 450);
+  }
+}
+
+TEST(GradeCommand, EveryNormalThatReachesTheGapIsRight) {
+  const TemporaryFolder folder;
+  const std::string columns =
+      "row,family,relation,inner,size,gap,normals,nx,ny,nz,ax,ay,az,pw.gap,pw.nx,pw.ny,pw.nz,mp."
+      "gap\n";
+  folder.write("ties.csv", "a.x\n0\n0\n0\n");
+  folder.write("ties.truth.csv", columns +
+                                     "0,two,overlap,,4,-1,point,1,0,0,,,,,,,,\n"
+                                     "0,two,overlap,,4,-1,point,-1,0,0,,,,,,,,\n"
+                                     "1,circle,overlap,,4,-1,circle,0.6,0,0.8,0,0,1,,,,,\n"
+                                     "2,all,equal,,4,-2,all,,,,,,,,,,,\n");
+  const auto error = [&](const std::string& rows, const std::string& family) {
+    const std::string answers = folder.write("answers.csv", "row,nx,ny,nz\n" + rows);
+    const Report report =
+        grade({"--answers", answers, "--corpus", "ties", "--corpora", folder.path("")});
+    EXPECT_EQ(report.run.status, 0) << report.run.out << report.run.err;
+    return report.value("ties/" + family + "/normal error, largest");
+  };
+  const std::string right = "2,0.48,0.64,0.6\n1,-0.36,-0.48,0.8\n0,-1,0,0\n";
+  EXPECT_EQ(error(right, "two"), 0);
+  EXPECT_LT(error(right, "circle"), 1e-15);
+  EXPECT_LT(error(right, "all"), 1e-15);
+  const std::string off = "0,0,1,0\n1,0.8,0,0.6\n2,0,0,3\n";
+  EXPECT_NEAR(error(off, "two"), 1.41421356, 1e-8);
+  EXPECT_NEAR(error(off, "circle"), 0.28284271, 1e-8);
+  EXPECT_EQ(error(off, "all"), 2);
+}
+
+TEST(GradeCommand, GradesByTheDefinitionThatIsAskedFor) {
+  const std::string tool = kKernel + " --method perram-wertheim";
+  const std::vector<std::string> limit{"--max-gap-error", "1e-15"};
+  std::vector<std::string> right = limit;
+  right.insert(right.end(), {"--definition", "perram-wertheim"});
+  EXPECT_EQ(grade_tool(tool, "deep", right).run.status, 0);
+  EXPECT_EQ(grade_tool(tool, "deep", limit).run.status, 1);
+}
+
+TEST(GradeCommand, AToolReadsInputsAndNeitherCommentsNorTruth) {
+  const Report report = grade_tool("cat >&2", "near");
+  EXPECT_TRUE(report.says("its last words: ")) << report.run.out;
+  const Report first = grade_tool("head -n 1 >&2", "near");
+  EXPECT_TRUE(
+      first.says("its last words: a.x,a.y,a.z,a.r1,a.r2,a.r3,a.qw,a.qx,a.qy,a.qz,b.x,b.y,b.z,"
+                 "b.r1,b.r2,b.r3,b.qw,b.qx,b.qy,b.qz\n"))
+      << first.run.out;
+}
+
+TEST(GradeCommand, ThePageStandsAlone) {
+  const TemporaryFolder folder;
+  const Report report =
+      grade_tool(kKernel + " # <b>", "near", {"--html", folder.path("page.html")});
+  const std::string page = read_file(folder.path("page.html"));
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("gap 1e-17"), std::string::npos);
+  for (const char* foreign : {"http", "src=", "href=", "<script", "<b>"}) {
+    EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
+  }
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+}
+
+TEST(GradeCommand, RefusesWhatItCannotGrade) {
+  const auto refusal = [](const std::vector<std::string>& arguments) {
+    const Report report = grade(arguments);
+    EXPECT_EQ(report.run.status, 2);
+    EXPECT_TRUE(report.values.is_null());
+    EXPECT_EQ(report.run.err.find('\n'), report.run.err.size() - 1) << report.run.err;
+    return report.run.err;
+  };
+  EXPECT_NE(refusal({"--tool", "true", "--corpus", "none"}).find("there is no corpus none here"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--tool", "true", "--answers", "x"}).find("--answers or --tool"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--answers", "x"}).find("--corpus"), std::string::npos);
+  EXPECT_NE(
+      refusal({"--answers", "/none/x.csv", "--corpus", "near"}).find("/none/x.csv: cannot be read"),
+      std::string::npos);
+  EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"}).find("chord is not a definition"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--tool", "true", "--max-gap-error", "-1"}).find("--max-gap-error"),
+            std::string::npos);
+  const TemporaryFolder folder;
+  folder.write("bad.truth.csv", "row,family,type\n1,f,plane\n");
+  EXPECT_NE(refusal({"--tool", "true", "--corpus", "bad", "--corpora", folder.path("")})
+                .find("bad.truth.csv:2: row = 1: rows must be numbered from 0 in order"),
+            std::string::npos);
+}
+
+TEST(GenerateCommand, NamesEveryCorpusAndRefusesOthers) {
+  const Finished list = run_tool({"generate", "--list"});
+  EXPECT_EQ(list.status, 0);
+  for (const char* name : {"classes ", "near ", "touching ", "symmetric ", "nested ", "extreme ",
+                           "deep ", "ellipses ", "quadrics "}) {
+    EXPECT_NE(list.out.find(name), std::string::npos) << name;
+  }
+  const Finished none = run_tool({"generate", "none", "--out", "x"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("none is not a corpus"), std::string::npos);
+  EXPECT_EQ(run_tool({"generate", "near"}).status, 2);
+  EXPECT_EQ(run_tool({"generate"}).status, 2);
+}
+
+}  // namespace
+}  // namespace tangency::test
