@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>tangency-verify</title><style>
 body { font: 15px/1.4 sans-serif; margin: 2em auto; max-width: 70em; color: #222; }
-table { border-collapse: collapse; margin: 1em 0; }
+table { border-collapse: collapse; margin: 1em 0; font-size: 13px; white-space: nowrap; }
 th, td { padding: .15em .6em; text-align: right; border-bottom: 1px solid #ddd; }
 th:first-child, td:first-child { text-align: left; }
 .bad { color: #b00020; font-weight: bold; }
