@@ -105,7 +105,8 @@ double common_area(const Asked& asked) {
       break;
   }
   const ScaledPlanePair s = asked.scaled();
-  const double area = area_of(lens_of(s, known.meeting));
+  // (3) holds for needles too, whose vertices err by more than they are apart.
+  const double area = std::max(area_of(lens_of(s, known.meeting)), 0.0);
   return std::min({std::scalbn(area, 2 * s.exponent), asked.a.area(), asked.b.area()});
 }
 

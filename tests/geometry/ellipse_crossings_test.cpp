@@ -102,6 +102,17 @@ TEST(CommonArea, ScalesByPowersOfTwo) {
   }
 }
 
+TEST(CommonArea, OfCrossedNeedlesIsNotNegative) {
+  // Once -1.4e222: the vertices of such a lens err by more than its width.
+  const Vec2 centre(0x1.1ccf385ebc8ap+1023, 1e16);
+  const Ellipse a(centre, {5e-324, 1e154}, {2.4629331257292207e-184, 1e-162});
+  const Ellipse b(centre, {0.5, 1e154}, {1, 1e-162});
+  for (const double area : {common_area(a, b), common_area(b, a)}) {
+    EXPECT_GE(area, 0.0);
+    EXPECT_LE(area, std::min(a.area(), b.area()));
+  }
+}
+
 TEST(ChordContact, OfTwoCirclesIsAlongTheCentres) {
   const ChordContact chord = chord_contact(Ellipse(kOrigin, {1, 1}), Ellipse({1.5, 0}, {1, 1}));
   ASSERT_EQ(chord.status, ChordStatus::ok);
