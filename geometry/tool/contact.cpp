@@ -115,7 +115,8 @@ Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
   const Vec3 point_a = a.centre() + found.arm_a;
   const Vec3 point_b = b.centre() + found.arm_b;
   const bool representable = std::isfinite(found.gap) && found.normal.allFinite() &&
-                             point_a.allFinite() && point_b.allFinite();
+                             point_a.allFinite() && point_b.allFinite() &&
+                             std::isfinite(gap_error.value_or(0.0));
   if (!representable) return without_numbers(exact, "not_applicable");
   return {exact, status, true, found.gap, found.normal, point_a, point_b, gap_error};
 }
