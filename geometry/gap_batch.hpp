@@ -11,8 +11,7 @@
 ///     or the thread. It may depend, within its error, on the instruction set of the machine.
 /// (3) Yes/no answers are the same everywhere.
 /// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp) and the tolerance
-/// of
-///     the Accuracy asked for.
+///     of the Accuracy asked for.
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
@@ -77,7 +76,7 @@ struct Accuracy {
   static constexpr Accuracy fast() { return {0x1p-20, 0.0, false}; }
   /// The gap to rounding, its normal to some 1e-8 rad.
   static constexpr Accuracy standard() { return {}; }
-  /// Gap, normal and points as the single call has them.
+  /// Gap, normal and points to rounding.
   static constexpr Accuracy certified() { return {0.0, 0.0, true}; }
   static constexpr Accuracy within(double length) { return {0.0, length, false}; }
 };
