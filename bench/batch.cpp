@@ -21,6 +21,7 @@
 #include <vector>
 
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/level.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap_batch.hpp>
@@ -36,6 +37,7 @@ using tangency::GapStatus;
 using tangency::IndexedPair;
 using tangency::PairList;
 using tangency::Vec3;
+using tangency::bench::force_level;
 using tangency::bench::kInCache;
 using tangency::bench::moment_ago;
 
@@ -93,12 +95,6 @@ void check(const std::string& name, const Family& f, const Answers& answers) {
   }
 }
 
-/// Only this level from now on; 0: the best of the machine.
-void force(std::int64_t level) {
-  hwy::SetSupportedTargetsForTest(level);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 /// Registers a benchmark of one call for all pairs, reported per pair.
 template <class Call>
 benchmark::internal::Benchmark* add(const std::string& name, std::int64_t level, std::size_t count,
@@ -106,12 +102,12 @@ benchmark::internal::Benchmark* add(const std::string& name, std::int64_t level,
   return benchmark::RegisterBenchmark(
              name.c_str(),
              [level, count, call](benchmark::State& state) {
-               force(level);
+               force_level(level);
                while (state.KeepRunningBatch(static_cast<std::int64_t>(count))) {
                  call();
                  benchmark::ClobberMemory();
                }
-               force(0);
+               force_level(0);
              })
       ->Apply(tangency::bench::least_of_repetitions);
 }
@@ -178,14 +174,14 @@ void add_family(const Family& f, const BodyArray& bodies, std::int64_t level) {
   const auto yes_or_no = [&f, &bodies, meet] {
     overlaps(bodies, {f.pairs, {}}, std::span<bool>(meet.get(), f.pairs.size()));
   };
-  force(level);
+  force_level(level);
   yes_or_no();
   check_overlaps("overlaps" + end, f, meet.get());
   cold();
   check("cold" + end, f, *answers);
   following();
   check("following" + end, f, *answers);
-  force(0);
+  force_level(0);
   add("cold" + end, level, f.pairs.size(), cold);
   add("cold_with_arms" + end, level, f.pairs.size(), with_arms);
   add("following" + end, level, f.pairs.size(), following);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tangency/bench/families/manufactured.hpp>
+#include <tangency/bench/level.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
 #include <tangency/bench/ratio.hpp>
@@ -30,6 +31,7 @@ namespace {
 
 using namespace tangency::peers;
 using tangency::Ellipsoid;
+using tangency::bench::force_level;
 using tangency::bench::kInCache;
 
 constexpr std::uint64_t kSeed = 20261122;  // the pairs of bench_gap
@@ -138,14 +140,12 @@ void add_ours(const Family& f, std::vector<Entry>& entries, Answers& own) {
 void add_batch(const Family& f, std::vector<Entry>& entries) {
   for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
     if (level == HWY_SCALAR || level == HWY_EMU128) continue;
-    const auto call = [&f, level, gaps = std::make_shared<std::vector<tangency::Gap>>(kInCache)] {
-      hwy::SetSupportedTargetsForTest(level);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-      signed_gaps(f.array, {f.indices, {}}, *gaps);
-      return gaps;
-    };
+    const auto gaps = std::make_shared<std::vector<tangency::Gap>>(kInCache);
+    force_level(level);
+    signed_gaps(f.array, {f.indices, {}}, *gaps);
+    force_level(0);
     Answers answers;
-    for (const tangency::Gap& gap : *call())
+    for (const tangency::Gap& gap : *gaps)
       answers.push_back(PeerContact{gap.gap < 0, gap.gap, {}, {}});
     Entry entry;
     entry.row.family = f.name;
@@ -160,13 +160,17 @@ void add_batch(const Family& f, std::vector<Entry>& entries) {
     require_right(entry);
     entries.push_back(entry);
     tangency::bench::least_of_repetitions(
-        benchmark::RegisterBenchmark(entry.timed.c_str(), [call](benchmark::State& state) {
-          for (auto _ : state) benchmark::DoNotOptimize(call());
+        benchmark::RegisterBenchmark(entry.timed.c_str(), [&f, level,
+                                                           gaps](benchmark::State& state) {
+          force_level(level);
+          for (auto _ : state) {
+            signed_gaps(f.array, {f.indices, {}}, *gaps);
+            benchmark::ClobberMemory();
+          }
+          force_level(0);
           state.counters["pairs"] = static_cast<double>(kInCache);
         })->Unit(benchmark::kNanosecond));
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 /// @param pairs  filled with what has to live while the benchmarks run

@@ -38,10 +38,11 @@ std::optional<double> by_trace(const Ellipsoid& a, const Ellipsoid& b) {
   return -contact.gap;
 }
 
+constexpr double parallel = 1e-12;  // rad: rounding of stored axes and centres, generously
+
 /// The section of a body by the plane through its centre along e1 and e2, two of its own axes but
 /// for sign and order; nothing where they are not.
 std::optional<Ellipse> section(const Ellipsoid& body, const Vec3& e1, const Vec3& e2) {
-  constexpr double parallel = 1e-12;  // rad: rounding of the stored axes, generously
   const Vec3 across = e1.cross(e2);
   for (int k = 0; k < 3; ++k) {
     if (body.rotation().col(k).cross(across).norm() > parallel) continue;
@@ -58,7 +59,7 @@ std::optional<double> by_chord(const Ellipsoid& a, const Ellipsoid& b) {
   const Vec3 d = b.centre() - a.centre();
   for (int k = 0; k < 3; ++k) {
     const auto axes = a.rotation();
-    if (std::abs(axes.col(k).dot(d)) > 1e-12 * d.norm()) continue;
+    if (std::abs(axes.col(k).dot(d)) > parallel * d.norm()) continue;
     const Vec3 e1 = axes.col((k + 1) % 3), e2 = axes.col((k + 2) % 3);
     const std::optional<Ellipse> in_a = section(a, e1, e2), in_b = section(b, e1, e2);
     if (!in_a || !in_b) continue;

@@ -26,25 +26,41 @@ constexpr std::uint64_t kBytesPerThread = 1 << 16;
 // Chosen: enough for every vector register, few enough to stay in cache.
 constexpr std::size_t kRowsAtOnce = 256;
 
-/// The answers of a RowFunction, as they were written.
+/// The answers of a RowFunction, as they were written, a line each.
 class RowByRow : public Rows {
  public:
   explicit RowByRow(RowFunction function) : function_(std::move(function)) {}
   void read(const csv::RowCursor& row) override {
-    csv::RowText text;
-    const RowOutcome outcome = function_(row, text);
-    answers_.push_back({std::string(text.view()), outcome});
+    const std::size_t begin = text_.size();
+    try {
+      const RowOutcome outcome = function_(row, text_);
+      answers_.push_back({begin, text_.size(), outcome});
+      text_.end_row();
+    } catch (...) {
+      text_.truncate(begin);
+      throw;
+    }
   }
   void answer() override {}
   RowOutcome write(std::size_t i, csv::RowText& out) const override {
-    out.cells(answers_[i].first);
-    return answers_[i].second;
+    const Answer& answer = answers_[i];
+    out.cells(text_.view().substr(answer.begin, answer.end - answer.begin));
+    return answer.outcome;
   }
-  void clear() override { answers_.clear(); }
+  void clear() override {
+    answers_.clear();
+    text_.clear();
+  }
 
  private:
+  struct Answer {
+    std::size_t begin, end;  ///< of its cells in the text
+    RowOutcome outcome;
+  };
+
   RowFunction function_;
-  std::vector<std::pair<std::string, RowOutcome>> answers_;
+  csv::RowText text_;
+  std::vector<Answer> answers_;
 };
 
 /// One block of rows on its way through a thread.

@@ -43,8 +43,8 @@ class Rows {
   virtual void clear() = 0;
 };
 
-/// Looks up the columns to read, and makes Rows for one thread after the other. Both may throw
-/// csv::Error: for a header that must be refused.
+/// BindRows looks up the columns to read and throws csv::Error for a header that must be refused;
+/// MakeRows, called in each thread, does not.
 using MakeRows = std::function<std::unique_ptr<Rows>()>;
 using BindRows = std::function<MakeRows(const csv::Header&)>;
 
