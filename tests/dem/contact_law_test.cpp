@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <tangency/dem/contact_law.hpp>
+#include <tangency/tests/support/generators.hpp>
 
 namespace {
 
@@ -46,6 +48,46 @@ TEST(ContactLaw, ShearForceTurnsWithTheNormalAtConstantLength) {
   // The smallest turn leaves the axis across both normals where it is.
   const Vec3 axis = kNormal.cross(turned).normalized();
   EXPECT_NEAR(shear.dot(axis), kTangent.dot(axis), 1e-15);
+}
+
+constexpr double kU = 0x1p-53;
+
+/// A contact that turns by anything up to a right angle and slides.
+struct Step {
+  Vec3 shear, from, to, displacement;
+  double size;  ///< of the force before it is cut back
+};
+
+Step any_step(const ContactLaw& law) {
+  namespace testing = tangency::testing;
+  const Vec3 from = *testing::direction();
+  Vec3 to = (from + *testing::uniform(0, 1) * *testing::direction()).normalized();
+  if (!(from.dot(to) > 0.0)) to = from;
+  const Vec3 across = from.cross(*testing::direction());
+  const Vec3 shear = *testing::log_uniform(1e-6, 1e6) * across;
+  const Vec3 displacement = *testing::log_uniform(1e-9, 1e3) * *testing::direction();
+  return {shear, from, to, displacement, shear.norm() + law.shear_stiffness * displacement.norm()};
+}
+
+// dem/contact_law.hpp (1) (2)
+RC_GTEST_PROP(ContactLawProperty, ShearForceIsTangentialAndWithinTheCoulombLimit, ()) {
+  const double cohesion = *rc::gen::element(0.0, 1e-3, 10.0);
+  const ContactLaw law{100.0, 50.0, *tangency::testing::uniform(0, 2), cohesion};
+  const double normal_force = *tangency::testing::log_uniform(1e-6, 1e6);
+  const Step s = any_step(law);
+  const Vec3 shear = law.shear_force(s.shear, s.from, s.to, s.displacement, normal_force);
+  const double limit = law.cohesion + normal_force * law.friction_coefficient;
+  RC_ASSERT(std::abs(shear.dot(s.to)) <= 32 * kU * s.size);
+  RC_ASSERT(shear.norm() <= limit * (1 + 8 * kU));
+  RC_CLASSIFY(shear.norm() < 0.99 * limit, "within the limit");
+}
+
+// dem/contact_law.hpp (3)
+RC_GTEST_PROP(ContactLawProperty, ShearForceKeepsItsLengthAsTheNormalTurns, ()) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const Step s = any_step(kLaw);
+  const Vec3 shear = kLaw.shear_force(s.shear, s.from, s.to, Vec3::Zero(), kNone);
+  RC_ASSERT(std::abs(shear.norm() - s.shear.norm()) <= 32 * kU * s.shear.norm());
 }
 
 TEST(ContactLaw, SmallestTurnTakesOneNormalToTheOther) {

@@ -39,6 +39,7 @@ bool same(const Classification& a, const Classification& b) {
 
 double power_of_two() { return std::ldexp(1.0, *rc::gen::inRange(-1000, 1001)); }
 
+// geometry/classify.hpp (1) (2)
 RC_GTEST_PROP(ClassifyProperty, TheTypeSurvivesAffineMapsScalingAndNegation, ()) {
   const auto& form = testing::kNormalForms[*rc::gen::inRange<std::size_t>(0, 20)];
   testing::IntegerQuadric integers = testing::pulled_back(form.quadric, *testing::integer_map());
@@ -95,6 +96,7 @@ RC_GTEST_PROP(ClassifyProperty, AnyMixtureOfMagnitudesIsDecidedExactlyInEveryEnv
   RC_CLASSIFY(classify(q).tier == Tier::filter, "filter");
 }
 
+// geometry/classify.hpp (3)
 RC_GTEST_PROP(ClassifyProperty, RanksAreThoseOfSomeQuadric, ()) {
   const Classification c = classify(mixed_quadric(1));
   RC_ASSERT(c.rank3 <= c.rank4);

@@ -71,6 +71,7 @@ TEST(ClosestPoint, LeavesASymmetryPlaneBySign) {
   EXPECT_LT(below.z(), -3);
 }
 
+// geometry/closest_point.hpp (1)
 TEST(ClosestPoint, OfASurfacePointIsItselfAtDistanceZero) {
   const Ellipsoid e({0, 0, 0}, {3, 4, 5});
   EXPECT_EQ(closest_point(e, {3, 0, 0}).distance, 0);
@@ -92,6 +93,7 @@ TEST(ClosestPoint, KeepsItsAccuracyWhereTheSeparationOfTheCoordinatesOverflows) 
   EXPECT_EQ(closest_point(e, {-huge, 0, 0}).normal, Vec3(-1, 0, 0));
 }
 
+// geometry/closest_point.hpp (5)
 TEST(ClosestPoint, DoesNotChangeWithAPowerOfTwoUnit) {
   const Quaterniond q(0.3, -0.5, 0.1, 0.8);
   const Vec3 p(0.7, -0.2, 1.1), a(1, 0.01, 0.3);
@@ -118,6 +120,62 @@ rc::Gen<std::pair<Ellipsoid, Vec3>> body_and_point() {
       });
 }
 
+/// How far a closest point's normal moves where point and body move by 1 each (a turn counts as
+/// what it moves the body's ends): the distance from the centre of curvature is at least the least
+/// radius of curvature + distance. Above 0 no other point of the surface is as close.
+double sensitivity(const Ellipsoid& e, double distance) {
+  const double radius = e.least_radius() + distance;
+  return radius > 0 ? 2 / radius : std::numeric_limits<double>::infinity();
+}
+
+constexpr double kComparable = 1e-3;  // rad; chosen: normals that rounding may turn by more tie
+
+// geometry/closest_point.hpp (1)
+RC_GTEST_PROP(ClosestPointProperty, OfASurfacePointIsItself, ()) {
+  const Ellipsoid e = *testing::ellipsoid(1e6);
+  const Vec3 n = *testing::direction(), p = e.centre() + e.support_point(n);
+  const ClosestPoint found = closest_point(e, p);
+  // The point is on the surface but for the rounding of its unit coordinates, R and the sum.
+  const double rounding = 16 * kU * e.largest_semi_axis() + 2 * kU * e.centre().norm();
+  RC_ASSERT(std::abs(found.distance) <= rounding);
+  RC_ASSERT((p - e.centre() - found.arm).norm() <= rounding);
+}
+
+// geometry/closest_point.hpp (4)
+RC_GTEST_PROP(ClosestPointProperty, GoesWithARotationAndATranslation, ()) {
+  const auto [e, p] = *body_and_point();
+  const Quaterniond turn = (*testing::orientation()).normalized();
+  const Vec3 shift = 10 * *testing::direction(), q = turn * p + shift;
+  const Ellipsoid there(turn * e.centre() + shift, e.semi_axes(), turn * e.orientation());
+  const ClosestPoint before = closest_point(e, p), after = closest_point(there, q);
+  // Products of quaternions and with vectors are within 8 u, sums within u.
+  const double rounding =
+      16 * kU * (size_of(e, p) + e.centre().norm() + p.norm() + 2 * shift.norm());
+  RC_ASSERT(std::abs(after.distance - before.distance) <= rounding);
+  const double turned = rounding * sensitivity(e, before.distance);
+  RC_CLASSIFY(turned < kComparable, "normal compared");
+  if (turned >= kComparable) return;
+  RC_ASSERT((after.normal - turn * before.normal).norm() <= turned);
+  RC_ASSERT((after.arm - turn * before.arm).norm() <=
+            2 * rounding + turned * std::abs(before.distance));
+}
+
+// geometry/closest_point.hpp (5)
+RC_GTEST_PROP(ClosestPointProperty, ScalesWithTheUnit, ()) {
+  const auto [e, p] = *body_and_point();
+  const double s = *testing::log_uniform(1e-100, 1e100);
+  const Ellipsoid there(s * e.centre(), s * e.semi_axes(), e.orientation());
+  const ClosestPoint before = closest_point(e, p), after = closest_point(there, s * p);
+  const double rounding = 8 * kU * (size_of(e, p) + e.centre().norm() + p.norm());
+  RC_ASSERT(std::abs(after.distance / s - before.distance) <= rounding);
+  const double turned = rounding * sensitivity(e, before.distance);
+  if (turned >= kComparable) return;
+  RC_ASSERT((after.normal - before.normal).norm() <= turned);
+  RC_ASSERT((after.arm / s - before.arm).norm() <=
+            2 * rounding + turned * std::abs(before.distance));
+}
+
+// geometry/closest_point.hpp (3)
 RC_GTEST_PROP(ClosestPointProperty, PointIsCentrePlusArmPlusDistanceAlongTheNormal, ()) {
   const auto [e, p] = *body_and_point();
   const ClosestPoint found = closest_point(e, p);
@@ -126,6 +184,7 @@ RC_GTEST_PROP(ClosestPointProperty, PointIsCentrePlusArmPlusDistanceAlongTheNorm
   RC_ASSERT(std::abs(found.normal.norm() - 1) <= 4 * kU);
 }
 
+// geometry/closest_point.hpp (2)
 RC_GTEST_PROP(ClosestPointProperty, DistanceChangesNoFasterThanThePoint, ()) {
   const auto [e, p] = *body_and_point();
   const Vec3 q = p + *testing::log_uniform(1e-9, 1) * e.largest_semi_axis() * *testing::direction();

@@ -183,6 +183,7 @@ TEST(Curvature, OfCrossedCylinderLikeBodiesIsThatOfASphereRelatively) {
   EXPECT_NEAR(std::abs(c.b.direction[0].x()), 1, 16 * kU);
 }
 
+// geometry/curvature.hpp (3)
 TEST(Curvature, IsThatOfTheScaledBodiesAtScalesBeyondSquaresOfDoubles) {
   const Vec3 ra(1, 2, 3), rb(5, 1, 4), n = Vec3(2, 3, 6) / 7;
   const Eigen::Quaterniond q(0.3, 0.5, -0.2, 0.7);

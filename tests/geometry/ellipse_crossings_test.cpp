@@ -102,17 +102,6 @@ TEST(CommonArea, ScalesByPowersOfTwo) {
   }
 }
 
-TEST(CommonArea, OfCrossedNeedlesIsNotNegative) {
-  // Once -1.4e222: the vertices of such a lens err by more than its width.
-  const Vec2 centre(0x1.1ccf385ebc8ap+1023, 1e16);
-  const Ellipse a(centre, {5e-324, 1e154}, {2.4629331257292207e-184, 1e-162});
-  const Ellipse b(centre, {0.5, 1e154}, {1, 1e-162});
-  for (const double area : {common_area(a, b), common_area(b, a)}) {
-    EXPECT_GE(area, 0.0);
-    EXPECT_LE(area, std::min(a.area(), b.area()));
-  }
-}
-
 TEST(ChordContact, OfTwoCirclesIsAlongTheCentres) {
   const ChordContact chord = chord_contact(Ellipse(kOrigin, {1, 1}), Ellipse({1.5, 0}, {1, 1}));
   ASSERT_EQ(chord.status, ChordStatus::ok);
@@ -131,6 +120,7 @@ TEST(ChordContact, NeedsExactlyTwoCrossings) {
   }
 }
 
+// geometry/ellipse_crossings.hpp (2)
 RC_GTEST_PROP(CrossingsProperty, LieOnBothBoundariesAsManyAsTheRelationCounts, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const Crossings found = crossings(p.a, p.b);
@@ -149,6 +139,7 @@ RC_GTEST_PROP(CrossingsProperty, LieOnBothBoundariesAsManyAsTheRelationCounts, (
   RC_ASSERT(multiplicities <= 4);
 }
 
+// geometry/ellipse_crossings.hpp (1)
 RC_GTEST_PROP(CrossingsProperty, ExchangingTheBodiesChangesNothingButTheArms, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const Crossings c = crossings(p.a, p.b), d = crossings(p.b, p.a);
@@ -161,14 +152,21 @@ RC_GTEST_PROP(CrossingsProperty, ExchangingTheBodiesChangesNothingButTheArms, ()
   RC_ASSERT(common_area(p.a, p.b) == common_area(p.b, p.a));
   const ChordContact chord = chord_contact(p.a, p.b), back = chord_contact(p.b, p.a);
   RC_ASSERT(chord.status == back.status && chord.depth == back.depth);
-  RC_ASSERT(chord.normal == -back.normal && chord.arm_a == back.arm_b);
+  RC_ASSERT(chord.normal == -back.normal);
+  RC_ASSERT(chord.arm_a == back.arm_b && chord.arm_b == back.arm_a);
 }
 
-RC_GTEST_PROP(CrossingsProperty, AreaIsBetweenNothingAndTheSmallerOne, ()) {
+// geometry/ellipse_crossings.hpp (3)
+RC_GTEST_PROP(CrossingsProperty, AreaIsBetweenNothingAndTheSmallerOneWhichItIsOfANestedPair, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
-  const double area = common_area(p.a, p.b);
-  RC_ASSERT(area >= 0 && area <= std::min(p.a.area(), p.b.area()));
+  const double area = common_area(p.a, p.b), smaller = std::min(p.a.area(), p.b.area());
+  const Relation known = relation(p.a, p.b).relation;
+  RC_ASSERT(area >= 0 && area <= smaller);
   RC_ASSERT((area > 0) == overlaps(p.a, p.b));
+  const bool nested = known == Relation::a_in_b || known == Relation::b_in_a ||
+                      known == Relation::internal_touch || known == Relation::equal;
+  if (nested) RC_ASSERT(area == smaller);
+  RC_CLASSIFY(nested, "nested");
 }
 
 RC_GTEST_PROP(CrossingsProperty, AreaGoesWithARotationAndATranslation, ()) {
@@ -183,6 +181,7 @@ RC_GTEST_PROP(CrossingsProperty, AreaGoesWithARotationAndATranslation, ()) {
   RC_ASSERT(std::abs(common_area(moved(p.a), moved(p.b)) - area) <= 1e-11 * area);
 }
 
+// geometry/ellipse_crossings.hpp (4)
 RC_GTEST_PROP(ChordContactProperty, ItsLineLeavesBothBodiesAtTheArms, ()) {
   const EllipsePair p = *testing::ellipse_pair(100);
   const ChordContact chord = chord_contact(p.a, p.b);

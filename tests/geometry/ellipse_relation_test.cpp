@@ -119,17 +119,20 @@ bool same(const EllipseRelation& x, const EllipseRelation& y) {
   return x.relation == y.relation && x.inner == y.inner && x.crossings == y.crossings;
 }
 
+// geometry/ellipse_relation.hpp (1)
 RC_GTEST_PROP(EllipseRelationProperty, ExchangingTheBodiesExchangesTheAnswer, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   RC_ASSERT(same(relation(p.b, p.a), exchanged(relation(p.a, p.b))));
 }
 
+// geometry/ellipse_relation.hpp (2)
 RC_GTEST_PROP(EllipseRelationProperty, OverlapsIsTheRelationsYesOrNo, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const Relation r = relation(p.a, p.b).relation;
   RC_ASSERT(overlaps(p.a, p.b) == (r != Relation::separate && r != Relation::external_touch));
 }
 
+// geometry/ellipse_relation.hpp (3)
 RC_GTEST_PROP(EllipseRelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const double s = std::ldexp(1.0, *rc::gen::inRange(-900, 900));
@@ -139,6 +142,7 @@ RC_GTEST_PROP(EllipseRelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
   RC_ASSERT(same(relation(scaled(p.a), scaled(p.b)), relation(p.a, p.b)));
 }
 
+// geometry/ellipse_relation.hpp (3)
 RC_GTEST_PROP(EllipseRelationProperty, ReflectingAndExchangingCoordinatesLeavesIt, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const auto moved = [](const Ellipse& e) {
@@ -148,6 +152,18 @@ RC_GTEST_PROP(EllipseRelationProperty, ReflectingAndExchangingCoordinatesLeavesI
   RC_ASSERT(same(relation(moved(p.a), moved(p.b)), relation(p.a, p.b)));
 }
 
+// geometry/ellipse_relation.hpp (3)
+RC_GTEST_PROP(EllipseRelationProperty, TurnsAndLengthsThatLeaveTheSolidsLeaveIt, ()) {
+  const EllipsePair p = *testing::any_ellipse_pair();
+  const double length = std::ldexp(1.0, *rc::gen::inRange(-900, 900));
+  const Vec2 &r = p.b.semi_axes(), &u = p.b.direction();
+  const Ellipse half(p.b.centre(), r, -length * u);
+  const Ellipse quarter(p.b.centre(), {r[1], r[0]}, length * Vec2(-u[1], u[0]));
+  RC_ASSERT(same(relation(p.a, half), relation(p.a, p.b)));
+  RC_ASSERT(same(relation(p.a, quarter), relation(p.a, p.b)));
+}
+
+// geometry/ellipse_relation.hpp (4)
 RC_GTEST_PROP(EllipseRelationProperty, CountsFitTheRelation, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
   const EllipseRelation r = relation(p.a, p.b);

@@ -46,17 +46,23 @@ TEST(Ellipse, AxisIsTheNormalisedDirectionWhateverItsLength) {
   }
 }
 
+// geometry/ellipse.hpp (1)
 RC_GTEST_PROP(EllipseProperty, ContainsItsCentre, ()) {
   const Ellipse e = *testing::ellipse(1000);
   RC_ASSERT(e.contains(e.centre()));
 }
 
+// geometry/ellipse.hpp (2)
 RC_GTEST_PROP(EllipseProperty, SupportScalesWithTheVectorsLength, ()) {
   const Ellipse e = *testing::ellipse(1000);
   const Vec2 n = *testing::plane_direction();
-  RC_ASSERT(std::abs(e.support(-4 * n) - 4 * e.support(n)) <= 1e-15 * e.support(n));
+  const double s = *testing::uniform(-4, 4) * *testing::log_uniform(1e-9, 1e9);
+  // s n is rounded, within u of itself, and each support within 8 u of the largest there is.
+  RC_ASSERT(std::abs(e.support(s * n) - std::abs(s) * e.support(n)) <=
+            16 * 0x1p-53 * std::abs(s) * e.largest_semi_axis());
 }
 
+// geometry/ellipse.hpp (3)
 RC_GTEST_PROP(EllipseProperty, SupportIsReachedAtTheSupportPointOnTheBoundary, ()) {
   const Ellipse e = *testing::ellipse(100);
   const Vec2 n = *testing::plane_direction(), p = e.support_point(n);
@@ -64,15 +70,21 @@ RC_GTEST_PROP(EllipseProperty, SupportIsReachedAtTheSupportPointOnTheBoundary, (
   RC_ASSERT(std::abs(e.level(e.centre() + p) - 1) <= 1e-12);
 }
 
-RC_GTEST_PROP(EllipseProperty, QuarterTurnWithExchangedAxesLeavesTheSolid, ()) {
-  const Ellipse e = *testing::ellipse(100);
+// geometry/ellipse.hpp (4)
+RC_GTEST_PROP(EllipseProperty, HalfAndQuarterTurnsAndLengthsOfTheDirectionLeaveTheSolid, ()) {
+  const Ellipse e = *testing::ellipse(1e6);
   const Vec2 &a = e.semi_axes(), &u = e.direction();
-  const Ellipse same(e.centre(), {a[1], a[0]}, 0.25 * Vec2(-u[1], u[0]));
+  const double length = std::exp2(*rc::gen::inRange(-900, 900));
+  const Ellipse quarter(e.centre(), {a[1], a[0]}, length * Vec2(-u[1], u[0]));
+  const Ellipse half(e.centre(), a, -u), longer(e.centre(), a, length * u);
   const Vec2 n = *testing::plane_direction();
-  RC_ASSERT(std::abs(same.support(n) - e.support(n)) <= 1e-15 * e.largest_semi_axis());
+  RC_ASSERT(half.support(n) == e.support(n));
+  RC_ASSERT(longer.support(n) == e.support(n));
+  RC_ASSERT(std::abs(quarter.support(n) - e.support(n)) <= 1e-15 * e.largest_semi_axis());
 }
 
 // Hard cases of rounding [Muller2016]: the first is the double nearest to a multiple of pi/2.
+// geometry/exact/cosine_sine.hpp (1)
 TEST(CosineSine, AreTheNearestDoubles) {
   const double hardest = std::ldexp(6381956970095103.0, 797);
   EXPECT_EQ(exact::rounded_cosine_sine(hardest).cosine, -4.6871659242546277e-19);
@@ -83,8 +95,11 @@ TEST(CosineSine, AreTheNearestDoubles) {
   EXPECT_EQ(exact::rounded_cosine_sine(-0x1p-1074).sine, -0x1p-1074);
 }
 
+// geometry/exact/cosine_sine.hpp (1) (2)
 RC_GTEST_PROP(CosineSineProperty, DoubleDoubleAndIntegersAgree, ()) {
-  const double angle = *testing::uniform(-100, 100) * *testing::log_uniform(1e-9, 1e6);
+  const double angle =
+      *testing::uniform(-1, 1) *
+      *rc::gen::oneOf(testing::log_uniform(1e-9, 1e9), testing::log_uniform(1e-300, 1e300));
   const auto fast = exact::rounded_cosine_sine(angle);
   const auto exactly = exact::rounded_cosine_sine_in_integers(angle);
   RC_ASSERT(fast.cosine == exactly.cosine && fast.sine == exactly.sine);

@@ -76,11 +76,13 @@ TEST(Ellipsoid, SphereHasItsRadiusAsSupport) {
   EXPECT_LE((e.support_point({0, 3, 4}) - Vec3(0, 1.2, 1.6)).norm(), 16 * kU);
 }
 
+// geometry/ellipsoid.hpp (1)
 RC_GTEST_PROP(EllipsoidProperty, ContainsItsCentre, ()) {
   const Ellipsoid e = *testing::ellipsoid(1e6);
   RC_ASSERT(e.contains(e.centre()));
 }
 
+// geometry/ellipsoid.hpp (2) (3)
 RC_GTEST_PROP(EllipsoidProperty, SupportIsHomogeneousAndReachedAtTheSupportPoint, ()) {
   const Ellipsoid e = *testing::ellipsoid(1e3);
   const Vec3 n = *testing::direction();
@@ -101,6 +103,7 @@ RC_GTEST_PROP(EllipsoidProperty, SupportPointIsOnTheSurfaceAndNoPointOfTheSolidR
   RC_ASSERT(n.dot(e.support_point(m)) <= e.support(n) + bound);
 }
 
+// geometry/ellipsoid.hpp (4)
 RC_GTEST_PROP(EllipsoidProperty, SolidDependsOnNeitherSignNorLengthOfTheQuaternionNorOrderOfAxes,
               ()) {
   const Ellipsoid e = *testing::ellipsoid(100);

@@ -66,6 +66,7 @@ void expect_promise(const Gap& gap, const Gap& single, double size, const Accura
   ASSERT_LE(gap.gap_error, (kOrdinaryGapErrorBound * kU * size + tolerance) * (1 + 4 * kU));
 }
 
+// geometry/gap_batch.hpp (1) (4)
 TEST(GapBatchAccuracy, EveryPointKeepsSignStatusAndItsBoundOfTheError) {
   for (const Family& f : ordinary_families()) {
     SCOPED_TRACE(f.name);

@@ -118,6 +118,7 @@ void expect_agreement(const Gap& batch, const Gap& single, std::size_t i) {
   ASSERT_LE(std::abs(batch.gap - single.gap), batch.gap_error + single.gap_error) << "pair " << i;
 }
 
+// geometry/gap_batch.hpp (1)
 TEST(GapBatch, AgreesWithTheSingleCallWithinBothErrorsOnEveryFamilyAtEveryLevel) {
   for (const Family& f : families_of_pairs()) {
     SCOPED_TRACE(f.name);
@@ -129,6 +130,7 @@ TEST(GapBatch, AgreesWithTheSingleCallWithinBothErrorsOnEveryFamilyAtEveryLevel)
   }
 }
 
+// geometry/gap_batch.hpp (1)
 TEST(GapBatch, ManufacturedGapsAreWithinTheReportedErrorAtEveryLevel) {
   for (const auto& shape : families::contact_classes()) {
     const Family f = contacts(shape, 1000);
@@ -167,6 +169,7 @@ TEST(GapBatch, OrdinaryContactsAreAnsweredInTheLanes) {
   }
 }
 
+// geometry/gap_batch.hpp (2)
 TEST(GapBatch, AnswersDoNotDependOnPositionOrderOrNumber) {
   for (const Family& f : families_of_pairs()) {
     SCOPED_TRACE(f.name);
@@ -199,6 +202,7 @@ TEST(GapBatch, AnswersDoNotDependOnPositionOrderOrNumber) {
   }
 }
 
+// geometry/gap_batch.hpp (5)
 TEST(GapBatch, IndexedBodiesAndPlainPairsHaveTheSameAnswers) {
   for (const Family& f : families_of_pairs()) {
     SCOPED_TRACE(f.name);
@@ -304,6 +308,7 @@ TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
   }
 }
 
+// geometry/gap_batch.hpp (3)
 TEST(OverlapBatch, IsTheSingleAnswerOnEveryFamilyAtEveryLevel) {
   for (const Family& f : families_of_pairs()) {
     SCOPED_TRACE(f.name);

@@ -50,6 +50,7 @@ struct Answer {
 
 Vec3 at(const GapGradient& g, int i) { return g.segment<3>(i); }
 
+// geometry/gap_derivatives.hpp (1)
 RC_GTEST_PROP(GapDerivativesProperty, MovingBothBodiesAlikeChangesNothing, ()) {
   const Answer r(*testing::pair(20));
   RC_PRE(exists(r.d));
@@ -62,6 +63,7 @@ RC_GTEST_PROP(GapDerivativesProperty, MovingBothBodiesAlikeChangesNothing, ()) {
   }
 }
 
+// geometry/gap_derivatives.hpp (2)
 RC_GTEST_PROP(GapDerivativesProperty, TurningBothBodiesAlikeChangesNothing, ()) {
   const Answer r(*testing::pair(20));
   RC_PRE(exists(r.d));
@@ -82,6 +84,7 @@ RC_GTEST_PROP(GapDerivativesProperty, TurningBothBodiesAlikeChangesNothing, ()) 
   }
 }
 
+// geometry/gap_derivatives.hpp (3)
 RC_GTEST_PROP(GapDerivativesProperty, TheGapIsHomogeneousOfDegreeOneInTheLengths, ()) {
   const Answer r(*testing::pair(20));
   RC_PRE(exists(r.d));
@@ -99,6 +102,7 @@ RC_GTEST_PROP(GapDerivativesProperty, TheGapIsHomogeneousOfDegreeOneInTheLengths
   }
 }
 
+// geometry/gap_derivatives.hpp (4) (5)
 RC_GTEST_PROP(GapDerivativesProperty, HessianIsSymmetricAndExchangeExchangesTheBlocks, ()) {
   const Answer r(*testing::pair(20));
   RC_PRE(exists(r.d));

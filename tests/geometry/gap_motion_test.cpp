@@ -77,6 +77,7 @@ TEST(GapAlongMotions, FollowedAnswerIsTheGlobalOneWhereItSaysSoAndNeverOverlapsB
   EXPECT_GT(jumps, 0);
 }
 
+// geometry/gap.hpp (5)
 TEST(GapAlongMotions, NeverChangesFasterThanTheMotion) {
   constexpr int kMotions = 1000, kSteps = 200;
   constexpr double kStep = 2 * M_PI / kSteps;

@@ -57,6 +57,7 @@ double normal_tolerance(const Pair& p, double margin) {
   return std::sqrt(4 * rounding(p) / margin) + 16 * kU;
 }
 
+// geometry/gap.hpp (1)
 RC_GTEST_PROP(GapProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   const Pair p = *testing::pair(100);
   const Gap ab = signed_gap(p.a, p.b), ba = signed_gap(p.b, p.a);
@@ -76,6 +77,7 @@ RC_GTEST_PROP(GapProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   RC_CLASSIFY(ab.status == GapStatus::ok, "ok");
 }
 
+// geometry/gap.hpp (4)
 RC_GTEST_PROP(GapProperty, MovingBByTheReportedDepthLeavesAJustTouchingPair, ()) {
   const Pair p = *testing::pair_at(100, testing::uniform(0, 1));
   const Gap before = signed_gap(p.a, p.b);
@@ -98,6 +100,7 @@ RC_GTEST_PROP(GapProperty, NoAscentReachesFurtherThanAnOkAnswer, ()) {
   }
 }
 
+// geometry/gap.hpp (2)
 RC_GTEST_PROP(GapProperty, TurningAndMovingBothBodiesLeavesTheGap, ()) {
   const Pair p = *testing::pair(20);
   const Eigen::Quaterniond turn = (*testing::orientation()).normalized();
@@ -112,6 +115,77 @@ RC_GTEST_PROP(GapProperty, TurningAndMovingBothBodiesLeavesTheGap, ()) {
   const double margin = before.gap + least_radius(p.a) + least_radius(p.b);
   const double tolerance = normal_tolerance(p, margin) + normal_tolerance(q, margin);
   if (tolerance < kComparable) RC_ASSERT((turn * before.normal - after.normal).norm() <= tolerance);
+}
+
+// geometry/gap.hpp (3)
+RC_GTEST_PROP(GapProperty, ScalingBothBodiesScalesGapAndPointsAndLeavesTheNormal, ()) {
+  const Pair p = *testing::pair(100);
+  const double s = *testing::log_uniform(1e-150, 1e150);
+  const auto scaled = [&](const Ellipsoid& e) {
+    return Ellipsoid(s * e.centre(), s * e.semi_axes(), e.orientation());
+  };
+  const Gap before = signed_gap(p.a, p.b), after = signed_gap(scaled(p.a), scaled(p.b));
+  RC_PRE(before.status == GapStatus::ok && after.status == GapStatus::ok);
+  RC_ASSERT(std::abs(after.gap / s - before.gap) <= 2 * rounding(p));
+  const double margin = before.gap + least_radius(p.a) + least_radius(p.b);
+  const double turn = 2 * normal_tolerance(p, margin);
+  RC_CLASSIFY(turn < kComparable, "normal compared");
+  if (!(turn < kComparable)) return;
+  RC_ASSERT((after.normal - before.normal).norm() <= turn);
+  RC_ASSERT((after.arm_a / s - before.arm_a).norm() <=
+            2 * turn * largest_radius(p.a) + rounding(p));
+  RC_ASSERT((after.arm_b / s - before.arm_b).norm() <=
+            2 * turn * largest_radius(p.b) + rounding(p));
+}
+
+// geometry/gap.hpp (5)
+RC_GTEST_PROP(GapProperty, ChangesNoFasterThanTheBodiesMove, ()) {
+  const Pair p = *testing::pair(1000);
+  const Vec3 d = p.b.centre() - p.a.centre();
+  const double size = d.norm() + p.a.largest_semi_axis() + p.b.largest_semi_axis();
+  const Vec3 to = d + *testing::log_uniform(1e-15, 10) * size * *testing::direction();
+  const Gap before = signed_gap(p.a, p.b, d), after = signed_gap(p.a, p.b, to);
+  RC_PRE(before.status == GapStatus::ok && after.status == GapStatus::ok);
+  const double moved = (to - d).norm() * (1 + 8 * kU);
+  RC_ASSERT(std::abs(after.gap - before.gap) <= moved + before.gap_error + after.gap_error);
+}
+
+/// Aspect and size ratios to 1e8, nearer than which the pairs above are.
+Pair extreme_pair() {
+  const auto body = testing::ellipsoid(1e8, 1e8);
+  const Ellipsoid a = *body, b = *body;
+  const double fraction = *rc::gen::oneOf(testing::uniform(0, 3), testing::uniform(0.999, 1.001));
+  const Vec3 n = *testing::direction();
+  return {a, b.moved_to(a.centre() + fraction * (a.support_point(n) + b.support_point(n)))};
+}
+
+// geometry/gap.hpp (1) (3) (4)
+RC_GTEST_PROP(GapProperty, OfExtremeShapesIsTheSameExchangedAndScaledAndLeavesATouch, ()) {
+  const Pair p = extreme_pair();
+  const int power = *rc::gen::inRange(-300, 301);
+  const auto scaled = [&](const Ellipsoid& e) {
+    return Ellipsoid(std::exp2(power) * e.centre(), std::exp2(power) * e.semi_axes(),
+                     e.orientation());
+  };
+  const Gap gap = signed_gap(p.a, p.b), back = signed_gap(p.b, p.a);
+  RC_CLASSIFY(gap.status == GapStatus::ok, "ok");
+  if (gap.status != GapStatus::ok) return;
+  if (back.status == GapStatus::ok) {
+    RC_ASSERT(std::abs(back.gap - gap.gap) <= gap.gap_error + back.gap_error);
+  } else {
+    RC_TAG("exchanged not ok");
+  }
+  const Gap there = signed_gap(scaled(p.a), scaled(p.b));
+  RC_ASSERT(there.status == GapStatus::ok);
+  RC_ASSERT(std::abs(std::ldexp(there.gap, -power) - gap.gap) <=
+            gap.gap_error + std::ldexp(there.gap_error, -power));
+  const Vec3 d = p.b.centre() - p.a.centre();
+  const Gap touch = signed_gap(p.a, p.b, d - gap.gap * gap.normal);
+  RC_ASSERT(touch.status == GapStatus::ok);
+  // A normal whose value lacks e is off by at most sqrt(2 e / (gap + rho)), which for gap > 0 costs
+  // the move another e. d and what moves it are rounded, each to u of itself.
+  RC_ASSERT(std::abs(touch.gap) <=
+            2 * gap.gap_error + touch.gap_error + 8 * kU * (d.norm() + std::abs(gap.gap)));
 }
 
 RC_GTEST_PROP(GapProperty, FollowingFromTheOwnNormalStaysThere, ()) {

@@ -208,6 +208,7 @@ TEST(Gap, AscentLeavesASaddleAndAMinimum) {
   }
 }
 
+// geometry/gap.hpp (3)
 TEST(Gap, OfScaledPairsScales) {
   families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
   for (int i = 0; i < 200; ++i) {

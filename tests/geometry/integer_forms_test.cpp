@@ -56,16 +56,20 @@ void check_identities() {
   RC_TAG(i.rank());
 }
 
+// geometry/exact/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder2, ()) {
   check_identities<2>();
 }
+// geometry/exact/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder3, ()) {
   check_identities<3>();
 }
+// geometry/exact/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder4, ()) {
   check_identities<4>();
 }
 
+// geometry/exact/integer_forms.hpp (1)
 RC_GTEST_PROP(IntegerForms, CongruenceKeepsInertia, ()) {
   IntegerForm<4> diagonal;
   Inertia expected;
@@ -101,24 +105,27 @@ RC_GTEST_PROP(IntegerForms, ReadingADoubleIsExact, ()) {
   RC_ASSERT(to_rational(value).get_d() == value);
 }
 
+// geometry/exact/integer_forms.hpp (4)
 RC_GTEST_PROP(IntegerForms, TheCommonExponentIsTheLargest, ()) {
   const std::array<double, 2> values{*finite_double(), *finite_double()};
-  const int exponent = common_exponent(values);
-  const mpz_class a = to_integer(values[0], exponent);
-  const mpz_class b = to_integer(values[1], exponent);
+  const int largest = common_exponent(values);
+  const mpz_class a = to_integer(values[0], largest);
+  const mpz_class b = to_integer(values[1], largest);
   if (a == 0 && b == 0) {
-    RC_ASSERT(exponent == 0);
+    RC_ASSERT(largest == 0);
   } else {
     RC_ASSERT(mpz_odd_p(a.get_mpz_t()) || mpz_odd_p(b.get_mpz_t()));
   }
-  const auto value_of = [&](const mpz_class& integer) {
-    mpq_class value = integer;
-    if (exponent >= 0) value <<= static_cast<mp_bitcnt_t>(exponent);
-    if (exponent < 0) value >>= static_cast<mp_bitcnt_t>(-exponent);
-    return value;
-  };
-  RC_ASSERT(value_of(a) == to_rational(values[0]));
-  RC_ASSERT(value_of(b) == to_rational(values[1]));
+  for (const int exponent : {largest, largest - *rc::gen::inRange(1, 200)}) {
+    const auto value_of = [&](double number) {
+      mpq_class value = to_integer(number, exponent);
+      if (exponent >= 0) value <<= static_cast<mp_bitcnt_t>(exponent);
+      if (exponent < 0) value >>= static_cast<mp_bitcnt_t>(-exponent);
+      return value;
+    };
+    RC_ASSERT(value_of(values[0]) == to_rational(values[0]));
+    RC_ASSERT(value_of(values[1]) == to_rational(values[1]));
+  }
 }
 
 TEST(IntegerForms, SubnormalsAreReadInEveryEnvironment) {
@@ -140,6 +147,7 @@ mpq_class value_of(const EllipsoidForm& e, const std::array<mpq_class, 4>& x) {
   return sum / e.denominator;
 }
 
+// geometry/exact/ellipsoid_form.hpp (1) (2)
 RC_GTEST_PROP(EllipsoidFormProperty, IsMinusOneAtTheCentreAndZeroAtTheEndsOfTheAxes, ()) {
   const Ellipsoid e = *tangency::testing::ellipsoid(1000);
   const EllipsoidForm form = ellipsoid_form(e);

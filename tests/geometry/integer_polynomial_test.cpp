@@ -50,6 +50,7 @@ mpq_class rational() {
   return value;
 }
 
+// geometry/exact/integer_polynomial.hpp (1)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheSignIsThatOfTheFactors, ()) {
   const Factored f = factored(5, 2);
   const mpq_class x = rational();
@@ -58,6 +59,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheSignIsThatOfTheFactors, ()) {
   RC_ASSERT(f.polynomial.sign_at(x) == (expected > 0) - (expected < 0));
 }
 
+// geometry/exact/integer_polynomial.hpp (4)
 RC_GTEST_PROP(IntegerPolynomialProperty, SturmCountsDistinctRootsAlsoWhereEndsAreRoots, ()) {
   const Factored f = factored(6, 2);
   const SturmSequence sturm(f.polynomial);
@@ -75,6 +77,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, SturmCountsDistinctRootsAlsoWhereEndsAr
   RC_ASSERT(sturm.roots_above(low) == static_cast<int>(above));
 }
 
+// geometry/exact/integer_polynomial.hpp (3)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheSquareFreePartHasEachRootOnce, ()) {
   const Factored f = factored(6, 1);
   const IntegerPolynomial part = square_free_part(f.polynomial);
@@ -88,6 +91,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheSquareFreePartHasEachRootOnce, ()) {
   if (pairs == 0) RC_ASSERT(part == expected);
 }
 
+// geometry/exact/integer_polynomial.hpp (2)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheGreatestCommonDivisorIsThatOfTheFactors, ()) {
   const Factored f = factored(4, 1);
   const Factored g = factored(4, 0);
@@ -109,6 +113,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheGreatestCommonDivisorIsThatOfTheFact
   RC_ASSERT(exact_quotient(a, divisor) * divisor == a);
 }
 
+// geometry/exact/integer_polynomial.hpp (5)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheDiscriminantIsPositiveForRealRootsZeroForRepeatedOnes,
               ()) {
   const Factored f = factored(4, 2);

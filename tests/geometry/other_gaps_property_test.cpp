@@ -86,6 +86,7 @@ RC_GTEST_PROP(OtherGapsProperty, MidpointPotentialPointsLieOnBothSurfacesAlongTh
   RC_ASSERT(leaving(p.b, g.normal, g.arm_b) <= 1e-6);
 }
 
+// geometry/other_gaps.hpp (1)
 RC_GTEST_PROP(OtherGapsProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   const Pair p = *testing::pair(kAspect);
   for (const Definition find :
@@ -102,6 +103,7 @@ RC_GTEST_PROP(OtherGapsProperty, ExchangeReversesTheNormalAndExchangesThePoints,
   }
 }
 
+// geometry/other_gaps.hpp (2)
 RC_GTEST_PROP(OtherGapsProperty, ScalingByAPowerOfTwoScalesThem, ()) {
   const Pair p = *testing::pair(kAspect);
   const int power = *rc::gen::inRange(-900, 900);
@@ -118,19 +120,41 @@ RC_GTEST_PROP(OtherGapsProperty, ScalingByAPowerOfTwoScalesThem, ()) {
   RC_ASSERT((large.arm_a / s - small.arm_a).norm() <= 2 * kU * small.arm_a.norm());
 }
 
-RC_GTEST_PROP(OtherGapsProperty, CommonRotationTurnsThem, ()) {
-  const Pair p = *testing::pair(10);
+// geometry/other_gaps.hpp (2)
+RC_GTEST_PROP(OtherGapsProperty, CommonMotionCarriesNormalAndPointsAlong, ()) {
+  constexpr double kRound = 10;  // aspect
+  const Pair p = *testing::pair(kRound);
   const Eigen::Quaterniond q = (*testing::orientation()).normalized();
-  const auto turned = [&](const Ellipsoid& e) {
-    return Ellipsoid(q * e.centre(), e.semi_axes(), q * e.orientation().normalized());
+  const Vec3 shift = *testing::direction();
+  const auto moved = [&](const Ellipsoid& e) {
+    return Ellipsoid(q * e.centre() + shift, e.semi_axes(), q * e.orientation().normalized());
   };
-  const OtherGap before = perram_wertheim_gap(p.a, p.b);
-  if (before.status != OtherGapStatus::ok || turning(p) > 1e-3) RC_SUCCEED("not comparable");
-  const OtherGap after = perram_wertheim_gap(turned(p.a), turned(p.b));
-  RC_ASSERT((after.normal - q * before.normal).norm() <= turning(p));
-  RC_ASSERT(std::abs(after.gap - before.gap) <= moving(p) + turning(p) * size_of(p));
+  const Pair there{moved(p.a), moved(p.b)};
+  const double turn = turning(p) + turning(there), moves = moving(p) + moving(there);
+  if (p.a.centre() == p.b.centre() || !(turn < 1e-3)) RC_SUCCEED("not comparable");
+  for (const Definition find :
+       {Definition{perram_wertheim_gap}, Definition{midpoint_potential_gap}}) {
+    const bool on_a_line = find == Definition{midpoint_potential_gap};
+    const OtherGap before = find(p.a, p.b), after = find(there.a, there.b);
+    if (on_a_line && (grazing(p, before) || grazing(there, after))) continue;
+    RC_ASSERT(before.status == after.status);
+    if (before.status != OtherGapStatus::ok) continue;
+    // A support point turns with the normal, at most a_max^2 / a_min as far. The line through the
+    // point of equal levels shifts and turns, and where it leaves a body by the inverse cosine
+    // more.
+    double points = moves + turn * kRound * size_of(p);
+    if (on_a_line) {
+      points *= kRound / std::min(leaving(p.a, before.normal, before.arm_a),
+                                  -leaving(p.b, before.normal, before.arm_b));
+    }
+    RC_ASSERT((after.normal - q * before.normal).norm() <= turn);
+    RC_ASSERT(std::abs(after.gap - before.gap) <= 2 * points);
+    RC_ASSERT((after.arm_a - q * before.arm_a).norm() <= points);
+    RC_ASSERT((after.arm_b - q * before.arm_b).norm() <= points);
+  }
 }
 
+// geometry/other_gaps.hpp (3)
 RC_GTEST_PROP(OtherGapsProperty, TheirSignIsThatOfTheExactRelation, ()) {
   const Pair p = *testing::pair(kAspect);
   const bool meet = overlaps(p.a, p.b);
@@ -149,6 +173,7 @@ RC_GTEST_PROP(OtherGapsProperty, PerramWertheimIsNeverAboveTheSignedGap, ()) {
   RC_ASSERT(g.gap <= best.gap + best.gap_error + 2 * kU * size_of(p));
 }
 
+// geometry/other_gaps.hpp (4)
 RC_GTEST_PROP(OtherGapsProperty, OfSpheresAreTheSignedGap, ()) {
   const Pair drawn = *testing::pair(kAspect);
   const auto sphere = [](const Ellipsoid& e) {

@@ -134,6 +134,7 @@ TEST(OtherGaps, TakeAGivenSeparationForThatOfTheCentres) {
   EXPECT_EQ(midpoint_potential_gap(a, elsewhere, b.centre()).gap, midpoint_potential_gap(a, b).gap);
 }
 
+// geometry/other_gaps.hpp (4)
 TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
   families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
   double largest = 0;

@@ -205,6 +205,7 @@ RC_GTEST_PROP(PencilProperty, TheCorrectedScanIsRightForSolidsThePublishedOneFor
   RC_CLASSIFY(expected == PencilVerdict::separate, "separate");
 }
 
+// geometry/pencil.hpp (1)
 RC_GTEST_PROP(PencilProperty, MembersAlternateAndAscendFromMinusToPlusInfinity, ()) {
   const Members members = pencil_members(integer_ellipsoid(), integer_ellipsoid());
   RC_ASSERT(members.front().low == -kInfinity);
@@ -243,14 +244,40 @@ RC_GTEST_PROP(PencilProperty, TheTypeAtADoubleIsThatOfTheCombinedForm, ()) {
   }
 }
 
+Quadric any_normal_form() {
+  const auto& form = testing::kNormalForms[*rc::gen::inRange<std::size_t>(0, 20)];
+  return testing::to_quadric(testing::pulled_back(form.quadric, *testing::integer_map()));
+}
+
+// geometry/pencil.hpp (2)
+RC_GTEST_PROP(PencilProperty, SignsGiveTheTypeByDescartesRule, ()) {
+  const bool solids = *rc::gen::arbitrary<bool>();
+  const Members members = solids ? pencil_members(integer_ellipsoid(), integer_ellipsoid())
+                                 : pencil_members(any_normal_form(), any_normal_form());
+  for (const PencilMember& m : members) {
+    const auto inertia_of = [&](const std::vector<Invariant>& invariants) {
+      std::vector<int> signs{1};
+      for (const Invariant i : invariants) signs.push_back(m.sign(i));
+      return exact::inertia_from_signs(signs);
+    };
+    const exact::Inertia form =
+        inertia_of({Invariant::d1, Invariant::d2, Invariant::d3, Invariant::d4});
+    const exact::Inertia sub_form = inertia_of({Invariant::t1, Invariant::t2, Invariant::t3});
+    RC_ASSERT(m.classification.type == exact::type_of(form, sub_form));
+    RC_ASSERT(m.classification.rank4 == form.rank());
+    RC_ASSERT(m.classification.rank3 == sub_form.rank());
+  }
+}
+
+// geometry/pencil.hpp (3)
 RC_GTEST_PROP(PencilProperty, ExchangingThePairReversesThePositiveMembers, ()) {
   const Ellipsoid a = integer_ellipsoid(), b = integer_ellipsoid();
   const auto positive = [](const Members& members) {
-    std::vector<std::array<int, 7>> signs;
+    std::vector<std::pair<QuadricType, std::array<int, 7>>> seen;
     for (const PencilMember& m : members) {
-      if (m.is_positive()) signs.push_back(m.signs);
+      if (m.is_positive()) seen.emplace_back(m.classification.type, m.signs);
     }
-    return signs;
+    return seen;
   };
   auto forward = positive(pencil_members(a, b));
   std::reverse(forward.begin(), forward.end());

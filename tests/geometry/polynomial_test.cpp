@@ -102,6 +102,7 @@ bool is_near(const QuarticRoot& root, double exact) {
   return std::abs(root.x - exact) <= root.error + 0x1p-52 * std::abs(exact);
 }
 
+// geometry/polynomial.hpp (1)
 RC_GTEST_PROP(PolynomialProperty, QuarticChangesItsSignWithinTheErrorOfARootThatCrosses, ()) {
   const Coefficients a = *coefficients();
   const QuarticRoots roots = quartic_roots(a);
@@ -116,6 +117,7 @@ RC_GTEST_PROP(PolynomialProperty, QuarticChangesItsSignWithinTheErrorOfARootThat
   }
 }
 
+// geometry/polynomial.hpp (2)
 RC_GTEST_PROP(PolynomialProperty, QuarticRootIsMissedOnlyWhereRoundingCannotTellItFromTheNext, ()) {
   const Coefficients a = *coefficients();
   if (is_zero(a)) RC_SUCCEED("zero");
@@ -149,6 +151,7 @@ RC_GTEST_PROP(PolynomialProperty, QuarticRootsComeInOrderAndFewerThanFiveCross, 
   RC_ASSERT(crossing <= 4);
 }
 
+// geometry/polynomial.hpp (3)
 RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowAPowerOfTwoAndAReflection, ()) {
   const Coefficients a = *coefficients();
   const double s = std::exp2(*rc::gen::inRange(-900, 900));

@@ -94,6 +94,7 @@ TEST(WallGap, KeepsItsAccuracyFarFromTheOrigin) {
   EXPECT_NEAR(signed_gap(e, Plane{{1, -1, 0}, -3 * std::sqrt(2.0)}).gap, 2, 8 * kU);
 }
 
+// geometry/primitives.hpp (2)
 RC_GTEST_PROP(PrimitivesProperty, SphereIsAnEllipsoidOfEqualSemiAxes, ()) {
   const Ellipsoid e = *testing::ellipsoid(100);
   const double r = *testing::log_uniform(0.1, 10);
@@ -105,6 +106,7 @@ RC_GTEST_PROP(PrimitivesProperty, SphereIsAnEllipsoidOfEqualSemiAxes, ()) {
   RC_ASSERT(std::abs(gap.gap - same.gap) <= 10 * kU * size);
 }
 
+// geometry/primitives.hpp (1)
 RC_GTEST_PROP(PrimitivesProperty, ExchangeReversesTheNormalAndExchangesThePoints, ()) {
   const Ellipsoid e = *testing::ellipsoid(100);
   const Sphere s{Vec3(3 * *testing::direction()), *testing::log_uniform(0.1, 10)};
@@ -114,6 +116,58 @@ RC_GTEST_PROP(PrimitivesProperty, ExchangeReversesTheNormalAndExchangesThePoints
   RC_ASSERT(one.arm_a == other.arm_b && one.arm_b == other.arm_a);
 }
 
+// geometry/primitives.hpp (1)
+RC_GTEST_PROP(PrimitivesProperty, ExchangedSpheresHaveTheOppositeNormalAndExchangedPoints, ()) {
+  const Ellipsoid p = *testing::ellipsoid(1), q = *testing::ellipsoid(1, 1e8);
+  const Sphere a{p.centre(), p.largest_semi_axis()}, b{q.centre(), q.largest_semi_axis()};
+  if (a.centre == b.centre) RC_SUCCEED("concentric: every normal ties");
+  const Gap one = signed_gap(a, b), other = signed_gap(b, a);
+  RC_ASSERT(one.gap == other.gap);
+  RC_ASSERT(one.normal == Vec3(-other.normal));
+  RC_ASSERT(one.arm_a == other.arm_b && one.arm_b == other.arm_a);
+}
+
+/// A common motion and scaling of a body, a sphere and a wall.
+struct Similarity {
+  Quaterniond turn;
+  Vec3 shift;
+  double scale;
+
+  Vec3 at(const Vec3& x) const { return scale * (turn * x + shift); }
+  Ellipsoid operator()(const Ellipsoid& e) const {
+    return {at(e.centre()), scale * e.semi_axes(), turn * e.orientation()};
+  }
+  Sphere operator()(const Sphere& s) const { return {at(s.centre), scale * s.radius}; }
+  Plane operator()(const Plane& p) const {
+    const Vec3 normal = turn * p.normal;
+    return {normal, scale * (p.offset + normal.dot(shift))};
+  }
+};
+
+Similarity any_similarity() {
+  return {(*testing::orientation()).normalized(), 10 * *testing::direction(),
+          *testing::log_uniform(1e-100, 1e100)};
+}
+
+// geometry/primitives.hpp (4)
+RC_GTEST_PROP(PrimitivesProperty, CommonMotionLeavesTheGapAndACommonScalingScalesIt, ()) {
+  const Similarity to = any_similarity();
+  const Ellipsoid e = *testing::ellipsoid(1e6);
+  const Sphere s{Vec3(3 * *testing::direction()), *testing::log_uniform(1e-6, 1e6)};
+  const Sphere other{e.centre(), e.largest_semi_axis()};
+  const Plane wall{*testing::direction(), *testing::uniform(-5, 5)};
+  // Centres, the offset and the turned body are rounded, each within 8 u of the lengths in them.
+  const double size = 2 * (e.centre().norm() + s.centre.norm() + std::abs(wall.offset) +
+                           to.shift.norm() + s.radius + e.largest_semi_axis());
+  const auto same = [&](double before, double after) {
+    return std::abs(after / to.scale - before) <= 16 * kU * size;
+  };
+  RC_ASSERT(same(signed_gap(e, s).gap, signed_gap(to(e), to(s)).gap));
+  RC_ASSERT(same(signed_gap(other, s).gap, signed_gap(to(other), to(s)).gap));
+  RC_ASSERT(same(signed_gap(e, wall).gap, signed_gap(to(e), to(wall)).gap));
+}
+
+// geometry/primitives.hpp (3)
 RC_GTEST_PROP(PrimitivesProperty, MovingTheSphereByTheGapLeavesATouch, ()) {
   const Ellipsoid e = *testing::ellipsoid(100);
   const Sphere s{Vec3(3 * *testing::direction()), *testing::log_uniform(0.1, 10)};
@@ -123,6 +177,7 @@ RC_GTEST_PROP(PrimitivesProperty, MovingTheSphereByTheGapLeavesATouch, ()) {
   RC_ASSERT(std::abs(signed_gap(e, moved).gap) <= 8 * kU * size);
 }
 
+// geometry/primitives.hpp (3)
 RC_GTEST_PROP(PrimitivesProperty, MovingTheBodyByTheGapTouchesTheWall, ()) {
   const Ellipsoid e = *testing::ellipsoid(1e4);
   const Plane wall{Vec3(*testing::log_uniform(1e-3, 1e3) * *testing::direction()),

@@ -35,6 +35,7 @@ double magnitude(const Quadric& q, const Vec3& x) {
   return h.dot(q.discriminant().cwiseAbs() * h);
 }
 
+// geometry/quadric.hpp (1)
 RC_GTEST_PROP(QuadricProperty, EvaluateIsTheFormOfTheDiscriminantMatrix, ()) {
   const Quadric q = any_quadric();
   const Vec3 x = *point();
@@ -42,6 +43,7 @@ RC_GTEST_PROP(QuadricProperty, EvaluateIsTheFormOfTheDiscriminantMatrix, ()) {
   RC_ASSERT(std::abs(q.evaluate(x) - expected) <= 16 * kU * magnitude(q, x));
 }
 
+// geometry/quadric.hpp (2)
 RC_GTEST_PROP(QuadricProperty, TheGradientIsTheDerivative, ()) {
   const Quadric q = any_quadric();
   const Vec3 x = *point(), step = *point();
@@ -51,6 +53,19 @@ RC_GTEST_PROP(QuadricProperty, TheGradientIsTheDerivative, ()) {
   RC_ASSERT(std::abs(q.gradient(x).dot(step) - difference) <= 64 * kU * size);
 }
 
+// geometry/quadric.hpp (2)
+RC_GTEST_PROP(QuadricProperty, TheGradientIsZeroAtTheCentre, ()) {
+  // Ellipsoids, hyperboloids, cones and their imaginary relatives about a centre.
+  Quadric::Coefficients c{};
+  for (const std::size_t i : {0u, 1u, 2u, 9u}) c[i] = *testing::uniform(-1, 1);
+  const Vec3 centre = *point();
+  const Quadric q = Quadric(c).moved(*testing::orientation(), centre);
+  const Vec3 x = centre.cwiseAbs();
+  const Eigen::Vector3d terms = (q.discriminant().cwiseAbs() * x.homogeneous()).head<3>();
+  RC_ASSERT(q.gradient(centre).norm() <= 64 * kU * (terms.norm() + q.sub_discriminant().norm()));
+}
+
+// geometry/quadric.hpp (3)
 RC_GTEST_PROP(QuadricProperty, MovingTheSurfaceMovesItsValues, ()) {
   const Quadric q = any_quadric();
   const Eigen::Quaterniond turn = *testing::orientation();
@@ -61,6 +76,7 @@ RC_GTEST_PROP(QuadricProperty, MovingTheSurfaceMovesItsValues, ()) {
   RC_ASSERT(std::abs(moved.evaluate(y) - q.evaluate(x)) <= 256 * kU * size);
 }
 
+// geometry/quadric.hpp (4)
 RC_GTEST_PROP(QuadricProperty, ScalingTheSurfaceScalesItsValues, ()) {
   const Quadric q = any_quadric();
   const double s = *testing::log_uniform(1e-3, 1e3);
@@ -76,6 +92,7 @@ RC_GTEST_PROP(QuadricProperty, ScalingByAPowerOfTwoIsExact, ()) {
   RC_ASSERT(classify(q.scaled(s)).type == classify(q).type);
 }
 
+// geometry/quadric.hpp (5)
 RC_GTEST_PROP(QuadricProperty, AnEllipsoidIsNegativeInsideAndPositiveOutside, ()) {
   const Ellipsoid e = *testing::ellipsoid(30);
   const Quadric q = Quadric::from_ellipsoid(e);
@@ -129,6 +146,7 @@ TEST(Quadric, FromEllipsoidRoundsEachCoefficientWithinItsBound) {
   EXPECT_GT(worst.block, 0.02) << "the bound is loose";
 }
 
+// geometry/quadric.hpp (5)
 RC_GTEST_PROP(QuadricProperty, TheRoundTripGivesTheEllipsoidBack, ()) {
   const double aspect = *rc::gen::element(1.5, 10.0, 100.0);
   const Ellipsoid e = *testing::ellipsoid(aspect);

@@ -102,6 +102,7 @@ IntegerPolynomial random_polynomial(std::set<mpq_class>& roots) {
   return *rc::gen::arbitrary<bool>() ? p * polynomial({1, 1, 1}) : p;
 }
 
+// geometry/exact/real_roots.hpp (1)
 RC_GTEST_PROP(RealRootsProperty, IsolationFindsEveryRootOnceInOrder, ()) {
   std::set<mpq_class> expected;
   const SturmSequence sturm(random_polynomial(expected));
@@ -122,6 +123,7 @@ RC_GTEST_PROP(RealRootsProperty, IsolationFindsEveryRootOnceInOrder, ()) {
   }
 }
 
+// geometry/exact/real_roots.hpp (3) (4)
 RC_GTEST_PROP(RealRootsProperty, ComparisonIsThatOfTheNumbers, ()) {
   std::set<mpq_class> expected_a, expected_b;
   const SturmSequence a(random_polynomial(expected_a)), b(random_polynomial(expected_b));
@@ -143,6 +145,7 @@ RC_GTEST_PROP(RealRootsProperty, ComparisonIsThatOfTheNumbers, ()) {
   }
 }
 
+// geometry/exact/real_roots.hpp (2)
 RC_GTEST_PROP(RealRootsProperty, DoublesAroundARationalAreTheNearest, ()) {
   const auto bits = *rc::gen::arbitrary<std::uint64_t>();
   const double x = std::bit_cast<double>(bits);

@@ -28,42 +28,23 @@ bool same(const RelationAnswer& x, const RelationAnswer& y) {
 
 bool interiors_meet(Relation r) { return r != Relation::separate && r != Relation::external_touch; }
 
-/// Pairs whose coordinates are small integers, among which exact touches, nesting and equality are
-/// frequent.
-rc::Gen<Pair> integer_pair() {
-  const auto body = rc::gen::map(
-      rc::gen::tuple(rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-2, 3)),
-                     rc::gen::container<std::array<int, 3>>(rc::gen::inRange(1, 4)),
-                     rc::gen::container<std::array<int, 4>>(rc::gen::inRange(-1, 2))),
-      [](const std::tuple<std::array<int, 3>, std::array<int, 3>, std::array<int, 4>>& t) {
-        const auto& [c, r, q] = t;
-        Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-        if (orientation.coeffs() == Eigen::Vector4d::Zero()) orientation.w() = 1;
-        return Ellipsoid(Vec3(c[0], c[1], c[2]), Vec3(r[0], r[1], r[2]), orientation);
-      });
-  return rc::gen::map(rc::gen::pair(body, body), [](const std::pair<Ellipsoid, Ellipsoid>& p) {
-    return Pair{p.first, p.second};
-  });
-}
-
-rc::Gen<Pair> any_pair() {
-  return rc::gen::oneOf(integer_pair(), testing::pair(1000), testing::pair(5));
-}
-
+// geometry/relation.hpp (1)
 RC_GTEST_PROP(RelationProperty, ExchangingTheBodiesExchangesTheAnswer, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   RC_ASSERT(same(relation(p.b, p.a), exchanged(relation(p.a, p.b))));
 }
 
+// geometry/relation.hpp (2)
 RC_GTEST_PROP(RelationProperty, OverlapsIsTheRelationsYesOrNo, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   const RelationAnswer r = relation(p.a, p.b);
   RC_ASSERT(overlaps(p.a, p.b) == interiors_meet(r.relation));
   RC_TAG(std::string(to_string(r.relation)));
 }
 
+// geometry/relation.hpp (3)
 RC_GTEST_PROP(RelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   const double s = std::ldexp(1.0, *rc::gen::inRange(-900, 900));
   const auto scaled = [&](const Ellipsoid& e) {
     return Ellipsoid(s * e.centre(), s * e.semi_axes(), e.orientation());
@@ -71,8 +52,9 @@ RC_GTEST_PROP(RelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
   RC_ASSERT(same(relation(scaled(p.a), scaled(p.b)), relation(p.a, p.b)));
 }
 
+// geometry/relation.hpp (3)
 RC_GTEST_PROP(RelationProperty, PermutingAndReflectingCoordinatesLeavesIt, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   // A cyclic permutation of the coordinates, which is a rotation, then the reflection x -> -x,
   // which takes the rotation of (w, x, y, z) to that of (w, x, -y, -z) up to the body's own
   // symmetry.
@@ -85,8 +67,9 @@ RC_GTEST_PROP(RelationProperty, PermutingAndReflectingCoordinatesLeavesIt, ()) {
   RC_ASSERT(same(relation(moved(p.a), moved(p.b)), relation(p.a, p.b)));
 }
 
+// geometry/relation.hpp (3)
 RC_GTEST_PROP(RelationProperty, SignAndLengthOfTheQuaternionAndOrderOfAxesLeaveIt, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   const Vec3& r = p.b.semi_axes();
   const Eigen::Quaterniond& q = p.b.orientation();
   const Ellipsoid longer(p.b.centre(), r, Eigen::Quaterniond(-0x1p40 * q.coeffs()));
@@ -101,8 +84,9 @@ RC_GTEST_PROP(RelationProperty, SignAndLengthOfTheQuaternionAndOrderOfAxesLeaveI
   }
 }
 
+// geometry/relation.hpp (4)
 RC_GTEST_PROP(RelationProperty, GrowingABodyNeverTurnsOverlapsOff, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   const Ellipsoid grown(p.b.centre(), p.b.semi_axes() * *testing::uniform(1, 2), p.b.orientation());
   Vec3 axes = p.b.semi_axes();
   axes[*rc::gen::inRange(0, 3)] *= *testing::uniform(1, 2);
@@ -113,8 +97,9 @@ RC_GTEST_PROP(RelationProperty, GrowingABodyNeverTurnsOverlapsOff, ()) {
   }
 }
 
+// geometry/relation.hpp (5)
 RC_GTEST_PROP(RelationProperty, AgreesWithTheSignOfTheGap, ()) {
-  const Pair p = *any_pair();
+  const Pair p = *testing::any_pair();
   const Gap gap = signed_gap(p.a, p.b);
   const double size =
       (p.b.centre() - p.a.centre()).norm() + p.a.largest_semi_axis() + p.b.largest_semi_axis();

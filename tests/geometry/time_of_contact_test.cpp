@@ -248,11 +248,13 @@ RC_GTEST_PROP(TimeOfContactProperty, PairIsApartBeforeAndInContactByTheLatestTim
   if (found.status == Status::contact) RC_ASSERT(at(found.latest) < 0);
 }
 
+// geometry/time_of_contact.hpp (1)
 RC_GTEST_PROP(TimeOfContactProperty, ExchangeLeavesStatusAndTime, ()) {
   const Moving m = *moving();
   RC_ASSERT(agree(solve(m), solve({m.b, m.a, m.mb, m.ma})));
 }
 
+// geometry/time_of_contact.hpp (2)
 RC_GTEST_PROP(TimeOfContactProperty, CommonVelocityChangesNothing, ()) {
   const Moving m = *moving();
   const Vec3 v = *testing::uniform(0, 10) * *testing::direction();
@@ -261,6 +263,7 @@ RC_GTEST_PROP(TimeOfContactProperty, CommonVelocityChangesNothing, ()) {
   RC_ASSERT(agree(solve(m), solve(other)));
 }
 
+// geometry/time_of_contact.hpp (3)
 RC_GTEST_PROP(TimeOfContactProperty, IsNoEarlierThanTheGreatestClosingSpeedAllows, ()) {
   const Moving m = *moving();
   const TimeOfContact found = solve(m);
@@ -273,6 +276,7 @@ RC_GTEST_PROP(TimeOfContactProperty, IsNoEarlierThanTheGreatestClosingSpeedAllow
   RC_ASSERT(found.latest * greatest >= signed_gap(m.a, m.b).gap * (1 - 1e-12));
 }
 
+// geometry/time_of_contact.hpp (4)
 RC_GTEST_PROP(TimeOfContactProperty, LongerHorizonLeavesAContactWhereItIs, ()) {
   const Moving m = *moving();
   const TimeOfContact found = solve(m);

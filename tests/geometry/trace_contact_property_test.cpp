@@ -51,6 +51,7 @@ RC_GTEST_PROP(TraceContactProperty, AnswersOverlapWithANegativeGapAndNothingElse
   RC_ASSERT((t.status == TraceStatus::ok) == (t.normal != Vec3::Zero()));
 }
 
+// geometry/trace_contact.hpp (1)
 RC_GTEST_PROP(TraceContactProperty, PointsAreOnTheSurfacesAndApartByTheGapAlongTheNormal, ()) {
   const Pair p = *overlapping();
   const TraceContact t = trace_contact(p.a, p.b);
@@ -80,6 +81,7 @@ RC_GTEST_PROP(TraceContactProperty, CornersAreCoplanarAcrossTheNormal, ()) {
   }
 }
 
+// geometry/trace_contact.hpp (2)
 RC_GTEST_PROP(TraceContactProperty, CommonMotionCarriesItAlong, ()) {
   const Pair p = *overlapping();
   const Eigen::Quaterniond q = (*testing::orientation()).normalized();
@@ -97,6 +99,7 @@ RC_GTEST_PROP(TraceContactProperty, CommonMotionCarriesItAlong, ()) {
   RC_ASSERT((after.arm_b - q * before.arm_b).norm() <= moving(p, before));
 }
 
+// geometry/trace_contact.hpp (2)
 RC_GTEST_PROP(TraceContactProperty, ScalingByAPowerOfTwoScalesIt, ()) {
   const Pair p = *overlapping();
   const double s = std::exp2(*rc::gen::inRange(-900, 900));
@@ -111,6 +114,7 @@ RC_GTEST_PROP(TraceContactProperty, ScalingByAPowerOfTwoScalesIt, ()) {
   RC_ASSERT(after.arm_a / s == before.arm_a);
 }
 
+// geometry/trace_contact.hpp (3)
 RC_GTEST_PROP(TraceContactProperty, LabelsAndHalfTurnsOfAxesLeaveIt, ()) {
   const Pair p = *overlapping();
   // Axis k becomes axis k + 1: the same solid after a turn by a third about the body's diagonal.
@@ -133,6 +137,7 @@ RC_GTEST_PROP(TraceContactProperty, LabelsAndHalfTurnsOfAxesLeaveIt, ()) {
   RC_ASSERT((after.normal - before.normal).norm() <= moving(p, before));
 }
 
+// geometry/trace_contact.hpp (3)
 RC_GTEST_PROP(TraceContactProperty, TurnAboutAnAxisOfSymmetryLeavesIt, ()) {
   const Pair drawn = *overlapping();
   const double angle = *testing::uniform(-3, 3);
@@ -152,6 +157,7 @@ RC_GTEST_PROP(TraceContactProperty, TurnAboutAnAxisOfSymmetryLeavesIt, ()) {
   RC_ASSERT((after.normal - before.normal).norm() <= moving(p, before));
 }
 
+// geometry/trace_contact.hpp (4)
 RC_GTEST_PROP(TraceContactProperty, OfSpheresItIsTheSignedGap, ()) {
   const Pair drawn = *overlapping();
   const auto sphere = [](const Ellipsoid& e) {

@@ -2,11 +2,13 @@
 /// @file
 /// rapidcheck generators of bodies and pairs. Its own generator of doubles makes none of what
 /// breaks contact codes: these make log-uniform shapes and sizes, equal and nearly equal semi-axes,
-/// zero components, quaternions of any length, centres that coincide, and gaps near zero.
+/// zero components, quaternions of any length, centres that coincide, gaps near zero, and small
+/// whole numbers that touch exactly.
 #pragma once
 
 #include <rapidcheck.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -130,6 +132,26 @@ inline rc::Gen<Pair> pair(double aspect) {
                  rc::gen::weightedOneOf<double>(
                      {{1, rc::gen::just(0.0)}, {3, uniform(0, 1)}, {3, near}, {2, uniform(1, 5)}}));
 }
+
+/// Pairs whose coordinates are small whole numbers, among which exact touches, nesting and equality
+/// are frequent.
+inline rc::Gen<Pair> whole_pair() {
+  const auto body = rc::gen::map(
+      rc::gen::tuple(rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-2, 3)),
+                     rc::gen::container<std::array<int, 3>>(rc::gen::inRange(1, 4)),
+                     rc::gen::container<std::array<int, 4>>(rc::gen::inRange(-1, 2))),
+      [](const std::tuple<std::array<int, 3>, std::array<int, 3>, std::array<int, 4>>& t) {
+        const auto& [c, r, q] = t;
+        Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+        if (orientation.coeffs() == Eigen::Vector4d::Zero()) orientation.w() = 1;
+        return Ellipsoid(Vec3(c[0], c[1], c[2]), Vec3(r[0], r[1], r[2]), orientation);
+      });
+  return rc::gen::map(rc::gen::pair(body, body), [](const std::pair<Ellipsoid, Ellipsoid>& p) {
+    return Pair{p.first, p.second};
+  });
+}
+
+inline rc::Gen<Pair> any_pair() { return rc::gen::oneOf(whole_pair(), pair(1000), pair(5)); }
 
 inline void showValue(const Pair& p, std::ostream& os) {
   os << "a ";

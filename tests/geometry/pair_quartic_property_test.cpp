@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The exact tiers against oracles that decide by other theorems (verify/oracles).
+#include <tangency/geometry/exact/pair_quartic.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <tangency/geometry/exact/conic_pair.hpp>
+#include <tangency/tests/support/conversions.hpp>
+#include <tangency/tests/support/ellipse_generators.hpp>
+#include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/oracles/ellipse.hpp>
+#include <tangency/verify/oracles/relation.hpp>
+
+namespace tangency::exact {
+namespace {
+
+using tangency::testing::EllipsePair;
+using tangency::testing::Pair;
+
+/// Positive roots, counted with multiplicity: those of p, of gcd(p, p'), and so on.
+int positive_roots(IntegerPolynomial p) {
+  int count = 0;
+  while (p.degree() > 0) {
+    count += SturmSequence(p).roots_above(0);
+    p = gcd(p, p.derivative());
+  }
+  return count;
+}
+
+// geometry/exact/pair_quartic.hpp (1) (2)
+RC_GTEST_PROP(PairQuarticProperty, EndsAreNegativeAndTwoRootsAtLeast, ()) {
+  const Pair p = *tangency::testing::any_pair();
+  const IntegerPolynomial quartic = pair_quartic(p.a, p.b);
+  RC_ASSERT(quartic.degree() == 4);
+  RC_ASSERT(quartic.leading() < 0);
+  RC_ASSERT(quartic.sign_at(0) < 0);
+  RC_ASSERT(positive_roots(quartic.reflected()) >= 2);
+}
+
+// geometry/exact/pair_quartic.hpp (3)
+RC_GTEST_PROP(PairQuarticProperty, PositiveRootsTellThePosition, ()) {
+  const Pair p = *tangency::testing::any_pair();
+  const IntegerPolynomial quartic = pair_quartic(p.a, p.b);
+  const int distinct = SturmSequence(quartic).roots_above(0);
+  switch (verify::exact_relation(tangency::testing::to_raw(p.a), tangency::testing::to_raw(p.b))
+              .relation) {
+    case verify::Relation::separate:
+      RC_ASSERT(distinct == 2 && position(quartic) == Position::apart);
+      break;
+    case verify::Relation::external_touch:
+      RC_ASSERT(distinct == 1 && positive_roots(quartic) == 2);
+      RC_ASSERT(position(quartic) == Position::touching);
+      RC_TAG("touch");
+      break;
+    default:
+      RC_ASSERT(distinct == 0 && position(quartic) == Position::interiors_meet);
+  }
+}
+
+std::vector<int> multiplicities(Meeting meeting) {
+  switch (meeting) {
+    case Meeting::equal:
+    case Meeting::nowhere:
+      break;
+    case Meeting::two_simple:
+      return {1, 1};
+    case Meeting::four_simple:
+      return {1, 1, 1, 1};
+    case Meeting::one_double:
+      return {2};
+    case Meeting::double_and_two_simple:
+      return {1, 1, 2};
+    case Meeting::two_double:
+      return {2, 2};
+    case Meeting::triple_and_simple:
+      return {1, 3};
+    case Meeting::quadruple:
+      return {4};
+  }
+  return {};
+}
+
+verify::RawEllipse raw(const Ellipse& e) {
+  const Vec2 &c = e.centre(), &r = e.semi_axes(), &u = e.direction();
+  return {{c[0], c[1]}, {r[0], r[1]}, {u[0], u[1]}};
+}
+
+// geometry/exact/conic_pair.hpp (1) (2) (3) (4)
+RC_GTEST_PROP(ConicPairProperty, RelationAndMultiplicitiesAreTheOracles, ()) {
+  const EllipsePair p = *tangency::testing::any_ellipse_pair();
+  const ConicAnswer found = conic_relation(p.a, p.b);
+  const verify::EllipseTruth truth = verify::exact_ellipse_relation(raw(p.a), raw(p.b));
+  RC_ASSERT(to_string(found.relation) == verify::name(truth.relation.relation));
+  RC_ASSERT(static_cast<int>(found.inner) == static_cast<int>(truth.relation.inner));
+  RC_ASSERT((found.meeting == Meeting::equal) == (truth.crossings == -1));
+  RC_ASSERT(multiplicities(found.meeting) == truth.multiplicities);
+  RC_TAG(std::string(to_string(found.relation)), static_cast<int>(found.meeting));
+}
+
+}  // namespace
+}  // namespace tangency::exact
