@@ -18,6 +18,7 @@ using namespace tangency::test;
 constexpr Growth kGrowth{1.5, 1.2, 50, 0.01};
 constexpr Shape kSphere{10.0, 1.0, 1.0};
 
+// dem/growth.hpp (2)
 TEST(Growth, EndsAtTheWantedRatiosExactly) {
   const Shape end = kGrowth.shape_after(kSphere, 50);
   EXPECT_EQ(end.elongation, 1.5);
@@ -25,6 +26,7 @@ TEST(Growth, EndsAtTheWantedRatiosExactly) {
   EXPECT_EQ((Growth{1.5, {}, 50, 0.01}.shape_after({10.0, 1.0, 1.1}, 50).flatness), 1.1);
 }
 
+// dem/growth.hpp (1)
 TEST(Growth, KeepsVolumeAndArea) {
   for (const std::int64_t done : {0, 1, 17, 50}) {
     EXPECT_NEAR(kGrowth.shape_after(kSphere, done).semi_axes().prod(), 1000.0, 1e-11);

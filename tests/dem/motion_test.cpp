@@ -38,6 +38,7 @@ struct One {
   }
 };
 
+// dem/motion.hpp (1)
 TEST(Motion, WithoutForceIsUniform) {
   One one;
   one.particles.velocity[0] = {0.1, -0.2, 0.3};
@@ -50,6 +51,7 @@ TEST(Motion, WithoutForceIsUniform) {
   EXPECT_NEAR(one.particles.orientation[0].norm(), 1.0, 4e-16);
 }
 
+// dem/motion.hpp (2)
 TEST(Motion, HasAnErrorOfSecondOrderInTheStep) {
   const double exact = std::cos(2.0);
   const double coarse = std::abs(One().oscillate(50) - exact);
@@ -57,6 +59,7 @@ TEST(Motion, HasAnErrorOfSecondOrderInTheStep) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.05);
 }
 
+// dem/motion.hpp (2)
 TEST(Motion, WithoutDampingIsReversible) {
   One one;
   const Vec3 start = one.particles.position[0];
@@ -107,6 +110,7 @@ TEST(Motion, AMomentAboutABodyAxisTurnsAboutItByItsMomentOfInertia) {
   EXPECT_NEAR(kinetic_energy(one.particles), 0.5 * inertia * std::pow(0.2 / inertia, 2), 1e-15);
 }
 
+// dem/motion.hpp (3)
 TEST(Motion, OrientationsStayUnitAndExactForLargeTurns) {
   const Vec3 axis = Vec3(1.0, -2.0, 2.0) / 3.0;
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();

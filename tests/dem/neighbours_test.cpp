@@ -18,6 +18,7 @@ bool lists_all(const NeighbourList& list, const std::vector<Pair>& pairs) {
   return std::includes(list.pairs().begin(), list.pairs().end(), pairs.begin(), pairs.end());
 }
 
+// dem/neighbours.hpp (1)
 TEST(NeighbourList, HoldsEveryMeetingPairOfALargeCell) {
   const Cell cell = cell_of({9.0, 12.0, 10.0});
   const Particles particles = crowd(200, cell, 1);
@@ -28,6 +29,7 @@ TEST(NeighbourList, HoldsEveryMeetingPairOfALargeCell) {
   EXPECT_TRUE(lists_all(list, meeting));
 }
 
+// dem/neighbours.hpp (3)
 TEST(NeighbourList, HoldsEveryMeetingImageOfACellSmallerThanAParticle) {
   const Cell cell = cell_of({0.8, 1.1, 5.0});
   const Particles particles = crowd(6, cell, 2);
@@ -39,6 +41,7 @@ TEST(NeighbourList, HoldsEveryMeetingImageOfACellSmallerThanAParticle) {
   EXPECT_TRUE(lists_all(list, meeting));
 }
 
+// dem/neighbours.hpp (2)
 TEST(NeighbourList, ListsNoPairTwiceAndInAscendingOrder) {
   const Cell cell = cell_of({1.5, 3.0, 2.0});
   NeighbourList list;
@@ -71,6 +74,7 @@ int steps_until_out_of_date(double speed, const Vec3& rate) {
 
 // A list that is renewed all the time would be no use: it must last a few steps too.
 
+// dem/neighbours.hpp (1)
 TEST(NeighbourList, MissesNoPairWhileCurrentAsParticlesMove) {
   EXPECT_GT(steps_until_out_of_date(1.0, Vec3(-0.5, 0.3, -0.2)), 10);
 }
@@ -93,6 +97,7 @@ TEST(NeighbourList, IsOutOfDateBeforeTwoThatWereNotListedMeetHeadOn) {
   EXPECT_FALSE(list.is_current(particles, cell));
 }
 
+// dem/neighbours.hpp (1)
 TEST(NeighbourList, MissesNoPairWhileCurrentAsTheCellShrinks) {
   EXPECT_GT(steps_until_out_of_date(0.0, Vec3(-1.0, -1.0, -1.0)), 10);
 }

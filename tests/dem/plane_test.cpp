@@ -104,6 +104,7 @@ TEST(Plane, ConservesMomentumAndAngularMomentum) {
   EXPECT_NEAR(angular_momentum(plane.particles), angular, 1e-11 * 60.0);
 }
 
+// dem/motion.hpp (4)
 TEST(Plane, LeavesNothingOutOfIt) {
   Plane plane(80, plane_cell(9.0, 8.0), 4);
   plane.update(kFrictional, 0.0);
@@ -164,6 +165,7 @@ TEST(Plane, ContactsAreThePairsOfImagesWithANegativePlaneGap) {
   EXPECT_GT(seen, 25u);
 }
 
+// dem/neighbours.hpp (1) (4)
 TEST(PlaneNeighbourList, HoldsEveryMeetingPairAndNoImageAlongTheThickness) {
   const Cell cell = plane_cell(5.0, 12.0);
   const Particles particles = plane_crowd(80, cell, 6);
@@ -222,6 +224,7 @@ void expect_no_overlap(const Particles& particles, const Cell& cell) {
   EXPECT_TRUE(meeting.empty());
 }
 
+// dem/sample.hpp (1)
 TEST(PlaceAtRandom, LeavesNoTwoBoundingSpheresMeeting) {
   for (const int dimensions : {2, 3}) {
     const double fraction = largest_bounding_fraction(dimensions);
@@ -251,6 +254,7 @@ TEST(PlaceAtRandom, ServesACellHardlyWiderThanAParticle) {
                DoesNotFit);
 }
 
+// dem/sample.hpp (2)
 TEST(PlaceAtRandom, OfOneSeedIsOneSample) {
   Cell cell;
   const auto positions = [&](std::uint64_t seed) {

@@ -40,6 +40,7 @@ Simulation dense(std::size_t count) {
   return Simulation(parse_scene(text, "scene.toml"));
 }
 
+// dem/simulation.hpp (1)
 TEST(Simulation, HasTheSameStateAtEveryThreadCount) {
   std::string hash[3];
   for (const int threads : {1, 2, 3}) {
@@ -54,6 +55,7 @@ TEST(Simulation, HasTheSameStateAtEveryThreadCount) {
   EXPECT_EQ(hash[0], hash[2]);
 }
 
+// dem/simulation.hpp (1)
 TEST(Simulation, ContinuesFromASavedStateBitForBit) {
   const TemporaryFolder folder;
   Simulation uninterrupted = dense(64);

@@ -78,6 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Csv, AcceptedText,
                              {"ManySpellings", "x,y\n+1.,-25e-1\n.3e+1,0004.000E0\n", ""}}),
                          name_of);
 
+// geometry/tool/csv.hpp (3)
 TEST_P(RefusedText, IsNamedWithPlaceValueAndRule) {
   EXPECT_EQ(refusal(GetParam().text), GetParam().message);
 }
@@ -231,6 +232,7 @@ std::string format(const char* how, double value) {
   return text;
 }
 
+// geometry/tool/csv.hpp (1)
 TEST(CsvNumbers, ReadBackToTheSameDouble) {
   using limits = std::numeric_limits<double>;
   std::vector<double> values{0.0,  -0.0,        limits::max(), limits::min(), limits::denorm_min(),
@@ -249,6 +251,7 @@ TEST(CsvNumbers, ReadBackToTheSameDouble) {
   }
 }
 
+// geometry/tool/csv.hpp (2)
 TEST(CsvNumbers, AreReadCorrectlyRounded) {
   // The C library rounds correctly; texts with more digits than a double holds, and exact ties.
   Doubles doubles;

@@ -40,6 +40,7 @@ Finished run_with_threads(unsigned threads, Names arguments, const std::string& 
   return run_tool(arguments, input);
 }
 
+// geometry/tool/row_stream.hpp (1)
 TEST(RowStream, EveryNumberOfThreadsWritesTheSameBytes) {
   const TemporaryFolder folder;
   const std::string text = kHeader + rows(30'000);  // about ten blocks
@@ -53,6 +54,7 @@ TEST(RowStream, EveryNumberOfThreadsWritesTheSameBytes) {
   }
 }
 
+// geometry/tool/row_stream.hpp (2)
 TEST(RowStream, EveryNumberOfThreadsRefusesTheSameRow) {
   const TemporaryFolder folder;
   const std::string path = folder.write("pairs.csv", kHeader + rows(30'000, 20'000) + rows(9, 1));
