@@ -10,10 +10,12 @@
 /// p_B - p_A = g n: the *common normal*. Their midpoint is the contact point.
 ///
 /// (1) gap(b, a) is gap(a, b); where the best normal is unique it is reversed and the points are
-///     exchanged.
+///     exchanged. Deeper than -rho (see signed_gap()) the search may prove in one order, ok, what
+///     it leaves open in the other, local.
 /// (2) A common rotation or translation leaves the gap; a unique normal and its points go with it.
 /// (3) A common scaling scales gap and points and leaves the normal.
-/// (4) Moving B by -gap n leaves the pair just touching.
+/// (4) Moving B by -gap n leaves the pair just touching, to within the errors of the two gaps and
+///     |gap| times that of n (contact_bounds()), which a move along it is off by sideways.
 /// (5) The gap changes no faster than the bodies move: |g(d + e) - g(d)| <= |e|.
 #pragma once
 

@@ -9,6 +9,13 @@
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
+
+/// What a property prints of a counterexample; found by argument-dependent lookup.
+inline void showValue(const Ray& ray, std::ostream& os) {
+  os << std::hexfloat << "{o " << ray.origin.transpose() << " d " << ray.direction.transpose()
+     << '}';
+}
+
 namespace {
 
 constexpr double kU = 0x1p-53;
