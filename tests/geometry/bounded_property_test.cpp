@@ -35,7 +35,7 @@ Known operand() {
                                            tangency::testing::log_uniform(0x1p400, 0x1p1023));
   const double value = *rc::gen::element(1.0, -1.0) * magnitude;
   // The truth anywhere in the error's reach, its ends included.
-  const double error = *rc::gen::element(0.0, 0x1p-53, 0x1p-30) * magnitude;
+  const double error = *rc::gen::element(0.0, 0x1p-53, 0x1p-30, 0.25, 1.5) * magnitude;
   const mpq_class part(*rc::gen::inRange(-8, 9), 8);
   return {{value, error}, to_rational(value) + part * to_rational(error)};
 }
