@@ -10,6 +10,10 @@ namespace {
 
 // Of a direction: chosen, twice what the stored axes of parallel bodies may differ by.
 constexpr double kParallel = 8 * kUnitRoundoff;
+// Cosine between a peak and d's side of the axis; chosen: rounding moves a peak on the equator by
+// less wherever the proof counts, and one that lies further on the other side is not of the
+// maximum.
+constexpr double kBeyondEquator = -0x1p-20;
 // (A) of the derivation: what f of bodies within kParallel of coaxial may lack, of the size, and
 // what r may, of size and largest radii of curvature.
 constexpr double kAsymmetry = 10 * kUnitRoundoff;
@@ -58,7 +62,7 @@ class Meridian {
     double along = proof.normal.dot(axis_);
     // Only concentric pairs look alike from both ends of the axis.
     if (pair_.d == Vec3::Zero()) along = std::abs(along);
-    if (along < -0x1p-20) return false;
+    if (along < kBeyondEquator) return false;
     const double angle = std::atan2(proof.normal.cross(axis_).norm(), along);
     // An ascent may wander along a circle of ties; of those the documented one is on the meridian.
     const GapProof here = prove_gap_in_double_double(pair_, normal(angle));
