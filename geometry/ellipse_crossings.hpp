@@ -42,7 +42,8 @@ Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept;
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
 /// Area of the common region, with a relative error of 1e-13 where bodies of aspect ratios to 1000
-/// overlap by 1e-16 of their size and more. Infinite beyond the range of doubles.
+/// overlap by 1e-16 of their size and more. Infinite above the range of doubles; below it rounded
+/// to a subnormal or to 0, for bodies that overlap too.
 double common_area(const Ellipse& a, const Ellipse& b) noexcept;
 double common_area(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
