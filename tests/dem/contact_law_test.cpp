@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <limits>
+
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/tests/support/generators.hpp>
 
