@@ -77,8 +77,12 @@ void expect_same_gap(const Answer& x, const Answer& y, Relation truth) {
   EXPECT_GE(x.gap_error, 0) << "NaN, or negative";
   // The true gap is at least gap - gap_error, and at most gap + gap_error where ok.
   if (!std::isfinite(x.gap)) return;
-  if (y.status == GapStatus::ok) EXPECT_LE(x.gap - x.gap_error, y.gap + y.gap_error);
-  if (x.status == GapStatus::ok) EXPECT_LE(y.gap - y.gap_error, x.gap + x.gap_error);
+  if (y.status == GapStatus::ok) {
+    EXPECT_LE(x.gap - x.gap_error, y.gap + y.gap_error);
+  }
+  if (x.status == GapStatus::ok) {
+    EXPECT_LE(y.gap - y.gap_error, x.gap + x.gap_error);
+  }
 }
 
 TEST(Regressions, PairsKeepEveryPromise) {
