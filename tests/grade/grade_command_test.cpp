@@ -88,14 +88,29 @@ TEST(GradeCommand, AToleranceOfAMillionthShowsBelowIt) {
   EXPECT_GT(report.value("near/all/broken bounds"), 200);  // it kept the kernel's gap_error
 }
 
-TEST(GradeCommand, AnExchangedNormalIsTwoOff) {
+TEST(GradeCommand, AnExchangedNormalIsReversedAndTwoOff) {
   const std::string tool = changed("NR > 1 { $4 = -$4; $5 = -$5; $6 = -$6 } { print }");
-  EXPECT_EQ(grade_tool(tool, "classes", {"--max-wrong", "0"}).run.status, 0);
   const Report report = grade_tool(tool, "classes", {"--max-normal-error", "1e-5"});
   EXPECT_EQ(report.run.status, 1);
+  EXPECT_EQ(report.value("classes/all/reversed normals"), 450);
+  EXPECT_TRUE(
+      report.says("FAILED classes: 450 normals that point away from every true one, the "
+                  "first in row 0\n"))
+      << report.run.out;
   EXPECT_NEAR(report.value("classes/all/normal error, median"), 2, 1e-4);
   EXPECT_LT(report.value("classes/all/gap error, largest"), 1e-15);
   EXPECT_TRUE(report.says("FAILED classes: normal error 2 in row "));
+}
+
+TEST(GradeCommand, OneReversedNormalFailsWithoutAThreshold) {
+  const std::string turned = "NR == 9 { $4 = -$4; $5 = -$5; $6 = -$6 } ";
+  const Report report = grade_tool(changed(turned + "{ print }"), "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(
+      report.says("near: 1 normals that point away from every true one, the first in row 7"));
+  EXPECT_EQ(report.value("near/gap 1e-03/reversed normals"), 1);
+  EXPECT_EQ(report.value("near/all/reversed normals"), 1);
+  EXPECT_EQ(grade_tool(kKernel, "near").value("near/all/reversed normals"), 0);
 }
 
 TEST(GradeCommand, AHangingToolIsKilledAndItsAnswersAreGraded) {
@@ -235,6 +250,15 @@ TEST(GradeCommand, EveryNormalThatReachesTheGapIsRight) {
   EXPECT_NEAR(error(off, "two"), 1.41421356, 1e-8);
   EXPECT_NEAR(error(off, "circle"), 0.28284271, 1e-8);
   EXPECT_EQ(error(off, "all"), 2);
+  const auto reversed = [&](const std::string& rows, const std::string& family) {
+    const std::string answers = folder.write("answers.csv", "row,nx,ny,nz\n" + rows);
+    return grade({"--answers", answers, "--corpus", "ties", "--corpora", folder.path("")})
+        .value("ties/" + family + "/reversed normals");
+  };
+  EXPECT_EQ(reversed(off, "all"), 0);
+  EXPECT_EQ(reversed("0,0.1,0,0\n1,0.1,0,-0.07\n2,0,0,-1\n", "circle"), 0);
+  EXPECT_EQ(reversed("0,0.1,0,0\n1,0.1,0,-0.08\n2,0,0,-1\n", "circle"), 1);
+  EXPECT_EQ(reversed("0,0.1,0,0\n1,0,0,-1\n2,0,0,-1\n", "two"), 0);
 }
 
 TEST(GradeCommand, GradesByTheDefinitionThatIsAskedFor) {

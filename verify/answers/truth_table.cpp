@@ -47,7 +47,7 @@ class TableReader {
   TruthRow& enter(const RowCursor& line, bool& again) {
     const double number = line.number(row_);
     const auto count = static_cast<double>(table_.rows.size());
-    again = table_.kind == CorpusKind::pairs && count > 0 && number == count - 1;
+    again = table_.kind != CorpusKind::quadrics && count > 0 && number == count - 1;
     if (!again && number != count) {
       throw line.error(row_, "rows must be numbered from 0 in order");
     }
@@ -83,12 +83,10 @@ class PairReader {
       : definition_(definition),
         relation_(header.require("relation")),
         size_(header.require("size")),
+        gap_(header.require(gap_column(definition))),
         set_(header.require("normals")),
         axis_(require3(header, {"ax", "ay", "az"})) {
     const bool common = definition == Definition::common_normal;
-    gap_ = header.require(common                                      ? "gap"
-                          : definition == Definition::perram_wertheim ? "pw.gap"
-                                                                      : "mp.gap");
     normal_ = common ? require3(header, {"nx", "ny", "nz"})
                      : require3(header, {"pw.nx", "pw.ny", "pw.nz"});
   }
@@ -103,7 +101,7 @@ class PairReader {
       if (!line.text(gap_).empty()) row.gap = two_doubles(line, gap_);
       row.first_normal = table.maximisers.size();
     }
-    if (!row.gap || (again && !common)) return;
+    if (!row.gap || !table.has_normals || (again && !common)) return;
     const std::string_view set = common ? line.text(set_) : "point";
     if (set == "all") {
       row.every_normal = true;
@@ -117,8 +115,22 @@ class PairReader {
   }
 
  private:
+  static const char* gap_column(Definition definition) {
+    switch (definition) {
+      case Definition::common_normal:
+        return "gap";
+      case Definition::perram_wertheim:
+        return "pw.gap";
+      case Definition::midpoint_potential:
+        return "mp.gap";
+      case Definition::centre_line:
+        break;
+    }
+    return "cl.gap";
+  }
+
   Definition definition_;
-  Column relation_, size_, set_, gap_;
+  Column relation_, size_, gap_, set_;
   Columns3 axis_, normal_;
 };
 
@@ -130,9 +142,32 @@ class EllipseReader {
         size_(header.require("size")),
         area_(header.require("area")),
         smaller_area_(header.require("smaller_area")),
-        gap_(header.require("gap")) {}
+        gap_(header.require("gap")),
+        set_(header.find("normals")) {
+    if (set_) normal_ = {header.require("nx"), header.require("ny")};
+  }
 
-  void read(const RowCursor& line, TruthRow& row) const {
+  // Tables of before there were normals have none.
+  bool has_normals() const { return set_.has_value(); }
+
+  void read(const RowCursor& line, bool again, TruthTable& table) const {
+    TruthRow& row = table.rows.back();
+    if (!again) read_row(line, row, table.maximisers.size());
+    if (!set_) return;
+    const std::string_view set = line.text(*set_);
+    if (set == "all") {
+      row.every_normal = true;
+      return;
+    }
+    if (set != "point") throw line.error(*set_, "this is not a set of normals");
+    table.maximisers.push_back(
+        {{line.number(normal_[0]), line.number(normal_[1]), 0}, std::nullopt});
+    ++row.normals;
+  }
+
+ private:
+  void read_row(const RowCursor& line, TruthRow& row, std::size_t first_normal) const {
+    row.first_normal = first_normal;
     row.relation = read_relation(line, relation_);
     row.crossings = line.text(crossings_).empty() ? -1 : small_count(line, crossings_);
     row.size = line.number(size_);
@@ -143,8 +178,9 @@ class EllipseReader {
     if (!(row.smaller_area > 0)) throw line.error(smaller_area_, "an area must be > 0");
   }
 
- private:
   Column relation_, crossings_, size_, area_, smaller_area_, gap_;
+  std::optional<Column> set_;
+  std::array<Column, 2> normal_{};
 };
 
 }  // namespace
@@ -168,6 +204,7 @@ TruthTable read_truth(const std::string& path, Definition definition) {
   bool again = false;
   switch (table.kind) {
     case CorpusKind::pairs: {
+      table.has_normals = definition != Definition::centre_line;
       const PairReader pairs(header, definition);
       csv::for_each_row(file, [&](const RowCursor& line) {
         reader.enter(line, again);
@@ -177,8 +214,11 @@ TruthTable read_truth(const std::string& path, Definition definition) {
     }
     case CorpusKind::ellipses: {
       const EllipseReader ellipses(header);
-      csv::for_each_row(
-          file, [&](const RowCursor& line) { ellipses.read(line, reader.enter(line, again)); });
+      table.has_normals = ellipses.has_normals();
+      csv::for_each_row(file, [&](const RowCursor& line) {
+        reader.enter(line, again);
+        ellipses.read(line, again, table);
+      });
       break;
     }
     case CorpusKind::quadrics: {

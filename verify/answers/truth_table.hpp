@@ -19,10 +19,10 @@ struct TwoDoubles {
   double high = 0, low = 0;
 };
 
-// Which gap and normal are meant.
-enum class Definition { common_normal, perram_wertheim, midpoint_potential };
+// Which gap and normal are meant; centre_line has no normal.
+enum class Definition { common_normal, perram_wertheim, midpoint_potential, centre_line };
 
-// A true normal; of a circle, all turns about `axis`.
+// A true normal (of ellipses with z = 0); of a circle, all turns about `axis`.
 struct Maximiser {
   std::array<double, 3> normal;
   std::optional<std::array<double, 3>> axis;
@@ -45,6 +45,7 @@ struct TruthTable {
   std::vector<std::string> families;  // in the order of their first rows
   std::vector<TruthRow> rows;
   std::vector<Maximiser> maximisers;
+  bool has_normals = false;
 };
 
 // By the columns: `type` makes quadrics, `crossings` ellipses. Throws csv::Error.

@@ -27,6 +27,9 @@ constexpr std::array kCorpora{
     CorpusInfo{"extreme", CorpusKind::pairs, "needles, discs, sizes, scales, far origins"},
     CorpusInfo{"deep", CorpusKind::pairs,
                "overlaps of any depth, where several local answers compete"},
+    CorpusInfo{
+        "profiles", CorpusKind::pairs,
+        "displacement profiles: equal spheroids in contact, moved along, across, and turned"},
     CorpusInfo{"ellipses", CorpusKind::ellipses, "plane ellipses in general and special places"},
     CorpusInfo{"quadrics", CorpusKind::quadrics,
                "quadrics of every type, and what lies beside their borders"},
@@ -80,7 +83,7 @@ struct PairFormat {
       "a.x,a.y,a.z,a.r1,a.r2,a.r3,a.qw,a.qx,a.qy,a.qz,"
       "b.x,b.y,b.z,b.r1,b.r2,b.r3,b.qw,b.qx,b.qy,b.qz";
   static constexpr std::string_view truth =
-      "relation,inner,size,gap,normals,nx,ny,nz,ax,ay,az,pw.gap,pw.nx,pw.ny,pw.nz,mp.gap";
+      "relation,inner,size,gap,normals,nx,ny,nz,ax,ay,az,pw.gap,pw.nx,pw.ny,pw.nz,mp.gap,cl.gap";
 
   static std::string input(const EllipsoidPair& pair) {
     std::string line;
@@ -94,12 +97,12 @@ struct PairFormat {
     if (!truth) return {};
     const std::string head = relation_cells(truth->relation) + ',' +
                              hex(truth->size.convert_to<double>()) + ',' + decimal(truth->gap);
-    std::string tail = ",,,,,";
+    std::string tail = ",,,,,,";
     if (const auto& pw = truth->perram_wertheim) {
       const bool touch = truth->relation.relation == Relation::external_touch;
       const auto number = [&](const Real& v) { return touch ? "0" : decimal(v); };
       tail = ',' + number(pw->tangent_planes.gap) + ',' + components(pw->tangent_planes.normal) +
-             ',' + (pw->midpoint ? number(pw->midpoint->gap) : "");
+             ',' + (pw->midpoint ? number(pw->midpoint->gap) : "") + ',' + number(pw->centre_line);
     }
     TruthLines lines;
     for (const TrueNormals& n : truth->normals) {
@@ -117,7 +120,8 @@ struct PairFormat {
 struct EllipseFormat {
   static constexpr std::string_view inputs =
       "a.x,a.y,a.r1,a.r2,a.ux,a.uy,b.x,b.y,b.r1,b.r2,b.ux,b.uy";
-  static constexpr std::string_view truth = "relation,inner,crossings,size,area,smaller_area,gap";
+  static constexpr std::string_view truth =
+      "relation,inner,crossings,size,area,smaller_area,gap,normals,nx,ny";
 
   static std::string input(const EllipsePair& pair) {
     std::string line;
@@ -129,10 +133,16 @@ struct EllipseFormat {
   static TruthLines lines(const EllipsePair& pair) {
     const EllipsePairTruth truth = ellipse_truth(pair);
     const auto rounded = [](const Real& v) { return hex(v.convert_to<double>()); };
-    return {relation_cells(truth.relation) + ',' +
-            (truth.crossings < 0 ? "" : std::to_string(truth.crossings)) + ',' +
-            rounded(truth.size) + ',' + rounded(truth.area) + ',' + rounded(truth.smaller_area) +
-            ',' + decimal(truth.gap)};
+    const std::string head = relation_cells(truth.relation) + ',' +
+                             (truth.crossings < 0 ? "" : std::to_string(truth.crossings)) + ',' +
+                             rounded(truth.size) + ',' + rounded(truth.area) + ',' +
+                             rounded(truth.smaller_area) + ',' + decimal(truth.gap.gap);
+    if (truth.gap.every_normal) return {head + ",all,,"};
+    TruthLines lines;
+    for (const auto& [x, y] : truth.gap.normals) {
+      lines.push_back(head + ",point," + component(x) + ',' + component(y));
+    }
+    return lines;
   }
 };
 
@@ -167,13 +177,14 @@ CorpusText started(const CorpusInfo& corpus) {
       truth =
           " Relation: exact, in integers (verify/oracles/relation.hpp).\n"
           "# Gap and normals: 40 digits of 150 (verify/oracles/gap.hpp, verify/corpus/"
-          "coaxial.hpp), a line for every normal\n# that reaches the gap; pw and mp:"
+          "coaxial.hpp), a line for every normal\n# that reaches the gap; pw, mp, cl:"
           " verify/oracles/perram_wertheim.hpp. Columns: verify/corpus/corpus.hpp.\n";
       break;
     case CorpusKind::ellipses:
       truth =
-          " Relation and crossings: exact; area: 18 digits, rounded to\n# double; gap: 30 digits"
-          " at least (verify/oracles/ellipse.hpp). Columns: verify/corpus/corpus.hpp.\n";
+          " Relation and crossings: exact; area: 18 digits, rounded to\n# double; gap and normals:"
+          " 40 digits of 150, a line for every normal that reaches the gap\n"
+          "# (verify/oracles/ellipse.hpp). Columns: verify/corpus/corpus.hpp.\n";
       break;
     case CorpusKind::quadrics:
       truth = " Types: exact, in integers (verify/oracles/classification.hpp).\n";
@@ -213,6 +224,7 @@ PairFamilies pair_families(std::string_view corpus) {
   if (corpus == "symmetric") return symmetric_families();
   if (corpus == "nested") return nested_families();
   if (corpus == "extreme") return extreme_families();
+  if (corpus == "profiles") return profile_families();
   return deep_families();
 }
 

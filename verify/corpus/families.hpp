@@ -39,6 +39,7 @@ PairFamilies symmetric_families();  // equal and parallel axes, spheres, a commo
 PairFamilies nested_families();     // one inside the other, inner touches, common centres
 PairFamilies extreme_families();    // needles, discs, sizes, scales, far origins
 PairFamilies deep_families();       // overlaps of any depth, where several normals compete
+PairFamilies profile_families();    // displacement profiles of the published study
 
 std::vector<InputFamily<EllipsePair>> ellipse_families();
 std::vector<InputFamily<RawQuadric>> quadric_families();

@@ -41,7 +41,7 @@ struct EllipsePairTruth {
   int crossings;  // -1 for equal ellipses
   Real size;      // L
   Real area, smaller_area;
-  Real gap;
+  PlaneGapTruth gap;
 };
 
 // Throws std::logic_error as above.

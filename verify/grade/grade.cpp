@@ -4,6 +4,7 @@
 #include <exception>
 #include <tangency/geometry/tool/csv.hpp>
 #include <tangency/verify/grade/grade.hpp>
+#include <tangency/verify/grade/normal.hpp>
 #include <utility>
 
 namespace tangency::verify {
@@ -11,42 +12,16 @@ namespace {
 
 using csv::Column;
 using csv::RowCursor;
-using Vector = std::array<double, 3>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Chosen: enough to see what is going on.
 constexpr std::size_t kMostNamedFaults = 10;
 
 struct Verdict {
-  bool seen = false, missing = false, wrong = false, touch = false, broken = false;
+  bool seen = false, missing = false, wrong = false, touch = false, broken = false,
+       reversed = false;
   double gap = kNone, normal = kNone, area = kNone;
 };
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-double distance(const Vector& a, const Vector& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-// To the nearest of all turns of the maximiser about its axis.
-double distance_to_circle(const Vector& n, const Vector& normal, const Vector& axis) {
-  const auto across = [&](const Vector& v) {
-    const double along = dot(v, axis);
-    return std::hypot(v[0] - along * axis[0], v[1] - along * axis[1], v[2] - along * axis[2]);
-  };
-  return std::hypot(dot(n, axis) - dot(normal, axis), across(n) - across(normal));
-}
-
-double normal_error(const TruthTable& truth, const TruthRow& row, const Vector& n) {
-  if (row.every_normal) return std::abs(std::hypot(n[0], n[1], n[2]) - 1);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < row.normals; ++i) {
-    const Maximiser& one = truth.maximisers[row.first_normal + i];
-    least = std::min(
-        least, one.axis ? distance_to_circle(n, one.normal, *one.axis) : distance(n, one.normal));
-  }
-  return least;
-}
 
 // gap - truth, rounded once but for a share of 2^-53 of itself.
 double excess(double gap, const TwoDoubles& truth) {
@@ -58,9 +33,10 @@ double excess(double gap, const TwoDoubles& truth) {
 // The answers' columns, of one header.
 struct Columns {
   std::optional<Column> relation, overlaps, gap, gap_error, status, crossings, area, type;
-  std::optional<std::array<Column, 3>> normal;
+  std::optional<Column> normal_x, normal_y, normal_z;  // all, or x and y of ellipses, or none
 
-  Columns(const csv::Header& header, CorpusKind kind) {
+  Columns(const csv::Header& header, const TruthTable& truth) {
+    const CorpusKind kind = truth.kind;
     if (kind == CorpusKind::quadrics) {
       type = header.find("type");
       return;
@@ -72,11 +48,14 @@ struct Columns {
     if (kind == CorpusKind::ellipses) {
       crossings = header.find("crossings");
       area = header.find("area");
-      return;
     }
+    const bool plane = kind == CorpusKind::ellipses;
     const auto x = header.find("nx"), y = header.find("ny"), z = header.find("nz");
-    if (x && y && z) normal = {*x, *y, *z};
+    if (!truth.has_normals || !x || !y || !(z || plane)) return;
+    normal_x = x, normal_y = y;
+    if (!plane) normal_z = z;
   }
+  bool normal() const { return normal_x.has_value(); }
   bool words() const { return relation || overlaps || crossings || type; }
 };
 
@@ -87,11 +66,13 @@ class Grader {
 
   void read(const std::string& path) {
     csv::Reader reader(path);
-    const Columns columns(reader.header(), truth_.kind);
+    const Columns columns(reader.header(), truth_);
     result_.judges_words = columns.words();
+    result_.judges_gaps = columns.gap.has_value();
+    result_.judges_normals = columns.normal();
     result_.claims_bounds = columns.gap_error.has_value();
     const Column number = reader.header().require("row");
-    offered_ = columns.words() || columns.gap || columns.normal || columns.area;
+    offered_ = columns.words() || columns.gap || columns.normal() || columns.area;
     if (!offered_) fault("the header names no column that is graded");
     csv::Block block;
     RowCursor line(reader.header());
@@ -172,7 +153,7 @@ class Grader {
     judge_numbers(line, columns, truth_.rows[i], verdict);
     verdict.missing = verdict.missing || !offered_ || (demands_.words && !columns.words()) ||
                       (demands_.gap && !columns.gap && truth_.rows[i].gap) ||
-                      (demands_.normal && !columns.normal && truth_.rows[i].gap);
+                      (demands_.normal && !columns.normal() && truth_.rows[i].gap);
   }
 
   void judge_words(const RowCursor& line, const Columns& columns, const TruthRow& row,
@@ -237,16 +218,24 @@ class Grader {
         }
       }
     }
-    if (columns.normal) {
-      Vector n{};
-      bool whole = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto component = number(line, (*columns.normal)[k], verdict);
-        whole = whole && component;
-        n[k] = component.value_or(0);
-      }
-      if (whole) verdict.normal = normal_error(truth_, row, n);
+    if (columns.normal()) judge_normals(line, columns, row, verdict);
+  }
+
+  void judge_normals(const RowCursor& line, const Columns& columns, const TruthRow& row,
+                     Verdict& verdict) {
+    std::array<double, 3> n{};
+    const std::array components{columns.normal_x, columns.normal_y, columns.normal_z};
+    bool whole = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!components[k]) continue;
+      const auto component = number(line, *components[k], verdict);
+      whole = whole && component;
+      n[k] = component.value_or(0);
     }
+    if (!whole) return;
+    const NormalVerdict found = judge_normal(truth_, row, n);
+    verdict.normal = found.error;
+    verdict.reversed = found.reversed;
   }
 
   void summarise() {
@@ -276,7 +265,10 @@ class Grader {
       if (v.wrong) count(g.wrong, g.first_wrong, i);
       if (v.touch) ++g.touches;
       if (v.missing || !v.seen) count(g.missing, g.first_missing, i);
+      if (!v.seen) ++g.unanswered;
+      if (truth_.rows[i].gap && std::isnan(v.gap)) ++g.without_gap;
       if (v.broken) count(g.broken_bounds, g.first_broken, i);
+      if (v.reversed) count(g.reversed, g.first_reversed, i);
     }
     g.gap = errors(rows, &Verdict::gap);
     g.normal = errors(rows, &Verdict::normal);

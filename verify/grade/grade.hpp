@@ -10,16 +10,16 @@
 //  (1) wrong: the relation, crossings, type or yes/no differ from the truth. `overlaps` 1 on an
 //      external touch is counted apart (`touches`) and never wrong.
 //  (2) missing: an answer that was asked for and is not there, or is no finite number or known
-//  word. (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes; the difference is
-//  taken with
-//      106 bits, so that a correctly rounded gap is seen as that.
-//  (4) normal error: length of the difference to the nearest true normal.
+//      word.
+//  (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes; the difference is taken
+//      with 106 bits, so that a correctly rounded gap is seen as that.
+//  (4) normal error: length of the difference to the nearest true normal. reversed: the normal is
+//      more than a right angle from every true one.
 //  (5) area error: |area - truth| / area of the smaller ellipse.
 //  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
 //      without gap_error claims none.
 //  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
-//  twice
-//      the first answer counts.
+//      twice the first answer counts.
 #pragma once
 
 #include <array>
@@ -47,7 +47,10 @@ struct FamilyGrade {
   std::size_t wrong = 0, first_wrong = kNoRow;
   std::size_t touches = 0;  // overlaps 1 on an external touch
   std::size_t missing = 0, first_missing = kNoRow;
+  std::size_t unanswered = 0;   // of the missing: rows without any line
+  std::size_t without_gap = 0;  // rows that have a true gap and were given none
   std::size_t broken_bounds = 0, first_broken = kNoRow;
+  std::size_t reversed = 0, first_reversed = kNoRow;  // normals
   ErrorSummary gap, normal, area;
 };
 
@@ -56,8 +59,10 @@ struct Grade {
   FamilyGrade all;                  // of the whole corpus
   std::vector<std::string> faults;  // the first ten: duplicates, unknown rows, rubbish
   std::size_t fault_count = 0;
-  bool judges_words = false;   // relation, overlaps, crossings or type were answered
-  bool claims_bounds = false;  // gap_error was answered
+  bool judges_words = false;    // relation, overlaps, crossings or type were answered
+  bool judges_gaps = false;     // gaps were answered
+  bool judges_normals = false;  // normals were answered
+  bool claims_bounds = false;   // gap_error was answered
 };
 
 // Asked of every row even where the answers' header does not offer it.

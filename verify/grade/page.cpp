@@ -113,15 +113,16 @@ std::string errors(const ErrorSummary& s) {
 
 std::string table(const CorpusGrade& grade) {
   const Grade& g = grade.grade;
-  const bool plane = grade.kind == CorpusKind::ellipses;
+  const bool areas = g.all.area.count > 0;
   const std::string four = "<th>median</th><th>99 %</th><th>largest</th><th>row</th>";
   std::string text =
       "<table><tr><th rowspan=\"2\">family</th><th rowspan=\"2\">pairs</th>"
       "<th rowspan=\"2\">wrong</th><th rowspan=\"2\">touches</th>"
       "<th rowspan=\"2\">missing</th><th rowspan=\"2\">broken bounds</th>"
-      "<th colspan=\"4\">gap error / L</th><th colspan=\"4\">" +
-      std::string(plane ? "area error" : "normal error") + "</th></tr><tr>" + four + four +
-      "</tr>\n";
+      "<th rowspan=\"2\">reversed normals</th>"
+      "<th colspan=\"4\">gap error / L</th><th colspan=\"4\">normal error</th>" +
+      std::string(areas ? "<th colspan=\"4\">area error</th>" : "") + "</tr><tr>" + four + four +
+      (areas ? four : "") + "</tr>\n";
   std::vector<FamilyGrade> families = g.families;
   if (families.size() > 1) families.push_back(g.all);
   for (const FamilyGrade& family : families) {
@@ -131,7 +132,9 @@ std::string table(const CorpusGrade& grade) {
             cell(std::to_string(family.missing), family.missing > 0) +
             cell(g.claims_bounds ? std::to_string(family.broken_bounds) : "-",
                  family.broken_bounds > 0) +
-            errors(family.gap) + errors(plane ? family.area : family.normal) + "</tr>\n";
+            cell(g.judges_normals ? std::to_string(family.reversed) : "-", family.reversed > 0) +
+            errors(family.gap) + errors(family.normal) + (areas ? errors(family.area) : "") +
+            "</tr>\n";
   }
   return text + "</table>\n";
 }

@@ -43,6 +43,7 @@ std::string table_line(const CorpusGrade& grade, const FamilyGrade& family, std:
   line += padded(g.judges_words ? std::to_string(family.wrong) : "-", 7);
   line += padded(std::to_string(family.touches), 8) + padded(std::to_string(family.missing), 9);
   if (g.claims_bounds) line += padded(std::to_string(family.broken_bounds), 8);
+  if (g.judges_normals) line += padded(std::to_string(family.reversed), 10);
   for (const Errors& errors : answered(grade)) {
     const ErrorSummary& s = family.*errors.summary;
     const bool any = s.count > 0;
@@ -58,7 +59,9 @@ void add_counts(const CorpusGrade& grade, std::vector<std::string>& lines) {
   for (const auto& [count, what, first] :
        {std::tuple(all.missing, " missing answers, the first is row ", all.first_missing),
         std::tuple(all.broken_bounds, " errors above the claimed gap_error, the first in row ",
-                   all.first_broken)}) {
+                   all.first_broken),
+        std::tuple(all.reversed, " normals that point away from every true one, the first in row ",
+                   all.first_reversed)}) {
     if (count > 0)
       lines.push_back(grade.corpus + ": " + std::to_string(count) + what + row_name(first));
   }
@@ -110,7 +113,9 @@ std::string as_table(const CorpusGrade& grade) {
     text += ": the tool " + grade.run->ending + ", " + number(grade.run->seconds) + " s";
     if (!grade.run->last_words.empty()) text += "; its last words: " + grade.run->last_words;
   }
-  if (!kinds.empty()) text += '\n' + std::string(width + 33 + (g.claims_bounds ? 8 : 0), ' ');
+  if (!kinds.empty())
+    text += '\n' +
+            std::string(width + 33 + (g.claims_bounds ? 8 : 0) + (g.judges_normals ? 10 : 0), ' ');
   for (const Errors& errors : kinds) {
     std::string title = "  | " + std::string(errors.title);
     if (errors.title != kinds.back().title) title.resize(38, ' ');
@@ -118,6 +123,7 @@ std::string as_table(const CorpusGrade& grade) {
   }
   text += "\nfamily" + std::string(width - 6, ' ') + "    pairs  wrong touches  missing";
   if (g.claims_bounds) text += "  broken";
+  if (g.judges_normals) text += "  reversed";
   for (std::size_t i = 0; i < kinds.size(); ++i) text += "  |   median     99 %  largest     row";
   text += '\n';
   for (const FamilyGrade& family : g.families) text += table_line(grade, family, width);
@@ -129,36 +135,57 @@ std::string as_table(const CorpusGrade& grade) {
   return text;
 }
 
-std::string as_json(const std::vector<CorpusGrade>& grades) {
-  nlohmann::ordered_json values = nlohmann::ordered_json::array();
-  const auto add = [&](const std::string& name, const char* unit, auto value) {
-    values.push_back({{"name", name}, {"unit", unit}, {"value", value}});
+std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades) {
+  using enum NamedValue::Kind;
+  std::vector<NamedValue> values;
+  const auto add = [&](const std::string& name, const char* unit, NamedValue::Kind kind,
+                       auto value) {
+    values.push_back({name, unit, kind, static_cast<double>(value)});
   };
   for (const CorpusGrade& grade : grades) {
-    std::vector<FamilyGrade> families = grade.grade.families;
-    families.push_back(grade.grade.all);
+    const Grade& g = grade.grade;
+    std::vector<FamilyGrade> families = g.families;
+    families.push_back(g.all);
     for (const FamilyGrade& family : families) {
       const std::string name = grade.corpus + '/' + family.name + '/';
-      add(name + "pairs", "pairs", family.rows);
-      if (grade.grade.judges_words) add(name + "wrong relations", "pairs", family.wrong);
-      add(name + "overlaps on an external touch", "pairs", family.touches);
-      add(name + "missing answers", "pairs", family.missing);
-      if (grade.grade.claims_bounds) add(name + "broken bounds", "pairs", family.broken_bounds);
+      add(name + "pairs", "pairs", size, family.rows);
+      if (g.judges_words) add(name + "wrong relations", "pairs", count, family.wrong);
+      add(name + "overlaps on an external touch", "pairs", information, family.touches);
+      add(name + "missing answers", "pairs", count, family.missing);
+      add(name + "rows without an answer", "pairs", count, family.unanswered);
+      if (g.judges_gaps) add(name + "rows without a gap", "pairs", count, family.without_gap);
+      if (g.claims_bounds) add(name + "broken bounds", "pairs", count, family.broken_bounds);
+      if (g.judges_normals) add(name + "reversed normals", "pairs", count, family.reversed);
       for (const auto& [errors, what, unit] :
            {std::tuple(kGap, "gap error", "L"), std::tuple(kNormal, "normal error", "1"),
             std::tuple(kArea, "area error", "smaller area")}) {
         const ErrorSummary& s = family.*errors.summary;
         if (s.count == 0) continue;
-        add(name + what + ", median", unit, s.median);
-        add(name + what + ", 99 %", unit, s.percentile_99);
-        add(name + what + ", largest", unit, s.largest);
+        add(name + what + ", median", unit, error, s.median);
+        add(name + what + ", 99 %", unit, error, s.percentile_99);
+        add(name + what + ", largest", unit, error, s.largest);
       }
     }
-    add(grade.corpus + "/faulty lines or cells", "cells", grade.grade.fault_count);
-    if (grade.run) add(grade.corpus + "/time", "s", grade.run->seconds);
+    add(grade.corpus + "/faulty lines or cells", "cells", count, g.fault_count);
+    if (grade.run) add(grade.corpus + "/time", "s", information, grade.run->seconds);
   }
+  return values;
+}
+
+std::string as_json(const std::vector<CorpusGrade>& grades) {
   using Json = nlohmann::ordered_json;
-  return values.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  std::string text = "[";
+  for (const NamedValue& one : values_of(grades)) {
+    Json entry{{"name", one.name}, {"unit", one.unit}};
+    if (one.kind == NamedValue::Kind::size || one.kind == NamedValue::Kind::count) {
+      entry["value"] = static_cast<std::size_t>(one.value);
+    } else {
+      entry["value"] = one.value;
+    }
+    text +=
+        (text == "[" ? "\n" : ",\n") + entry.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  return text + "\n]\n";
 }
 
 }  // namespace tangency::verify

@@ -34,7 +34,23 @@ std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
                                   const Thresholds& thresholds);
 
 std::string as_table(const CorpusGrade& grade);
-// Names are CORPUS/FAMILY/QUANTITY, and CORPUS/all/QUANTITY for a whole corpus.
+
+// What as_json() writes. Names are CORPUS/FAMILY/QUANTITY, and CORPUS/all/QUANTITY for a whole
+// corpus.
+struct NamedValue {
+  enum class Kind {
+    size,   // of the corpus
+    count,  // of what should not be
+    error,
+    information,  // about which nothing is better
+  };
+  std::string name, unit;
+  Kind kind;
+  double value;
+};
+std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades);
+
+// One line a value.
 std::string as_json(const std::vector<CorpusGrade>& grades);
 // `title` says what was graded. Self-contained, without scripts.
 std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& title,

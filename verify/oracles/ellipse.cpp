@@ -5,7 +5,6 @@
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <stdexcept>
@@ -155,15 +154,6 @@ RootsWithMultiplicity real_roots(const IntegerPolynomial& p) {
 
 // ---- numbers
 
-struct RealShape {
-  Real ux, uy, p, q;  // unit direction and semi-axes
-};
-
-RealShape shape_of(const RawEllipse& e) {
-  const Real x = e.direction[0], y = e.direction[1], n = sqrt(x * x + y * y);
-  return {x / n, y / n, e.semi_axes[0], e.semi_axes[1]};
-}
-
 Real real(const mpz_class& value) {
   Real result;
   mpfr_set_z(result.backend().data(), value.get_mpz_t(), MPFR_RNDN);
@@ -240,80 +230,6 @@ std::vector<Real2> ellipse_crossings(const RawEllipse& a, const RawEllipse& b) {
 }
 
 namespace {
-
-// Support function of one body, its derivative along the tangent, and its radius of curvature.
-template <class T>
-struct Side {
-  T h, slope, radius;
-};
-
-template <class T>
-Side<T> side(const std::array<T, 4>& body, const T& x, const T& y) {
-  using std::sqrt;
-  const auto& [ux, uy, p, q] = body;
-  const T c = ux * x + uy * y, s = ux * y - uy * x;
-  const T h = sqrt(p * p * c * c + q * q * s * s);
-  return {h, (q * q - p * p) * c * s / h, p * p * q * q / (h * h * h)};
-}
-
-template <class T>
-struct Gap {
-  std::array<T, 4> a, b;
-  T dx, dy;
-
-  T value(const T& x, const T& y) const {
-    return x * dx + y * dy - side<T>(a, x, y).h - side<T>(b, x, y).h;
-  }
-};
-
-Gap<Real> gap_of(const RawEllipse& a, const RawEllipse& b) {
-  const RealShape sa = shape_of(a), sb = shape_of(b);
-  return {{sa.ux, sa.uy, sa.p, sa.q},
-          {sb.ux, sb.uy, sb.p, sb.q},
-          Real(b.centre[0]) - Real(a.centre[0]),
-          Real(b.centre[1]) - Real(a.centre[1])};
-}
-
-// Ascent by Newton's method on the circle, steps that do not help halved.
-Real ascend(const Gap<Real>& f, Real x, Real y) {
-  Real value = f.value(x, y);
-  for (int step = 0; step < 400; ++step) {
-    const auto a = side<Real>(f.a, x, y), b = side<Real>(f.b, x, y);
-    const Real slope = x * f.dy - y * f.dx - a.slope - b.slope;
-    const Real bend = value + a.radius + b.radius;
-    Real turn = bend > 0 ? Real(slope / bend) : Real(slope > 0 ? 0.01 : -0.01);
-    if (abs(turn) > 0.1) turn = turn > 0 ? 0.1 : -0.1;
-    bool moved = false;
-    for (int half = 0; half < 60 && !moved; ++half, turn /= 2) {
-      const Real tx = x - turn * y, ty = y + turn * x, n = sqrt(tx * tx + ty * ty);
-      const Real next = f.value(tx / n, ty / n);
-      if (next > value) x = tx / n, y = ty / n, value = next, moved = true;
-    }
-    if (!moved || abs(turn) < 1e-40) break;
-  }
-  return value;
-}
-
-// Angles: all round, and crowding towards the axes of both bodies, where thin ones bend.
-std::vector<double> sample_angles(const RawEllipse& a, const RawEllipse& b) {
-  constexpr double kPi = 0x1.921fb54442d18p+1;
-  std::vector<double> angles;
-  for (int i = 0; i < 1024; ++i) angles.push_back(i * (2 * kPi / 1024));
-  for (const RawEllipse* body : {&a, &b}) {
-    const double axis = std::atan2(body->direction[1], body->direction[0]);
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      for (int k = 0; k < 60; ++k) {
-        const double off = std::exp2(-0.6 * k - 2);
-        for (const double sign : {-1.0, 1.0}) {
-          const double t = axis + quarter * (kPi / 2) + sign * off;
-          angles.push_back(t - 2 * kPi * std::floor(t / (2 * kPi)));
-        }
-      }
-    }
-  }
-  std::ranges::sort(angles);
-  return angles;
-}
 
 // Slices at x of a sheared ellipse: y in middle -+ half.
 struct Slice {
@@ -422,31 +338,6 @@ Real common_area(const RawEllipse& a, const RawEllipse& b) {
     area += integral([&](const Real& x) { return width(ra, rb, x); }, ends[i], ends[i + 1]);
   }
   return ldexp(area, 2 * q.unit);
-}
-
-Real plane_gap(const RawEllipse& a, const RawEllipse& b) {
-  require_ellipse(a);
-  require_ellipse(b);
-  const Gap<Real> exact = gap_of(a, b);
-  const auto rough = [](const Real& v) { return static_cast<long double>(v); };
-  const auto body = [&](const std::array<Real, 4>& s) {
-    return std::array<long double, 4>{rough(s[0]), rough(s[1]), rough(s[2]), rough(s[3])};
-  };
-  const Gap<long double> f{body(exact.a), body(exact.b), rough(exact.dx), rough(exact.dy)};
-  const std::vector<double> angles = sample_angles(a, b);
-  std::vector<long double> values;
-  for (const double t : angles) values.push_back(f.value(std::cos(t), std::sin(t)));
-  const std::size_t n = angles.size();
-  const long double best = *std::ranges::max_element(values);
-  const long double size = std::hypot(f.dx, f.dy) + f.a[2] + f.a[3] + f.b[2] + f.b[3];
-  Real gap = -100 * Real(size);
-  for (std::size_t i = 0; i < n; ++i) {
-    // A maximum that the sample stands on is not more than a hundredth of the size below its top.
-    const bool peak = values[i] >= values[(i + 1) % n] && values[i] >= values[(i + n - 1) % n];
-    if (!peak || values[i] < best - 0.02L * size) continue;
-    gap = std::max(gap, ascend(exact, cos(Real(angles[i])), sin(Real(angles[i]))));
-  }
-  return gap;
 }
 
 }  // namespace tangency::verify

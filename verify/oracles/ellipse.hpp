@@ -57,8 +57,17 @@ std::vector<std::array<double, 2>> ellipse_crossings_by_gsl(const RawEllipse& a,
 // 1e-18 of itself.
 Real common_area(const RawEllipse& a, const RawEllipse& b);
 
-// max over unit n of n.d - h_A(n) - h_B(n): ascents in 150 digits from every local maximum of a
-// dense sample of normals.
+// max over unit n of n.d - h_A(n) - h_B(n), and every n that reaches it.
+struct PlaneGapTruth {
+  Real gap;
+  bool every_normal;           // concentric circles: `normals` is empty then
+  std::vector<Real2> normals;  // unit, from A to B, in descending order; to 40 digits
+};
+
+// Ascents in 150 digits from every local maximum of a dense sample of normals; maxima within 1e-60
+// of the size tie. Those nearer to each other than the sample are found as mirror images of one
+// another in d or in an axis of a body: but for these symmetries nothing makes them tie.
+PlaneGapTruth plane_gap_truth(const RawEllipse& a, const RawEllipse& b);
 Real plane_gap(const RawEllipse& a, const RawEllipse& b);
 
 }  // namespace tangency::verify

@@ -130,8 +130,10 @@ std::optional<PerramWertheimTruth> perram_wertheim(const RealEllipsoid& a, const
   const Real3 n = plus({}, 1 / sqrt(dot(v, v)), v);
   PerramWertheimTruth truth;
   truth.contact_function = l / (1 + l) * dot(d, v);
-  truth.tangent_planes = {(1 - 1 / sqrt(truth.contact_function)) * dot(n, d), n,
-                          support_point(pair.a, n), plus({}, -1, support_point(pair.b, n))};
+  const Real share = 1 - 1 / sqrt(truth.contact_function);
+  truth.centre_line = share * sqrt(dot(d, d));
+  truth.tangent_planes = {share * dot(n, d), n, support_point(pair.a, n),
+                          plus({}, -1, support_point(pair.b, n))};
   const Real3 from_a = shape_times(pair.a, v), from_b = plus(from_a, -1, d);
   const auto in_a = stretch_in(pair.a, from_a, n), in_b = stretch_in(pair.b, from_b, n);
   if (in_a && in_b) {

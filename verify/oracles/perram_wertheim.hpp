@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Oracle: the gap of two solid ellipsoids by the Perram-Wertheim function and by the midpoint of
-// potentials, to 100 digits.
+// Oracle: the gap of two solid ellipsoids by the Perram-Wertheim function, by the midpoint of
+// potentials and along the line of centres, to 100 digits.
 //
 //     F = max over 0 < s < 1 of s (1-s) d' ((1-s) M_A + s M_B)^-1 d,   d = c_B - c_A,
 //
@@ -29,6 +29,9 @@ struct PerramWertheimTruth {
   // From the last point in A to the first in B of the line along n through the point of equal
   // levels; nothing where the line misses a body.
   std::optional<DefinedGap> midpoint;
+  // Along the line of centres, (1 - 1/sqrt F) |d|: how far B moves along -d until both touch, F
+  // being homogeneous of degree 2 in d.
+  Real centre_line;
 };
 
 // Nothing where the centres coincide. Throws std::invalid_argument unless both are ellipsoids.

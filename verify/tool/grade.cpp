@@ -15,6 +15,7 @@
 #include <tangency/geometry/tool/csv.hpp>
 #include <tangency/geometry/tool/output_file.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
+#include <tangency/verify/grade/baseline.hpp>
 #include <tangency/verify/grade/report.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 
@@ -33,7 +34,7 @@ any of these; what its header names is asked of every row:
   gap          signed; and gap_error, a bound on its error that is claimed to hold (of a
                row with the status local: for a local gap, the true one is not below
                gap - gap_error)
-  nx ny nz     unit normal from a to b (of ellipsoids)
+  nx ny nz     unit normal from a to b; of ellipses nx ny
   crossings, area   of ellipses
   type         of quadrics
 A tool gets the inputs on standard input, a table without comment lines whose numbers are
@@ -44,6 +45,7 @@ The grade, family by family:
   touches      overlaps 1 on an external touch: counted here and never as wrong
   missing      rows without a whole answer, cells that are no number included
   broken       rows whose error is above their gap_error
+  reversed     normals more than 90 degrees from every true one: those from b to a
   gap error    |gap - truth| / L, L the distance of the centres and both largest semi-axes
   normal error length of the difference to the nearest true normal
   area error   |area - truth| / area of the smaller ellipse
@@ -51,18 +53,19 @@ The grade, family by family:
   that the corpus does not have, or that cannot be read.
 
 Exit status: 0 every row answered, every threshold kept; 1 answers are missing, faulty or
-beyond a threshold, a claimed bound is broken, or the tool died, hung or printed without end;
-2 refused command line or corpus, or a failed write.
+beyond a threshold, worse than the baseline, a claimed bound is broken, a normal is reversed, or the tool died, hung or
+printed without end; 2 refused command line or corpus, or a failed write.
 
 Example:
   $ tangency-verify grade --tool 'tangency contact' --max-wrong 0 --max-gap-error 1e-15
 )";
 
 struct Options {
-  std::string answers, tool, corpora, json, html;
+  std::string answers, tool, corpora, json, html, baseline;
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
+  double slack = 0;
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
 
@@ -114,10 +117,11 @@ std::vector<std::string> chosen_corpora(const Options& options, const fs::path& 
   return pairs;
 }
 
-constexpr std::array<std::pair<std::string_view, Definition>, 3> kDefinitions{
+constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
     {{"common-normal", Definition::common_normal},
      {"perram-wertheim", Definition::perram_wertheim},
-     {"midpoint-potential", Definition::midpoint_potential}}};
+     {"midpoint-potential", Definition::midpoint_potential},
+     {"centre-line", Definition::centre_line}}};
 
 Definition definition_named(std::string_view name) {
   return std::ranges::find(kDefinitions, name, &std::pair<std::string_view, Definition>::first)
@@ -135,7 +139,7 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
   if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
   const Demands demands{limits.wrong.has_value(), limits.gap_error.has_value(),
-                        limits.normal_error.has_value() && truth.kind == CorpusKind::pairs};
+                        limits.normal_error.has_value() && truth.has_normals};
   if (options.tool.empty()) {
     require_readable(options.answers);
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
@@ -155,15 +159,48 @@ void write_file(const std::string& path, const std::string& text) {
   file.commit();
 }
 
+// The first of them; of the others how many there are.
+void append_named(std::vector<std::string>& lines, const std::string& what,
+                  const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 20;  // chosen: a screen
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) lines.push_back(what + names[i]);
+  if (names.size() > kMost) {
+    lines.push_back(what + "and " + std::to_string(names.size() - kMost) + " more");
+  }
+}
+
+// What a baseline shows but for what fails.
+std::string differences(const Comparison& beside, const std::string& file) {
+  std::vector<std::string> lines;
+  append_named(lines, "for information: ", beside.information);
+  append_named(lines, "BETTER ", beside.better);
+  append_named(lines, "NEW ", beside.unknown);
+  if (!beside.better.empty() || !beside.unknown.empty()) {
+    lines.push_back(std::to_string(beside.better.size()) + " values are better than in " + file +
+                    " and " + std::to_string(beside.unknown.size()) +
+                    " are not there; to hold later grades to them, run this again with --json " +
+                    file + " added");
+  }
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
 ExitStatus run(const Options& options) {
   const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
+  const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
   csv::OutputFile screen("-");
   std::vector<CorpusGrade> grades;
   for (const std::string& name : chosen_corpora(options, folder)) {
     grades.push_back(graded(options, folder, name));
     screen.write(as_table(grades.back()) + '\n');
   }
-  const std::vector<std::string> failed_by = failures(grades, options.thresholds);
+  std::vector<std::string> failed_by = failures(grades, options.thresholds);
+  if (!options.baseline.empty()) {
+    const Comparison beside = compare(grades, baseline, options.slack);
+    screen.write(differences(beside, options.baseline));
+    append_named(failed_by, "worse than the baseline: ", beside.worse);
+  }
   for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
   write_file(options.json, as_json(grades));
   write_file(options.html,
@@ -175,7 +212,9 @@ std::string check_definition(const std::string& name) {
   for (const auto& [known, definition] : kDefinitions) {
     if (name == known) return {};
   }
-  return name + " is not a definition; common-normal, perram-wertheim and midpoint-potential are";
+  return name +
+         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
+         "are";
 }
 
 void require_fitting(const Options& options) {
@@ -208,8 +247,9 @@ Subcommand add_grade(CLI::App& program) {
                  "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
       ->type_name("DIR");
   app.add_option("--definition", options->definition,
-                 "What gap and normal mean: common-normal (default), perram-wertheim or "
-                 "midpoint-potential")
+                 "What gap and normal mean: common-normal (default), perram-wertheim, "
+                 "midpoint-potential or centre-line (how far B moves along the line of centres "
+                 "until both touch; normals are not graded)")
       ->check(CLI::Validator(check_definition, ""))
       ->type_name("D");
   Thresholds& limits = options->thresholds;
@@ -225,6 +265,14 @@ Subcommand add_grade(CLI::App& program) {
                  "Seconds a tool has for a corpus before it is killed (default: 300)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  app.add_option("--baseline", options->baseline,
+                 "An earlier grade, written by --json: anything worse fails, what is better is "
+                 "named, times are shown beside each other")
+      ->type_name("FILE");
+  app.add_option("--baseline-slack", options->slack,
+                 "Share of the baseline's errors by which they may differ (default: 0)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X");
   app.add_option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
       ->type_name("FILE");
   app.add_option("--html", options->html, "Also write it as a page with plots")->type_name("FILE");

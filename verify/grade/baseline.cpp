@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/verify/grade/baseline.hpp>
+
+namespace tangency::verify {
+namespace {
+
+std::string shown(double value, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// Both values, with as many digits as tell them apart.
+std::string both(const std::string& name, double now, double before) {
+  for (const char* format : {"%.4g", "%.17g"}) {
+    const std::string a = shown(now, format), b = shown(before, format);
+    if (a != b || format[2] == '1') return name + ": " + a + ", was " + b;
+  }
+  return name;
+}
+
+[[noreturn]] void refuse(const std::string& path, std::size_t line) {
+  throw csv::Error(
+      {.file = path,
+       .line = line,
+       .rule = "a baseline must be what --json writes, an array of {name, unit, value}"});
+}
+
+Baseline by_name(const std::string& path, const nlohmann::json& values) {
+  Baseline baseline;
+  if (!values.is_array() || values.empty()) refuse(path, 1);
+  for (const auto& one : values) {
+    const bool sound = one.is_object() && one.contains("name") && one["name"].is_string() &&
+                       one.contains("value") && one["value"].is_number();
+    // As written: a bracket, then a line a value.
+    if (!sound) refuse(path, baseline.size() + 2);
+    baseline[one["name"].get<std::string>()] = one["value"].get<double>();
+  }
+  return baseline;
+}
+
+void compare_one(const NamedValue& now, double before, double slack, Comparison& result) {
+  using enum NamedValue::Kind;
+  const double margin = now.kind == error ? slack * before : 0;
+  switch (now.kind) {
+    case information:
+      if (now.unit == "s") result.information.push_back(both(now.name, now.value, before) + " s");
+      return;
+    case size:
+      if (now.value != before) result.worse.push_back(both(now.name, now.value, before));
+      return;
+    case count:
+    case error:
+      break;
+  }
+  if (now.value > before + margin) result.worse.push_back(both(now.name, now.value, before));
+  if (now.value < before - margin) result.better.push_back(both(now.name, now.value, before));
+}
+
+}  // namespace
+
+Baseline read_baseline(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
+  }
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  try {
+    return by_name(path, nlohmann::json::parse(text));
+  } catch (const nlohmann::json::parse_error& error) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    refuse(path, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')));
+  }
+}
+
+Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack) {
+  Comparison result;
+  std::set<std::string> seen;
+  for (const NamedValue& now : values_of(grades)) {
+    seen.insert(now.name);
+    const auto before = baseline.find(now.name);
+    if (before == baseline.end()) {
+      result.unknown.push_back(now.name);
+    } else {
+      compare_one(now, before->second, slack, result);
+    }
+  }
+  for (const auto& [name, value] : baseline) {
+    const std::string corpus = name.substr(0, name.find('/'));
+    const bool graded = std::ranges::find(grades, corpus, &CorpusGrade::corpus) != grades.end();
+    // Answers from a file have no time.
+    if (graded && !seen.contains(name) && name != corpus + "/time") {
+      result.worse.push_back(name + ": in the baseline, and not graded now");
+    }
+  }
+  return result;
+}
+
+}  // namespace tangency::verify
