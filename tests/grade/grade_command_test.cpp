@@ -3,54 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <tangency/tests/tool/process.hpp>
+#include <tangency/tests/grade/report.hpp>
 
 namespace tangency::test {
 namespace {
-
-const std::string kKernel = TANGENCY_CONTACT " contact";
-
-/// What `grade` said, and the values of its JSON by name.
-struct Report {
-  Finished run;
-  nlohmann::json values;
-
-  double value(const std::string& name) const {
-    for (const auto& entry : values) {
-      if (entry.at("name") == name) return entry.at("value").get<double>();
-    }
-    ADD_FAILURE() << "no value " << name << " in\n" << run.out << run.err;
-    return -1;
-  }
-  bool says(const std::string& text) const { return run.out.find(text) != std::string::npos; }
-};
-
-Report grade(std::vector<std::string> arguments) {
-  const TemporaryFolder folder;
-  const std::string json = folder.path("grade.json");
-  arguments.insert(arguments.begin(), "grade");
-  arguments.insert(arguments.end(), {"--json", json});
-  Report report{run_tool(arguments), {}};
-  const std::string text = read_file(json);
-  if (!text.empty()) report.values = nlohmann::json::parse(text);
-  return report;
-}
-
-Report grade_tool(const std::string& command, const std::string& corpus,
-                  std::vector<std::string> more = {}) {
-  more.insert(more.end(), {"--tool", command, "--corpus", corpus});
-  return grade(std::move(more));
-}
-
-/// The kernel's answers, changed by an awk program. Columns: 1 row, 2 relation, 3 gap, 4-6 normal.
-std::string changed(const std::string& program) {
-  return kKernel + " | awk -F, -v OFS=, '" + program + "'";
-}
 
 TEST(GradeCommand, TheKernelPasses) {
   const Report report =

@@ -4,14 +4,19 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tangency/geometry/tool/csv.hpp>
 #include <tangency/verify/grade/baseline.hpp>
+#include <utility>
 
 namespace tangency::verify {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string shown(double value, const char* format) {
   char text[32];
@@ -48,7 +53,25 @@ Baseline by_name(const std::string& path, const nlohmann::json& values) {
   return baseline;
 }
 
-void compare_one(const NamedValue& now, double before, double slack, Comparison& result) {
+// A line and the factor between the two values.
+struct Change {
+  double factor;
+  std::string line;
+};
+
+std::vector<std::string> sorted(std::vector<Change> changes) {
+  std::ranges::stable_sort(changes, std::ranges::greater(), &Change::factor);
+  std::vector<std::string> lines;
+  for (Change& change : changes) lines.push_back(std::move(change.line));
+  return lines;
+}
+
+struct Changes {
+  std::vector<Change> worse, better;
+  std::vector<std::string> information;
+};
+
+void compare_one(const NamedValue& now, double before, double slack, Changes& result) {
   using enum NamedValue::Kind;
   const double margin = now.kind == error ? slack * before : 0;
   switch (now.kind) {
@@ -56,14 +79,18 @@ void compare_one(const NamedValue& now, double before, double slack, Comparison&
       if (now.unit == "s") result.information.push_back(both(now.name, now.value, before) + " s");
       return;
     case size:
-      if (now.value != before) result.worse.push_back(both(now.name, now.value, before));
+      if (now.value != before) {
+        result.worse.push_back({kInfinity, both(now.name, now.value, before)});
+      }
       return;
     case count:
     case error:
       break;
   }
-  if (now.value > before + margin) result.worse.push_back(both(now.name, now.value, before));
-  if (now.value < before - margin) result.better.push_back(both(now.name, now.value, before));
+  // 0 on the other side of a change is a factor beyond all others.
+  const std::string line = both(now.name, now.value, before);
+  if (now.value > before + margin) result.worse.push_back({now.value / before, line});
+  if (now.value < before - margin) result.better.push_back({before / now.value, line});
 }
 
 }  // namespace
@@ -84,6 +111,7 @@ Baseline read_baseline(const std::string& path) {
 
 Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack) {
   Comparison result;
+  Changes changes;
   std::set<std::string> seen;
   for (const NamedValue& now : values_of(grades)) {
     seen.insert(now.name);
@@ -91,7 +119,7 @@ Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& basel
     if (before == baseline.end()) {
       result.unknown.push_back(now.name);
     } else {
-      compare_one(now, before->second, slack, result);
+      compare_one(now, before->second, slack, changes);
     }
   }
   for (const auto& [name, value] : baseline) {
@@ -99,9 +127,12 @@ Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& basel
     const bool graded = std::ranges::find(grades, corpus, &CorpusGrade::corpus) != grades.end();
     // Answers from a file have no time.
     if (graded && !seen.contains(name) && name != corpus + "/time") {
-      result.worse.push_back(name + ": in the baseline, and not graded now");
+      changes.worse.push_back({kInfinity, name + ": in the baseline, and not graded now"});
     }
   }
+  result.worse = sorted(std::move(changes.worse));
+  result.better = sorted(std::move(changes.better));
+  result.information = std::move(changes.information);
   return result;
 }
 

@@ -22,7 +22,7 @@ using Baseline = std::map<std::string, double>;
 // What as_json() wrote. Throws csv::Error, naming the file and the line, for anything else.
 Baseline read_baseline(const std::string& path);
 
-// A line each, with both values.
+// A line each, with both values; worse and better: the largest change first.
 struct Comparison {
   std::vector<std::string> worse, better;
   std::vector<std::string> unknown;      // names that the baseline does not have

@@ -177,7 +177,7 @@ std::string as_json(const std::vector<CorpusGrade>& grades) {
   std::string text = "[";
   for (const NamedValue& one : values_of(grades)) {
     Json entry{{"name", one.name}, {"unit", one.unit}};
-    if (one.kind == NamedValue::Kind::size || one.kind == NamedValue::Kind::count) {
+    if (one.unit == "pairs" || one.unit == "cells") {
       entry["value"] = static_cast<std::size_t>(one.value);
     } else {
       entry["value"] = one.value;
