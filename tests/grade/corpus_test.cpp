@@ -19,6 +19,7 @@
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/corpus/draw.hpp>
 #include <tangency/verify/oracles/ascent.hpp>
+#include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency::verify {
@@ -154,6 +155,50 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
       }
     });
   }
+}
+
+RawEllipse ellipse(const csv::RowCursor& row, const csv::Header& header, const std::string& who) {
+  const auto cell = [&](const char* field) { return row.number(header.require(who + field)); };
+  return {{cell(".x"), cell(".y")}, {cell(".r1"), cell(".r2")}, {cell(".ux"), cell(".uy")}};
+}
+
+Real support(const RawEllipse& e, const std::array<Real, 2>& n) {
+  const Real ux = e.direction[0], uy = e.direction[1];
+  const Real p = e.semi_axes[0] * (ux * n[0] + uy * n[1]),
+             q = e.semi_axes[1] * (ux * n[1] - uy * n[0]);
+  return sqrt((p * p + q * q) / (ux * ux + uy * uy));
+}
+
+// A normal that is right to 1e-16 loses no more than 1e-32 by the bend of f, which is that of a
+// flat body at its end: up to the aspect ratio squared, 1e12, of the size.
+TEST(Corpus, EveryTrueNormalOfEllipsesReachesTheGapAndNoneOfAGridExceedsIt) {
+  const std::string path = kFolder + "ellipses";
+  const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+  csv::Reader reader(path + ".csv");
+  std::size_t ties = 0;
+  csv::for_each_row(reader, [&](const csv::RowCursor& line) {
+    const TruthRow& row = truth.rows.at(line.index());
+    const RawEllipse a = ellipse(line, reader.header(), "a"),
+                     b = ellipse(line, reader.header(), "b");
+    const Real gap = Real(row.gap.value().high) + row.gap->low;
+    const auto f = [&](Real x, Real y) {
+      const Real norm = sqrt(x * x + y * y);
+      x /= norm, y /= norm;
+      return Real(x * (Real(b.centre[0]) - a.centre[0]) + y * (Real(b.centre[1]) - a.centre[1]) -
+                  support(a, {x, y}) - support(b, {x, y}));
+    };
+    EXPECT_TRUE(row.every_normal || row.normals > 0) << line.index();
+    ties += row.normals > 1;
+    const double bend = truth.families.at(row.family) == "extreme" ? 1e12 : 1e6;
+    for (std::size_t i = 0; i < row.normals; ++i) {
+      const auto& n = truth.maximisers.at(row.first_normal + i).normal;
+      EXPECT_LT(abs(f(n[0], n[1]) - gap), 1e-31 * bend * row.size) << line.index();
+    }
+    for (int i = 0; i < 64; ++i) {
+      EXPECT_LE(f(cos(Real(i) / 10), sin(Real(i) / 10)), gap + 1e-30 * row.size) << line.index();
+    }
+  });
+  EXPECT_GT(ties, 70U);
 }
 
 TEST(CoaxialGap, IsTheGlobalGapOfTheSearchOverAllNormals) {

@@ -229,6 +229,26 @@ TEST(GradeCommand, GradesByTheDefinitionThatIsAskedFor) {
   EXPECT_EQ(grade_tool(tool, "deep", limit).run.status, 1);
 }
 
+TEST(GradeCommand, TheLineOfCentresIsADefinitionWithoutNormals) {
+  const Report report = grade_tool(kKernel, "symmetric", {"--definition", "centre-line"});
+  EXPECT_LT(report.value("symmetric/spheres/gap error, largest"), 1e-15);
+  EXPECT_GT(report.value("symmetric/all/gap error, largest"), 1e-3);
+  EXPECT_FALSE(report.says("reversed"));
+  EXPECT_EQ(report.value("symmetric/all/missing answers"), 0);
+}
+
+TEST(GradeCommand, NormalsOfEllipsesAreScored) {
+  const std::string tool = TANGENCY_CONTACT " ellipse";
+  const Report report = grade_tool(tool, "ellipses", {"--max-normal-error", "1e-6"});
+  EXPECT_EQ(report.run.status, 0) << report.run.out;
+  EXPECT_LT(report.value("ellipses/circles/normal error, largest"), 1e-15);
+  const Report turned = grade_tool(
+      tool + " | awk -F, -v OFS=, 'NR > 1 { $6 = -$6; $7 = -$7 } { print }'", "ellipses");
+  EXPECT_EQ(turned.run.status, 1);
+  EXPECT_EQ(turned.value("ellipses/near touch/reversed normals"), 60);
+  EXPECT_EQ(turned.value("ellipses/concentric/reversed normals"), 0);  // either way is right
+}
+
 TEST(GradeCommand, AToolReadsInputsAndNeitherCommentsNorTruth) {
   const Report report = grade_tool("cat >&2", "near");
   EXPECT_TRUE(report.says("its last words: ")) << report.run.out;

@@ -71,5 +71,36 @@ TEST(EllipseOracle, FindsTheGapApartAndDeep) {
   EXPECT_LT(abs(plane_gap(kWide, {{0, 0}, {3, 0.25}}) + 1.25), 1e-30);
 }
 
+void expect_normals(const RawEllipse& b, const Real& gap, const std::vector<Real2>& normals) {
+  const PlaneGapTruth truth = plane_gap_truth(kWide, b);
+  EXPECT_LT(abs(truth.gap - gap), 1e-60);
+  EXPECT_FALSE(truth.every_normal);
+  ASSERT_EQ(truth.normals.size(), normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_LT(abs(truth.normals[i][k] - normals[i][k]), Real("1e-45")) << i << ' ' << k;
+    }
+  }
+}
+
+TEST(EllipseOracle, NamesEveryNormalThatReachesTheGap) {
+  expect_normals({{3, 0}, {1, 1}}, 0, {{1, 0}});
+  expect_normals({{0, 0}, {1, 2}}, -3, {{1, 0}, {0, 1}, {0, -1}, {-1, 0}});
+  expect_normals({{0, 0}, {3, 0.25}}, -1.25, {{0, 1}, {0, -1}});
+  // A circle on the long axis, nearer to the centre than the evolute's cusp at 1.5: two feet.
+  const Real x = 1 / sqrt(Real(6)), y = sqrt(Real(5) / 6);
+  expect_normals({{1, 0}, {0.25, 0.25}}, -sqrt(Real(6)) / 3 - 0.25, {{x, y}, {x, -y}});
+  EXPECT_TRUE(plane_gap_truth({{1, 1}, {2, 2}}, {{1, 1}, {3, 3}}).every_normal);
+}
+
+TEST(EllipseOracle, TellsNormalsApartThatAreAboutToMeet) {
+  // The foot of (x, 0) is at 4/3 x, and its normal along (x/3, y).
+  const Real c = 1.5 - 0x1p-50, foot = c * 4 / 3, y = sqrt(1 - foot * foot / 4);
+  const Real nx = foot / 4 / sqrt(foot * foot / 16 + y * y), ny = sqrt(1 - nx * nx);
+  const Real gap = -sqrt((foot - c) * (foot - c) + y * y) - 0.25;
+  expect_normals({{1.5 - 0x1p-50, 0}, {0.25, 0.25}}, gap, {{nx, ny}, {nx, -ny}});
+  expect_normals({{1.5, 0}, {0.25, 0.25}}, -0.75, {{1, 0}});  // a maximum of fourth order
+}
+
 }  // namespace
 }  // namespace tangency::verify

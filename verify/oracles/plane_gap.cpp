@@ -109,6 +109,12 @@ std::vector<Real2> mirror_images(const Gap<Real>& f, const Peak& at) {
   return images;
 }
 
+// Components as near to each other as the ascents leave equal ones are equal.
+bool descending(const Real2& m, const Real2& n) {
+  const bool level = abs(m[0] - n[0]) < Real("1e-40");
+  return level ? m[1] > n[1] : m[0] > n[0];
+}
+
 // All that reach the greatest value, each once.
 std::vector<Peak> highest(const Gap<Real>& f, std::vector<Peak> peaks, const Real& size) {
   const Real best = std::ranges::max_element(peaks, {}, &Peak::value)->value;
@@ -177,7 +183,7 @@ PlaneGapTruth plane_gap_truth(const RawEllipse& a, const RawEllipse& b) {
     truth.gap = peak.value;
     truth.normals.push_back({peak.x, peak.y});
   }
-  std::ranges::sort(truth.normals, std::ranges::greater());
+  std::ranges::sort(truth.normals, descending);
   return truth;
 }
 
