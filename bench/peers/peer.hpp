@@ -39,6 +39,7 @@ enum class Definition {
   /// the difference of the bodies, where the line of centres leaves it. With the tolerance it tends
   /// to the depth along that line, which is not the gap to first order.
   portal,
+  perram_wertheim,  ///< between the tangent planes with the normal of the Perram-Wertheim function
 };
 
 /// Of which pairs a peer gives a gap: asked for a yes or no alone, of none.
@@ -87,5 +88,7 @@ std::vector<std::unique_ptr<Peer>> simbody_peers();
 std::vector<std::unique_ptr<Peer>> fcl_peers();
 std::vector<std::unique_ptr<Peer>> mujoco_peers();
 std::vector<std::unique_ptr<Peer>> all_peers();
+/// No library, and none of all_peers(): the loop that simulation codes write for themselves.
+std::vector<std::unique_ptr<Peer>> plain_perram_wertheim_peers();
 
 }  // namespace tangency::peers

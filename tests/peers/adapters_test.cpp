@@ -12,6 +12,7 @@
 
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/peers/isolate.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
 
@@ -215,6 +216,23 @@ TEST(Peers, DescribeThemselves) {
   EXPECT_EQ(count(fcl_peers, "FCL"), 12u);
   EXPECT_EQ(count(mujoco_peers, "MuJoCo"), 2u);
   EXPECT_EQ(peers().size(), 17u);
+}
+
+TEST(PlainPerramWertheim, GivesTheGapOfItsDefinitionForModeratePairs) {
+  const auto peers = plain_perram_wertheim_peers();
+  families::ManufacturedContacts contacts(families::contact_classes()[1], 7);
+  for (int i = 0; i < 100; ++i) {
+    const auto c = contacts.next();
+    const auto seen = ask(*peers.front(), c.a, c.b);
+    ASSERT_TRUE(seen && seen->gap && seen->normal);
+    const OtherGap truth = perram_wertheim_gap(to_ellipsoid(c.a), to_ellipsoid(c.b));
+    // The error of a maximum found to half the digits enters the gap by its square.
+    EXPECT_NEAR(*seen->gap, truth.gap, 1e-9 * c.smallest_semi_axis) << i;
+    EXPECT_EQ(seen->overlap, truth.gap < 0) << i;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR((*seen->normal)[static_cast<std::size_t>(k)], truth.normal[k], 1e-6) << i;
+    }
+  }
 }
 
 }  // namespace

@@ -65,6 +65,21 @@ TEST(EllipseOracle, IntegratesTheLensOfTwoCirclesAndCrossedEllipses) {
   EXPECT_LT(abs(crossed - 8 * atan(Real(1) / 2)), 1e-18);
 }
 
+// Of pairs with crossings well apart, with two, with four and with none.
+TEST(EllipseOracle, AreaByGreenAroundTheArcsIsThatOfTheSlices) {
+  const double pi = acos(-1.0);
+  EXPECT_NEAR(common_area_by_gsl({{3, 4}, {1, 1}}, {{4, 4}, {1, 1}}, 1e-9),
+              2 * pi / 3 - std::sqrt(3.0) / 2, 1e-13);
+  EXPECT_NEAR(common_area_by_gsl(kWide, {{9, 0}, {1, 1}}, 1e-9), 0, 1e-15);
+  EXPECT_NEAR(common_area_by_gsl(kWide, {{0.5, 0}, {0.25, 0.5}, {1, 2}}, 1e-9), pi / 8, 1e-13);
+  for (const RawEllipse& b :
+       {RawEllipse{{0, 0}, {2, 1}, {0, 1}}, RawEllipse{{1, 0.5}, {3, 0.5}, {1, 1}},
+        RawEllipse{{2, 0.25}, {1, 1.5}, {3, -1}}}) {
+    EXPECT_NEAR(common_area_by_gsl(kWide, b, 1e-9), common_area(kWide, b).convert_to<double>(),
+                1e-12);
+  }
+}
+
 TEST(EllipseOracle, FindsTheGapApartAndDeep) {
   EXPECT_LT(abs(plane_gap({{0, 0}, {1, 1}}, {{3, 4}, {2, 2}}) - 2), 1e-30);
   EXPECT_LT(abs(plane_gap(kWide, {{0, 0}, {1, 2}}) + 3), 1e-30);

@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <tangency/verify/oracles/elliptic.hpp>
+#include <tangency/verify/oracles/quadrature.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -152,6 +153,42 @@ TEST(Elliptic, SurfacesAreThoseOfSpheresSpheroidsAndDiscs) {  // (5)
   const double surface = ellipsoid_surface({1, 2, 5});
   EXPECT_EQ(ellipsoid_surface({5, 1, 2}), surface);
   EXPECT_EQ(ellipsoid_surface({4, 20, 8}), 16 * surface);
+}
+
+// Both oracles to what quadrature promises.
+TEST(Elliptic, IntegralsAreWhatQuadratureMakesOfTheirDefinitions) {
+  for (const double m : {-3.0, 0.1, 0.7, 0.99}) {
+    const auto root = [m](double t) { return std::sqrt(1 - m * std::sin(t) * std::sin(t)); };
+    const auto f = [&](double t) { return 1 / root(t); };
+    const auto d = [&](double t) { return std::sin(t) * std::sin(t) / root(t); };
+    EXPECT_LT(relative(integral(f, 0, pi / 2), complete_elliptic_k(m)), 1e-11) << m;
+    EXPECT_LT(relative(integral(root, 0, pi / 2), complete_elliptic_e(m)), 1e-11) << m;
+    EXPECT_LT(relative(integral(d, 0, pi / 2), complete_elliptic_d(m)), 1e-11) << m;
+    EXPECT_LT(relative(integral(f, 0, -1.2), incomplete_elliptic_f(-1.2, m)), 1e-11) << m;
+    EXPECT_LT(relative(integral(root, 0, 0.4), incomplete_elliptic_e(0.4, m)), 1e-11) << m;
+  }
+}
+
+TEST(Elliptic, MeasuresAreWhatQuadratureMakesOfTheParametrisation) {
+  const auto speed = [](double t) { return std::hypot(3 * std::sin(t), 0.5 * std::cos(t)); };
+  EXPECT_LT(relative(integral(speed, 0, 2 * pi), ellipse_perimeter({3, 0.5})), 1e-11);
+  // An element is abc |x/a^2, y/b^2, z/c^2| sin t dt dp.
+  const double a = 1, b = 2, c = 5;
+  const auto ring = [&](double t) {
+    const auto element = [&](double p) {
+      return std::hypot(b * c * std::sin(t) * std::cos(p), c * a * std::sin(t) * std::sin(p),
+                        a * b * std::cos(t)) *
+             std::sin(t);
+    };
+    return integral(element, 0, pi / 2);
+  };
+  EXPECT_LT(relative(8 * integral(ring, 0, pi / 2), ellipsoid_surface({b, c, a})), 1e-10);
+}
+
+TEST(Quadrature, TakesSingularEndsAndSaysWhereItFails) {
+  EXPECT_NEAR(integral([](double x) { return 1 / std::sqrt(x); }, 0, 1), 2, 1e-10);
+  EXPECT_NEAR(integral([](double x) { return std::sqrt(1 - x * x); }, -1, 1), pi / 2, 1e-11);
+  EXPECT_THROW(integral([](double x) { return 1 / (x - 0.3); }, 0, 1), std::runtime_error);
 }
 
 TEST(Elliptic, RefusesWhatHasNoValue) {

@@ -44,11 +44,14 @@ Baseline by_name(const std::string& path, const nlohmann::json& values) {
   Baseline baseline;
   if (!values.is_array() || values.empty()) refuse(path, 1);
   for (const auto& one : values) {
+    // JSON has no infinity: the library writes null.
     const bool sound = one.is_object() && one.contains("name") && one["name"].is_string() &&
-                       one.contains("value") && one["value"].is_number();
+                       one.contains("value") &&
+                       (one["value"].is_number() || one["value"].is_null());
     // As written: a bracket, then a line a value.
     if (!sound) refuse(path, baseline.size() + 2);
-    baseline[one["name"].get<std::string>()] = one["value"].get<double>();
+    const auto& value = one["value"];
+    baseline[one["name"].get<std::string>()] = value.is_null() ? kInfinity : value.get<double>();
   }
   return baseline;
 }

@@ -57,6 +57,10 @@ std::vector<std::array<double, 2>> ellipse_crossings_by_gsl(const RawEllipse& a,
 // 1e-18 of itself.
 Real common_area(const RawEllipse& a, const RawEllipse& b);
 
+// The same in double, with GSL: around the arcs between ellipse_crossings_by_gsl(), by quadrature
+// of (x dy - y dx) / 2 (Green). For crossings that are well apart.
+double common_area_by_gsl(const RawEllipse& a, const RawEllipse& b, double imaginary);
+
 // max over unit n of n.d - h_A(n) - h_B(n), and every n that reaches it.
 struct PlaneGapTruth {
   Real gap;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gsl/gsl_poly.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <tangency/verify/oracles/ellipse.hpp>
+#include <tangency/verify/oracles/quadrature.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -40,7 +42,65 @@ double level_at(const std::array<double, 5>& k, double t) {
          k[4] * std::sin(2 * t);
 }
 
+using Point = std::array<double, 2>;
+
+// An ellipse with its centre relative to A's.
+struct Placed {
+  double x, y, c, s, p, q;
+
+  Placed(const RawEllipse& e, const RawEllipse& origin)
+      : x(e.centre[0] - origin.centre[0]),
+        y(e.centre[1] - origin.centre[1]),
+        c(e.direction[0] / std::hypot(e.direction[0], e.direction[1])),
+        s(e.direction[1] / std::hypot(e.direction[0], e.direction[1])),
+        p(e.semi_axes[0]),
+        q(e.semi_axes[1]) {}
+  // In the frame of the unit circle.
+  Point on_circle(const Point& r) const {
+    const double dx = r[0] - x, dy = r[1] - y;
+    return {(c * dx + s * dy) / p, (c * dy - s * dx) / q};
+  }
+  bool holds(const Point& r) const {
+    const Point u = on_circle(r);
+    return u[0] * u[0] + u[1] * u[1] < 1;
+  }
+  Point at(double t) const {
+    const double u = p * std::cos(t), v = q * std::sin(t);
+    return {x + c * u - s * v, y + s * u + c * v};
+  }
+  // Twice the area that the radius from A's centre sweeps with t.
+  double sweep(double t) const {
+    const Point r = at(t);
+    const double du = -p * std::sin(t), dv = q * std::cos(t);
+    return r[0] * (s * du + c * dv) - r[1] * (c * du - s * dv);
+  }
+};
+
+// What the arcs of `one` inside `other` contribute to the area of the common region.
+double inner_arcs(const Placed& one, const Placed& other, const std::vector<Point>& crossings) {
+  std::vector<double> angles;
+  for (const Point& r : crossings) {
+    const Point u = one.on_circle(r);
+    angles.push_back(std::atan2(u[1], u[0]));
+  }
+  std::ranges::sort(angles);
+  if (angles.empty()) angles.push_back(0);
+  angles.push_back(angles.front() + 2 * kPi);
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+    if (!other.holds(one.at((angles[i] + angles[i + 1]) / 2))) continue;
+    area += integral([&](double t) { return one.sweep(t) / 2; }, angles[i], angles[i + 1]);
+  }
+  return area;
+}
+
 }  // namespace
+
+double common_area_by_gsl(const RawEllipse& a, const RawEllipse& b, double imaginary) {
+  const std::vector<Point> crossings = ellipse_crossings_by_gsl(a, b, imaginary);
+  const Placed one(a, a), other(b, a);
+  return inner_arcs(one, other, crossings) + inner_arcs(other, one, crossings);
+}
 
 std::vector<std::array<double, 2>> ellipse_crossings_by_gsl(const RawEllipse& a,
                                                             const RawEllipse& b, double imaginary) {
