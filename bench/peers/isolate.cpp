@@ -52,13 +52,14 @@ void set_timer(double seconds) {
 }
 
 /// The child: asks from the first pair that was not begun, until it ends or is ended.
-[[noreturn]] void ask(std::span<const std::unique_ptr<PeerPair>> pairs, SharedAnswers& shared) {
+[[noreturn]] void ask(std::span<const std::unique_ptr<PeerPair>> pairs, SharedAnswers& shared,
+                      double patience) {
   std::signal(SIGABRT, SIG_DFL);
   std::signal(SIGPROF, SIG_DFL);
   dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
   while (shared.begun() < pairs.size()) {
     const std::size_t i = shared.begun()++;
-    set_timer(kPatience);
+    set_timer(patience);
     const auto contact = pairs[i]->contact();
     shared.answers()[i] = {contact ? Outcome::answered : Outcome::failed, contact};
   }
@@ -67,12 +68,13 @@ void set_timer(double seconds) {
 
 }  // namespace
 
-std::vector<Isolated> ask_isolated(std::span<const std::unique_ptr<PeerPair>> pairs) {
+std::vector<Isolated> ask_isolated(std::span<const std::unique_ptr<PeerPair>> pairs,
+                                   double patience) {
   SharedAnswers shared(pairs.size());
   while (shared.begun() < pairs.size()) {
     const pid_t child = fork();
     if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (child == 0) ask(pairs, shared);
+    if (child == 0) ask(pairs, shared, patience);
     int status = 0;
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status) && shared.begun() > 0) {

@@ -18,7 +18,7 @@ enum class Outcome {
   answered,  ///< the peer answered
   failed,    ///< it said that it has no answer
   aborted,   ///< it ended the program
-  hung,      ///< it took longer than kPatience
+  hung,      ///< it took longer than the patience there was
 };
 
 /// A hundred times and more what any peer takes for a pair that it answers.
@@ -29,9 +29,10 @@ struct Isolated {
   std::optional<PeerContact> contact;  ///< where answered
 };
 
-/// Asks each pair once, in children that are replaced as they end; what they print on standard
-/// error is dropped.
+/// Asks each pair once, for `patience` seconds of processor time, in children that are replaced as
+/// they end; what they print on standard error is dropped.
 /// @throws std::system_error  where the system gives no memory or no process
-std::vector<Isolated> ask_isolated(std::span<const std::unique_ptr<PeerPair>> pairs);
+std::vector<Isolated> ask_isolated(std::span<const std::unique_ptr<PeerPair>> pairs,
+                                   double patience = kPatience);
 
 }  // namespace tangency::peers

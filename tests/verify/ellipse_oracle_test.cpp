@@ -115,6 +115,10 @@ TEST(EllipseOracle, TellsNormalsApartThatAreAboutToMeet) {
   const Real gap = -sqrt((foot - c) * (foot - c) + y * y) - 0.25;
   expect_normals({{1.5 - 0x1p-50, 0}, {0.25, 0.25}}, gap, {{nx, ny}, {nx, -ny}});
   expect_normals({{1.5, 0}, {0.25, 0.25}}, -0.75, {{1, 0}});  // a maximum of fourth order
+  // The same turned by a right angle, where the sample does not stand on it.
+  const PlaneGapTruth turned = plane_gap_truth({{0, 0}, {2, 1}, {0, 1}}, {{0, 1.5}, {0.25, 0.25}});
+  ASSERT_EQ(turned.normals.size(), 1U);
+  EXPECT_LT(abs(turned.normals[0][0]), Real("1e-45"));
 }
 
 }  // namespace
