@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The periodic rectangular cell that an assembly lives in, straining homogeneously.
+/// The cell that an assembly lives in, straining homogeneously: periodic, or between plane walls.
 ///
-/// One corner stays at the origin, so that the affine velocity at x is rate * x. Inside the
-/// simulator extension is positive; scenes and histories turn the sign (observe.hpp).
+/// A parallelepiped with a corner at the origin, so that the affine velocity at x is rate x. It
+/// starts as a rectangular box and stays one while no shear rate is asked for. Inside the simulator
+/// extension is positive; scenes and histories turn the sign (observe.hpp).
 ///
-/// A plane cell has dimensions = 2: the bodies lie in the plane z = 0, its edge along z is 1, the
-/// unit thickness, which does not strain, and there are no images along z.
+/// Along a walled axis the two faces are walls that move with the affine motion; the cell is then
+/// rectangular. A plane cell has dimensions = 2: the bodies lie in the plane z = 0, the edge along
+/// z is 1, the unit thickness, which does not strain, and there are no images along z.
 #pragma once
 
 #include <array>
@@ -15,34 +17,48 @@
 
 namespace tangency::dem {
 
-/// Which periodic image of a particle: how many cell lengths it is moved along each axis.
+/// Which periodic image of a particle: how many edges it is moved by along each axis.
 using Image = std::array<std::int32_t, 3>;
 
 struct Cell {
-  Vec3 length = Vec3::Ones();            ///< edges along x, y, z; > 0
-  Vec3 rate = Vec3::Zero();              ///< strain rate along x, y, z, extension > 0, 1/time
-  Vec3 reference_length = Vec3::Ones();  ///< edges where strain is measured from
-  int dimensions = 3;                    ///< 2 or 3: the axes that are periodic and strain
+  Mat3 edges = Mat3::Identity();            ///< columns: the edge vectors; length
+  Mat3 rate = Mat3::Zero();                 ///< velocity gradient, extension > 0, 1/time
+  Mat3 reference_edges = Mat3::Identity();  ///< where strain is measured from
+  int dimensions = 3;                       ///< 2 or 3: the axes that strain
+  std::array<bool, 3> walled{};             ///< axes that end at walls instead of images
 
-  double volume() const { return length.prod(); }
+  /// A box at rest.
+  static Cell box(const Vec3& lengths, int dimensions = 3, std::array<bool, 3> walled = {});
+
+  bool is_box() const { return edges.isDiagonal(0.0); }
+  bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
+  double volume() const;
+  /// Distances between opposite faces.
+  Vec3 heights() const;
 
   /// The translation that takes a particle to its image.
   Vec3 translation(const Image& image) const {
-    return {image[0] * length[0], image[1] * length[1], image[2] * length[2]};
+    return edges * Vec3(image[0], image[1], image[2]);
   }
 
-  /// The isotropic strain rate r: r along every axis that strains.
-  Vec3 isotropic(double r) const { return {r, r, dimensions == 3 ? r : 0.0}; }
+  /// Coordinates in parts of the edges: [0, 1) inside.
+  Vec3 reduced(const Vec3& x) const;
 
-  /// The image number of the cell that holds x: floor(x / length).
+  /// The image number of the cell that holds x: floor(reduced(x)); 0 along walled axes.
   Image image_of(const Vec3& x) const;
 
-  /// One step of the homogeneous strain, as the particles take it: length *= 1 + rate dt
-  /// [Ouadfel1998, eq. 3.33].
-  void strain(double dt) { length.array() *= 1.0 + rate.array() * dt; }
+  /// The isotropic strain rate r: r along every axis that strains.
+  Mat3 isotropic(double r) const;
 
-  /// Logarithmic strain from the reference, extension positive.
-  Vec3 logarithmic_strain() const;
+  /// One step of the homogeneous strain, as the particles take it: edges <- (1 + rate dt) edges
+  /// [Ouadfel1998, eq. 3.33].
+  void strain(double dt) { edges = (Mat3::Identity() + rate * dt) * edges; }
+
+  /// Logarithmic (Hencky) strain from the reference, ln(F F') / 2, extension positive.
+  Mat3 logarithmic_strain() const;
+
+  /// The smallest stretch of any line since the edges were `before`: at most 1 where one shrank.
+  double least_stretch_since(const Mat3& before) const;
 };
 
 }  // namespace tangency::dem

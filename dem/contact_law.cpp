@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <tangency/dem/contact_law.hpp>
 
 namespace tangency::dem {
@@ -10,14 +11,36 @@ Vec3 turned_with(const Vec3& v, const Vec3& from, const Vec3& to) {
   return cosine * v + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine));
 }
 
-Vec3 ContactLaw::shear_force(const Vec3& shear, const Vec3& previous_normal, const Vec3& normal,
-                             const Vec3& displacement, double normal_force) const {
-  Vec3 force = turned_with(shear, previous_normal, normal) - shear_stiffness * displacement;
+NormalResponse ContactLaw::normal_response(double overlap,
+                                           const PrincipalCurvatures& relative) const {
+  if (!hertz) {
+    const double force = normal_stiffness * overlap;
+    return {force, normal_stiffness, 0.5 * force * overlap, {shear_stiffness, shear_stiffness}};
+  }
+  const HertzContact contact = hertz_contact(relative.curvature, overlap, *hertz);
+  return {contact.force,
+          contact.stiffness,
+          contact.energy,
+          {contact.shear_stiffness[0], contact.shear_stiffness[1], relative.direction[1]}};
+}
+
+double ContactLaw::shear(ShearState& state, const ContactStep& step,
+                         const NormalResponse& normal) const {
+  const Vec3 old = turned_with(state.force, step.previous_normal, step.normal);
+  const double stiffness = normal.shear.largest();
+  const bool unloaded = hertz && stiffness < state.stiffness;
+  const Vec3 kept = unloaded ? Vec3(old * (stiffness / state.stiffness)) : old;
+  Vec3 trial = kept - normal.shear.times(step.displacement);
   // Takes the normal part of the displacement away, and what rounding has left of earlier ones.
-  force -= normal * normal.dot(force);
-  const double limit = cohesion + normal_force * friction_coefficient;
-  const double size = force.norm();
-  return size > limit ? Vec3(force * (limit / size)) : force;
+  trial -= step.normal * step.normal.dot(trial);
+  const double limit = cohesion + normal.force * friction_coefficient;
+  const double size = trial.norm();
+  const double before = state.energy;
+  state.force = size > limit ? Vec3(trial * (limit / size)) : trial;
+  state.stiffness = stiffness;
+  state.energy = 0.5 * state.force.dot(normal.shear.solve(state.force));
+  const double work = -0.5 * (old + state.force).dot(step.displacement);
+  return before + work - state.energy;
 }
 
 }  // namespace tangency::dem

@@ -1,42 +1,83 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The linear contact law [Ouadfel1998, eq. 3.3-3.12].
+/// Contact laws: the linear one [Ouadfel1998, eq. 3.3-3.12] and that of Hertz and Mindlin.
 ///
 /// Signs: a contact force is what particle a does to particle b; the normal points from a to b; so
 /// a normal force > 0 is a push. The shear force is the part in the tangent plane.
 #pragma once
 
+#include <optional>
+#include <tangency/dem/hertz.hpp>
+#include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::dem {
 
+/// Shear force over shear displacement of a contact, symmetric in the tangent plane.
+struct ShearStiffness {
+  double along = 0.0;   ///< force/length, for displacements along `direction`
+  double across = 0.0;  ///< for those normal to it
+  Vec3 direction = Vec3::Zero();  ///< unit and tangent, or 0 where the two are equal
+
+  Vec3 times(const Vec3& v) const { return across * v + (along - across) * part_along(v); }
+  Vec3 solve(const Vec3& v) const {
+    return v / across + (1.0 / along - 1.0 / across) * part_along(v);
+  }
+  double largest() const { return along > across ? along : across; }
+
+ private:
+  Vec3 part_along(const Vec3& v) const { return direction.dot(v) * direction; }
+};
+
+/// The push of a contact, and how its shear answers.
+struct NormalResponse {
+  double force = 0.0;
+  double stiffness = 0.0;  ///< d force / d overlap
+  double energy = 0.0;     ///< stored by the overlap
+  ShearStiffness shear;
+};
+
+/// What a contact carries from step to step.
+struct ShearState {
+  Vec3 force = Vec3::Zero();  ///< of a on b, in the tangent plane
+  double stiffness = 0.0;     ///< the larger one at the last step, force/length
+  double energy = 0.0;        ///< stored by the shear displacement
+};
+
+/// How a contact moved during a step.
+struct ContactStep {
+  Vec3 previous_normal;  ///< unit
+  Vec3 normal;           ///< unit
+  Vec3 displacement;     ///< of b relative to a at the contact, length
+};
+
 struct ContactLaw {
-  double normal_stiffness;      ///< K_n > 0, force/length
-  double shear_stiffness;       ///< K_s >= 0, force/length
+  double normal_stiffness;      ///< K_n > 0, force/length; of a Hertz contact: the largest expected
+  double shear_stiffness;       ///< K_s >= 0, alike
   double friction_coefficient;  ///< tan(phi) >= 0
   double cohesion;              ///< c >= 0, force: shear that a contact bears without a push
+  std::optional<Material> hertz = {};  ///< instead of the linear law
 
   /// A law that bears no shear needs no shear history.
   bool bears_shear() const {
     return shear_stiffness > 0.0 && (friction_coefficient > 0.0 || cohesion > 0.0);
   }
 
-  /// F_n = K_n overlap, 0 for bodies apart.
-  double normal_force(double overlap) const {
-    return overlap > 0.0 ? normal_stiffness * overlap : 0.0;
-  }
+  /// Linear: K_n overlap. Hertz: of the relative curvatures, which the linear law does not read.
+  /// @param overlap  > 0
+  NormalResponse normal_response(double overlap, const PrincipalCurvatures& relative) const;
 
-  /// The shear force after a step: the old one turned with the normal, less K_s times the
-  /// tangential part of the relative displacement, cut back to the Coulomb limit
-  /// c + F_n tan(phi).
+  /// The shear force after a step: the old one turned with the normal, less the stiffness times
+  /// the tangential part of the displacement, cut back to the Coulomb limit c + F_n tan(phi).
+  /// Where a Hertz contact is unloaded its shear force shrinks with its stiffness, lest it gain
+  /// energy in a closed cycle [ThorntonRandall1988].
   ///
-  /// (1) The result is normal to `normal` up to rounding.
+  /// (1) The result is normal to step.normal up to rounding.
   /// (2) Its length is at most the limit, up to rounding.
-  /// (3) Without displacement and limit its length is that of the old force.
-  /// @param shear         before the step, normal to previous_normal
-  /// @param displacement  of b relative to a at the contact during the step, length
-  Vec3 shear_force(const Vec3& shear, const Vec3& previous_normal, const Vec3& normal,
-                   const Vec3& displacement, double normal_force) const;
+  /// (3) Without displacement, limit and change of stiffness its length is that of the old force.
+  /// (4) The work done on the contact, -(old turned + new force)/2 . displacement, is the energy
+  ///     stored plus what it returns: the work lost to sliding.
+  double shear(ShearState& state, const ContactStep& step, const NormalResponse& normal) const;
 };
 
 /// v turned by the smallest rotation that takes unit vector `from` to unit vector `to`; for

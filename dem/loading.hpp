@@ -1,27 +1,77 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The servo that strains the cell until the assembly bears the wanted stress.
+/// How a stage strains the cell: a given rate, and servos that hold stresses.
 ///
 /// The thesis adds gain (p_measured - p_wanted) to the strain rate every cycle [Ouadfel1998,
-/// eq. 3.36]; over a stiffness that is an integral controller on an integrator, which rings for
-/// ever. Here the rate is proportional to the error, with a slow integral part that takes up what
-/// creep leaves, and the error is taken as the strain that would remove it, so that gains need no
-/// unit.
+/// eq. 3.36]; over a stiffness that is an integral controller on an integrator, which rings. Here
+/// the rate is proportional to the error, with a slow integral part that takes up what creep
+/// leaves, and the error is taken as the strain that would remove it, so that gains need no unit.
+/// The published one is there by choice.
 #pragma once
 
 #include <tangency/dem/observe.hpp>
+#include <vector>
 
 namespace tangency::dem {
 
-struct PressureServo {
-  double mean_stress;      ///< wanted, compression positive, force/area
-  double gain;             ///< share of the error removed a cycle, in (0, 1)
-  double max_strain_rate;  ///< > 0, 1/time
+/// One stress to hold, and the strain rate that does it.
+struct Target {
+  const char* name;  ///< in messages
+  /// The stress is weights : stress / divisor, compression positive.
+  Mat3 weights;
+  double divisor = 1.0;
+  double wanted = 0.0;  ///< force/area
+  /// A symmetric strain rate of extension that lowers it.
+  Mat3 actuator;
 
-  /// The isotropic strain rate of the cell (extension positive, |rate| <= max_strain_rate) for the
-  /// coming step. Without contacts to measure a stiffness on: the largest compressing rate.
-  /// @param integral  the controller's memory, 0 at the start of a stage; a strain
-  double rate(const Stress& measured, double dt, double& integral) const;
+  static Target mean_stress(double wanted, int dimensions);
+  /// (s_xx + s_yy) / 2 in space.
+  static Target plane_mean_stress(double wanted);
+  /// s_kk.
+  static Target component(int axis, double wanted);
+  /// No shear on the axes of which the first is turned by `angle` from axis `from` towards axis
+  /// `to`: the principal stresses of that plane lie along them, as in a ring shear test.
+  static Target direction(int from, int to, double angle);
+
+  double measured(const Stress& stress) const;
+  /// Rise of the stress per strain against the actuator, if particles only followed the cell and
+  /// contacts pointed everywhere alike: that of the mean stress times
+  /// <(n.A n)(n.W n)> over its own.
+  double affine_stiffness(const Stress& stress) const;
+};
+
+/// What a servo remembers.
+struct ServoMemory {
+  double integral = 0.0;  ///< of the error, a strain
+  double rate = 0.0;      ///< of the published servo, 1/time
+};
+
+struct Servo {
+  double gain = 0.005;           ///< share of the error removed a cycle, in (0, 1)
+  double max_strain_rate = 0.0;  ///< bound of one target's rate, > 0, 1/time
+  /// gain of the published servo, 1/(stress time); 0: the proportional-integral one.
+  double published_gain = 0.0;
+
+  /// The rate along the actuator for the coming step, extension positive, at most max_strain_rate
+  /// in size. Without contacts to measure a stiffness on: the largest compressing rate.
+  double rate(const Target& target, const Stress& measured, double dt, ServoMemory& memory) const;
+};
+
+/// The loading of a stage.
+struct Loading {
+  Mat3 strain_rate = Mat3::Zero();  ///< given, extension positive, 1/time
+  std::vector<Target> targets;
+  Servo servo;
+
+  /// The cell's rate for the coming step.
+  /// @param memory  one entry a target
+  Mat3 rate(const Stress& measured, double dt, std::vector<ServoMemory>& memory) const;
+
+  /// Are all targets met, each within `tolerance` of the largest wanted stress?
+  bool is_met(const Stress& measured, double tolerance) const;
+
+  /// Can the targets be met one by one: is none a combination of the others?
+  bool is_independent() const;
 };
 
 }  // namespace tangency::dem

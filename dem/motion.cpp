@@ -1,13 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <tangency/dem/contacts.hpp>
 #include <tangency/dem/motion.hpp>
 
 namespace tangency::dem {
 namespace {
 
-/// Below so many particles the loop is over before a second thread has woken up: contacts.cpp.
-constexpr std::size_t worth_sharing = 400;
+/// How velocities go over a step: v <- keep v + push (force / mass).
+struct Step {
+  double keep, push;
+  Step(double damping, double dt)
+      : keep((1.0 - 0.5 * damping * dt) / (1.0 + 0.5 * damping * dt)),
+        push(dt / (1.0 + 0.5 * damping * dt)) {}
+};
+
+/// Turns a free body for a time dt: q and the angular momentum in body axes, which stays fixed in
+/// space. About the axes 1, 2, 3, 2, 1 for dt/2, dt/2, dt, dt/2, dt/2, each turn exact
+/// [Dullweber1997].
+void turn_freely(Eigen::Quaterniond& q, Vec3& momentum, const Vec3& inertia, double dt) {
+  for (const int axis : {0, 1, 2, 1, 0}) {
+    const double angle = (axis == 2 ? dt : 0.5 * dt) * momentum[axis] / inertia[axis];
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vec3::Unit(axis)));
+    q = q * turn;
+    momentum = turn.conjugate() * momentum;
+  }
+  q.normalize();
+}
+
+bool is_free_of_quadratic_terms(const Particles& particles, std::size_t i) {
+  const Vec3& axes = particles.semi_axes[i];
+  return particles.dimensions == 2 || (axes[0] == axes[1] && axes[1] == axes[2]);
+}
+
+/// One particle's rotation. Returns what damping took.
+double turn(Particles& particles, std::size_t i, const Vec3& moment_in_space, const Motion& motion,
+            double dt) {
+  const auto [keep, push] = Step(motion.damping, dt);
+  Eigen::Quaterniond& q = particles.orientation[i];
+  Vec3& spin = particles.angular_velocity[i];
+  const Vec3 inertia =
+      principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
+  const Vec3 moment = q.conjugate() * moment_in_space;
+  const Vec3 before = spin;
+  spin = keep * spin + push * (q * moment.cwiseQuotient(inertia));
+  const Vec3 mean = q.conjugate() * (0.5 * (before + spin));
+  if (motion.rotation == Rotation::full && !is_free_of_quadratic_terms(particles, i)) {
+    Vec3 momentum = inertia.cwiseProduct(q.conjugate() * spin);
+    turn_freely(q, momentum, inertia, dt);
+    spin = q * momentum.cwiseQuotient(inertia);
+  } else {
+    q = turned_by(q, dt * spin);
+  }
+  return dt * motion.damping * inertia.dot(mean.cwiseAbs2());
+}
 
 }  // namespace
 
@@ -26,32 +72,53 @@ double characteristic_time(const Particles& particles, double largest_stiffness)
   return std::sqrt(lightest / largest_stiffness);
 }
 
-void move(Particles& particles, Cell& cell, const Resultants& resultants, double damping,
-          double dt) {
-  const double keep = (1.0 - 0.5 * damping * dt) / (1.0 + 0.5 * damping * dt);
-  const double push = dt / (1.0 + 0.5 * damping * dt);
-  bool finite = true;
+MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
+                const Motion& motion, double dt) {
+  const auto [keep, push] = Step(motion.damping, dt);
   const std::size_t count = particles.size();
+  std::vector<MotionWork> work(count);
+  bool finite = true;
 #pragma omp parallel for schedule(static) reduction(&& : finite) if (count >= worth_sharing)
   for (std::size_t i = 0; i < count; ++i) {
+    const double mass = particles.mass[i];
     Vec3& velocity = particles.velocity[i];
-    Vec3& spin = particles.angular_velocity[i];
-    Eigen::Quaterniond& axes = particles.orientation[i];
-    velocity = keep * velocity + (push / particles.mass[i]) * resultants.force[i];
-
-    const Vec3 inertia =
-        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
-    const Vec3 moment = axes.conjugate() * resultants.moment[i];
-    spin = keep * spin + push * (axes * moment.cwiseQuotient(inertia));
-
+    const Vec3 before = velocity;
+    velocity = keep * velocity + (push / mass) * resultants.force[i] + push * motion.gravity;
+    const Vec3 mean = 0.5 * (before + velocity);
+    work[i] = {dt * motion.damping * mass * mean.squaredNorm(),
+               dt * mass * motion.gravity.dot(mean)};
     Vec3& x = particles.position[i];
-    x += dt * (velocity + cell.rate.cwiseProduct(x));
-    axes = turned_by(axes, dt * spin);
-    finite = finite && x.allFinite() && axes.coeffs().allFinite();
+    x += dt * (velocity + cell.rate * x);
+    if (motion.rotation != Rotation::none)
+      work[i].damping += turn(particles, i, resultants.moment[i], motion, dt);
+    finite = finite && x.allFinite() && particles.orientation[i].coeffs().allFinite();
   }
   cell.strain(dt);
-  if (!finite || !(cell.length.minCoeff() > 0.0))
+  if (!finite || !(cell.volume() > 0.0))
     throw Diverged("the run blew up: a particle's velocity is no longer finite");
+  MotionWork sum;
+  for (const MotionWork& one : work) {
+    sum.damping += one.damping;
+    sum.gravity += one.gravity;
+  }
+  return sum;
+}
+
+double kinetic_energy_at(const Particles& particles, const Resultants& resultants,
+                         const Motion& motion, double dt) {
+  double power = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3& velocity = particles.velocity[i];
+    const double mass = particles.mass[i];
+    power += (resultants.force[i] + mass * motion.gravity).dot(velocity) -
+             motion.damping * mass * velocity.squaredNorm();
+    if (motion.rotation == Rotation::none) continue;
+    const Vec3& spin = particles.angular_velocity[i];
+    const Vec3 in_body = particles.orientation[i].conjugate() * spin;
+    const Vec3 inertia = principal_inertia(mass, particles.semi_axes[i], particles.dimensions);
+    power += resultants.moment[i].dot(spin) - motion.damping * inertia.dot(in_body.cwiseAbs2());
+  }
+  return kinetic_energy(particles) + 0.5 * dt * power;
 }
 
 }  // namespace tangency::dem

@@ -3,11 +3,11 @@
 /// The law of motion: leapfrog with mass-proportional damping [Ouadfel1998, eq. 3.15-3.34].
 ///
 /// Damping acts on the fluctuation, not on the affine motion, so that a strained assembly is not
-/// held back. Rotation follows the simplified Euler equations I w' = M, whose quadratic terms
-/// are dropped: right for slow motion. Orientations turn by the exact rotation exp(w dt), where
-/// the thesis adds a first-order increment that leaves the rotations.
+/// held back. Orientations turn by exact rotations, where the thesis adds a first-order increment
+/// that leaves the rotations.
 ///
-/// (1) Without force and damping a particle moves and turns uniformly.
+/// (1) Without force and damping a particle moves uniformly; a free body keeps its angular
+///     momentum (full) or its angular velocity (simplified) to rounding.
 /// (2) Without damping the scheme is time-reversible and of second order.
 /// (3) Orientations stay unit to rounding.
 /// (4) In the plane a force along x and y and a moment about z leave every other component of
@@ -26,13 +26,36 @@ class Diverged : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+enum class Rotation {
+  none,        ///< orientations and angular velocities stay as they are
+  simplified,  ///< I w' = M, the quadratic terms of Euler's equations dropped: for slow motion
+  full,        ///< Euler's equations, turns about the body axes in turn [Dullweber1997]
+};
+
+struct Motion {
+  Rotation rotation = Rotation::full;
+  Vec3 gravity = Vec3::Zero();  ///< acceleration, length/time^2
+  double damping = 0.0;         ///< rate at which a free particle's velocity decays, >= 0, 1/time
+};
+
+/// What acted on the fluctuating velocities besides contacts, energy.
+struct MotionWork {
+  double damping = 0.0;  ///< taken away
+  double gravity = 0.0;  ///< given
+};
+
 /// Takes velocities from half a step before to half a step after the resultants' time,
 ///     v <- ((1 - damping dt/2) v + F dt / m) / (1 + damping dt/2),
 /// then positions and orientations a step on, with the affine motion of the cell, then the cell.
-/// @param damping  rate at which a free particle's velocity decays, >= 0, 1/time
+/// Spheres and plane bodies, whose quadratic terms are 0, take the simplified equations.
 /// @throws Diverged
-void move(Particles& particles, Cell& cell, const Resultants& resultants, double damping,
-          double dt);
+MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
+                const Motion& motion, double dt);
+
+/// Kinetic energy at the resultants' time, half a step after that of the velocities: to first order
+/// in dt, which is what makes an account of leapfrog's energies add up.
+double kinetic_energy_at(const Particles& particles, const Resultants& resultants,
+                         const Motion& motion, double dt);
 
 /// exp(v/2) q, normalised: q turned by the rotation vector v in space.
 Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Vec3& rotation_vector);

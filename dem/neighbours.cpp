@@ -15,11 +15,13 @@ class Boxes {
   Boxes(const Particles& particles, const Cell& cell, double reach) {
     count_.fill(1);
     around_.fill(0);
+    const Vec3 heights = cell.heights();
     for (std::size_t k = 0; k < static_cast<std::size_t>(cell.dimensions); ++k) {
-      const double edge = cell.length[static_cast<int>(k)];
-      count_[k] = static_cast<std::int32_t>(std::clamp(edge / reach, 1.0, double{max_boxes}));
-      around_[k] = static_cast<std::int32_t>(std::ceil(reach * count_[k] / edge));
+      const double height = heights[static_cast<int>(k)];
+      count_[k] = static_cast<std::int32_t>(std::clamp(height / reach, 1.0, double{max_boxes}));
+      around_[k] = static_cast<std::int32_t>(std::ceil(reach * count_[k] / height));
     }
+    walled_ = cell.walled;
     home_.resize(particles.size());
     place_.resize(particles.size());
     members_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
@@ -40,10 +42,11 @@ class Boxes {
  private:
   void locate(std::size_t i, const Vec3& x, const Cell& cell) {
     home_[i] = cell.image_of(x);
+    const Vec3 reduced = cell.reduced(x);
     for (std::size_t k = 0; k < 3; ++k) {
-      const int axis = static_cast<int>(k);
-      const double reduced = x[axis] / cell.length[axis] - home_[i][k];
-      place_[i][k] = std::min(static_cast<std::int32_t>(reduced * count_[k]), count_[k] - 1);
+      // Beyond a wall counts as next to it.
+      const double within = std::clamp(reduced[static_cast<int>(k)] - home_[i][k], 0.0, 1.0);
+      place_[i][k] = std::min(static_cast<std::int32_t>(within * count_[k]), count_[k] - 1);
     }
     members_[index(place_[i])].push_back(i);
   }
@@ -57,6 +60,7 @@ class Boxes {
     Image place, wraps;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t unwrapped = place_[i][k] + offset[k];
+      if (walled_[k] && (unwrapped < 0 || unwrapped >= count_[k])) return;
       wraps[k] = unwrapped / count_[k] - (unwrapped % count_[k] < 0 ? 1 : 0);
       place[k] = unwrapped - wraps[k] * count_[k];
     }
@@ -68,6 +72,7 @@ class Boxes {
   }
 
   Image count_, around_;
+  std::array<bool, 3> walled_;
   std::vector<Image> home_, place_;
   std::vector<std::vector<std::size_t>> members_;
 };
@@ -81,9 +86,9 @@ double largest_radius_of(const Particles& particles) {
 }  // namespace
 
 void NeighbourList::build(const Particles& particles, const Cell& cell, double skin) {
-  reference_ = {cell.length, skin, largest_radius_of(particles), {}};
+  reference_ = {cell.edges, skin, largest_radius_of(particles), {}};
   for (const Vec3& x : particles.position)
-    reference_.reduced_position.push_back(x.cwiseQuotient(cell.length));
+    reference_.reduced_position.push_back(cell.reduced(x));
 
   pairs_.clear();
   const Boxes boxes(particles, cell, 2.0 * reference_.largest_radius + skin);
@@ -97,6 +102,10 @@ void NeighbourList::build(const Particles& particles, const Cell& cell, double s
       if (branch_vector(pair, particles, cell).squaredNorm() < reach * reach)
         pairs_.push_back(pair);
     });
+    for (std::size_t k = 0; k < 6; ++k)
+      if (cell.walled[k / 2] && Wall(k).height_of(particles.position[i], cell) < radius)
+        pairs_.push_back({static_cast<std::int32_t>(i),
+                          static_cast<std::int32_t>(particles.size() + k), Image{}});
     std::sort(pairs_.begin() + first, pairs_.end());
   }
   index_incidences(particles.size());
@@ -106,12 +115,13 @@ bool NeighbourList::is_current(const Particles& particles, const Cell& cell) con
   if (reference_.reduced_position.size() != particles.size()) return false;
   double moved = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3 affine = reference_.reduced_position[i].cwiseProduct(cell.length);
+    const Vec3 affine = cell.edges * reference_.reduced_position[i];
     moved = std::max(moved, (particles.position[i] - affine).squaredNorm());
   }
   // An unlisted pair was at least r_a + r_b + skin apart. Its distance is now at least `shrunk`
-  // times that, less what both centres moved; r_a + r_b is at most twice the largest radius.
-  const double shrunk = std::min(1.0, cell.length.cwiseQuotient(reference_.cell_length).minCoeff());
+  // times that, less what both centres moved; r_a + r_b is at most twice the largest radius. From a
+  // wall, which moves with the cell, it was r_a + skin.
+  const double shrunk = std::min(1.0, cell.least_stretch_since(reference_.edges));
   const double spheres_then = 2.0 * reference_.largest_radius;
   const double grown =
       2.0 * std::max(0.0, largest_radius_of(particles) - reference_.largest_radius);
@@ -128,14 +138,15 @@ void NeighbourList::index_incidences(std::size_t particles) {
   first_.assign(particles + 1, 0);
   for (const Pair& pair : pairs_) {
     ++first_[static_cast<std::size_t>(pair.a) + 1];
-    ++first_[static_cast<std::size_t>(pair.b) + 1];
+    if (const auto b = static_cast<std::size_t>(pair.b); b < particles) ++first_[b + 1];
   }
   for (std::size_t i = 0; i < particles; ++i) first_[i + 1] += first_[i];
-  incidences_.resize(2 * pairs_.size());
+  incidences_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t k = 0; k < pairs_.size(); ++k) {
     incidences_[next[static_cast<std::size_t>(pairs_[k].a)]++] = {k, false};
-    incidences_[next[static_cast<std::size_t>(pairs_[k].b)]++] = {k, true};
+    if (const auto b = static_cast<std::size_t>(pairs_[k].b); b < particles)
+      incidences_[next[b]++] = {k, true};
   }
 }
 

@@ -8,7 +8,8 @@
 /// (1) Every pair whose bounding spheres meet is listed as long as is_current() is true.
 /// (2) No pair is listed twice; a particle may meet itself through the periodic boundary.
 /// (3) A cell of any size is served, one smaller than a particle included.
-/// (4) In a plane cell no image moves along z.
+/// (4) In a plane cell no image moves along z, in a walled one none along a walled axis.
+/// (5) Every particle whose bounding sphere meets a wall is listed with it, like (1).
 #pragma once
 
 #include <compare>
@@ -19,7 +20,7 @@
 namespace tangency::dem {
 
 /// Particle `a` and the image of particle `b`; a <= b, and for a == b the image is positive in
-/// lexicographic order.
+/// lexicographic order. Or, with b = number of particles + k, particle `a` and wall k (Wall).
 struct Pair {
   std::int32_t a, b;
   Image image;
@@ -27,7 +28,21 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
-/// From a's centre to the centre of b's image.
+/// Wall k of a cell: the face at the origin's end (even k) or at the far end (odd k) of axis k / 2.
+struct Wall {
+  int axis;
+  bool far;
+
+  explicit Wall(std::size_t k) : axis(static_cast<int>(k / 2)), far(k % 2 == 1) {}
+  /// Unit, out of the wall and into the cell.
+  Vec3 normal() const { return (far ? -1.0 : 1.0) * Vec3::Unit(axis); }
+  /// How far x is in front of it; < 0 behind.
+  double height_of(const Vec3& x, const Cell& cell) const {
+    return far ? cell.edges(axis, axis) - x[axis] : x[axis];
+  }
+};
+
+/// From a's centre to the centre of b's image. Not for walls.
 inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Cell& cell) {
   return particles.position[static_cast<std::size_t>(pair.b)] + cell.translation(pair.image) -
          particles.position[static_cast<std::size_t>(pair.a)];
@@ -54,10 +69,10 @@ class NeighbourList {
   const Incidence* begin_of(std::size_t i) const { return incidences_.data() + first_[i]; }
   const Incidence* end_of(std::size_t i) const { return incidences_.data() + first_[i + 1]; }
 
-  /// What build() saw; with pairs() all there is to save. Reduced positions are position over
-  /// cell length.
+  /// What build() saw; with pairs() all there is to save. Reduced positions are in parts of the
+  /// cell's edges.
   struct Reference {
-    Vec3 cell_length = Vec3::Zero();
+    Mat3 edges = Mat3::Zero();  ///< of the cell
     double skin = 0.0;
     double largest_radius = 0.0;
     std::vector<Vec3> reduced_position;

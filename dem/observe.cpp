@@ -19,6 +19,10 @@ std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& 
   return counts;
 }
 
+double largest_eigenvalue(const Mat3& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
 double standard_deviation(const std::vector<std::int64_t>& counts, double mean) {
   double sum = 0.0;
   for (const std::int64_t count : counts) {
@@ -87,12 +91,49 @@ Balance balance_of(const Particles& particles, const Contacts& contacts,
   return balance;
 }
 
+double critical_time_step(const Particles& particles, const Contacts& contacts,
+                          const NeighbourList& list) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();
+    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
+      const Contact& contact = contacts.records()[at->index];
+      if (!contact.touches()) continue;
+      const Vec3& n = contact.normal;
+      const double shear = contact.shear.stiffness;
+      const Mat3 stiffness = shear * Mat3::Identity() +
+                             (contact.normal_stiffness - shear) * n * n.transpose();
+      const Vec3 arm = at->as_b ? Vec3(contact.arm - contact.branch) : contact.arm;
+      Mat3 lever;  // lever v = v x arm
+      lever << 0.0, arm[2], -arm[1], -arm[2], 0.0, arm[0], arm[1], -arm[0], 0.0;
+      shift += stiffness;
+      turn += lever.transpose() * stiffness * lever;
+    }
+    const Mat3 axes = particles.orientation[i].toRotationMatrix();
+    const Vec3 inertia =
+        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
+    const auto scale = inertia.cwiseSqrt().cwiseInverse().asDiagonal();
+    const Mat3 turn_in_body = scale * (axes.transpose() * turn * axes) * scale;
+    largest = std::max({largest, largest_eigenvalue(shift) / particles.mass[i],
+                        largest_eigenvalue(turn_in_body)});
+  }
+  return std::sqrt(2.0 / largest);
+}
+
+double elastic_energy(const Contacts& contacts) {
+  double sum = 0.0;
+  for (const Contact& contact : contacts.records())
+    sum += contact.normal_energy + contact.shear.energy;
+  return sum;
+}
+
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
                     const NeighbourList& list) {
   Observation seen{};
-  const Vec3 strain = cell.logarithmic_strain();
-  seen.axial_strain = 0.0 - strain[cell.dimensions - 1];  // not -0 of an unstrained cell
-  seen.volumetric_strain = strain.sum();
+  const Mat3 strain = cell.logarithmic_strain();
+  const int axial = cell.dimensions - 1;
+  seen.axial_strain = 0.0 - strain(axial, axial);  // not -0 of an unstrained cell
+  seen.volumetric_strain = strain.trace();
   seen.stress = stress_of(contacts, cell);
   for (const Contact& contact : contacts.records()) {
     if (!contact.touches()) continue;
@@ -113,6 +154,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.porosity = 1.0 - solid / cell.volume();
   seen.balance = balance_of(particles, contacts, list);
   seen.kinetic_energy = kinetic_energy(particles);
+  seen.elastic_energy = elastic_energy(contacts);
   return seen;
 }
 
@@ -139,7 +181,15 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"mean_normal_force", seen.mean_normal_force},
           {"mean_overlap", seen.mean_overlap},
           {"inertial_fraction", seen.balance.inertial_fraction},
-          {"kinetic_energy", seen.kinetic_energy}};
+          {"kinetic_energy", seen.kinetic_energy},
+          {"elastic_energy", seen.elastic_energy},
+          {"boundary_work", seen.account.boundary},
+          {"gravity_work", seen.account.gravity},
+          {"growth_work", seen.account.growth},
+          {"branch_work", seen.account.branch},
+          {"sliding_loss", seen.account.sliding},
+          {"damping_loss", seen.account.damping},
+          {"energy_error", seen.energy_error}};
 }
 
 }  // namespace tangency::dem

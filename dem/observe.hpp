@@ -50,6 +50,29 @@ struct Balance {
 };
 Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list);
 
+/// The longest step that is stable, estimated from the contacts as they are: 2 / sqrt(2 s), s the
+/// largest stiffness over inertia of any particle, shifts and turns each by themselves, against
+/// neighbours that swing the other way. Infinite without contacts.
+double critical_time_step(const Particles& particles, const Contacts& contacts,
+                          const NeighbourList& list);
+
+/// Where the energy of an assembly came from and went to since the run began, and what is stored at
+/// the start. The sum is what it should hold now.
+struct EnergyAccount {
+  double start = 0.0;
+  double boundary = 0.0;  ///< work of the straining cell and its walls on the contacts
+  double gravity = 0.0;   ///< work of gravity
+  double growth = 0.0;    ///< stored by particles that changed their shape
+  double branch = 0.0;    ///< gained where contacts went over to another branch
+  double sliding = 0.0;   ///< lost to friction
+  double damping = 0.0;   ///< lost to damping
+
+  double sum() const { return start + boundary + gravity + growth + branch - sliding - damping; }
+};
+
+/// Energy stored by the contacts.
+double elastic_energy(const Contacts& contacts);
+
 /// One row of a history: everything but cycle, time and stage.
 struct Observation {
   double axial_strain, volumetric_strain;
@@ -60,7 +83,11 @@ struct Observation {
   std::int64_t contacts;
   double mean_normal_force, mean_overlap;
   Balance balance;
-  double kinetic_energy;
+  double kinetic_energy;  ///< half a step ago, when velocities were known
+  double elastic_energy;
+  EnergyAccount account{};
+  /// Kinetic and elastic energy now less what the account says: what the time step lost or gained.
+  double energy_error = 0.0;
 };
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
                     const NeighbourList& list);

@@ -163,6 +163,20 @@ std::vector<std::size_t> largest_first(const std::vector<Batch>& batches, int di
   return order;
 }
 
+Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
+  cell = Cell::box(how.cell_size.value(), how.dimensions, how.walled);
+  Particles particles;
+  particles.dimensions = how.dimensions;
+  for (const Body& body : how.bodies) {
+    const Batch& batch = batches[body.type];
+    particles.add(body.position, body.orientation, batch.shape.semi_axes(how.dimensions),
+                  batch.density, static_cast<std::int32_t>(body.type));
+    particles.velocity.back() = body.velocity;
+    particles.angular_velocity.back() = body.angular_velocity;
+  }
+  return particles;
+}
+
 }  // namespace
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -180,26 +194,28 @@ Eigen::Quaterniond uniform_rotation(std::mt19937_64& random, int dimensions) {
 }
 
 void check_room(const std::vector<Batch>& batches, const Placement& how) {
-  if (how.arrangement == Arrangement::random)
-    room_for(batches, how);
-  else
-    lattice_for(batches, how);
+  if (how.arrangement == Arrangement::random) room_for(batches, how);
+  if (how.arrangement == Arrangement::lattice) lattice_for(batches, how);
+  if (how.arrangement == Arrangement::explicit_bodies && !how.cell_size)
+    throw DoesNotFit("an explicit arrangement needs cell.size");
 }
 
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
-  return how.arrangement == Arrangement::random ? place_at_random(batches, how, cell)
-                                                : place_on_lattice(batches, how, cell);
+  check_room(batches, how);
+  if (how.arrangement == Arrangement::random) return place_at_random(batches, how, cell);
+  if (how.arrangement == Arrangement::lattice) return place_on_lattice(batches, how, cell);
+  return place_bodies(batches, how, cell);
 }
 
 Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   const auto [edges, sites] = lattice_for(batches, how);
-  cell = {edges, Vec3::Zero(), edges, how.dimensions};
+  cell = Cell::box(edges, how.dimensions, how.walled);
   std::mt19937_64 random(how.seed);
   const auto kinds = shuffled_kinds(batches, static_cast<std::size_t>(sites.prod()), random);
 
   Particles particles;
   particles.dimensions = how.dimensions;
-  const Vec3 spacing = cell.length.array() / sites.cast<double>();
+  const Vec3 spacing = edges.array() / sites.cast<double>();
   for (std::size_t site = 0; site < kinds.size(); ++site) {
     if (kinds[site] < 0) continue;
     const auto index = static_cast<std::int64_t>(site);
@@ -217,7 +233,7 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
 
 Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   const Vec3 edges = room_for(batches, how);
-  cell = {edges, Vec3::Zero(), edges, how.dimensions};
+  cell = Cell::box(edges, how.dimensions, how.walled);
   const std::vector<std::size_t> order = largest_first(batches, how.dimensions);
   const auto axes_of = [&](std::size_t k) { return batches[k].shape.semi_axes(how.dimensions); };
   PlacedSpheres placed(edges, axes_of(order.front()).maxCoeff(), how.dimensions);
@@ -226,6 +242,7 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
   particles.dimensions = how.dimensions;
   for (const std::size_t k : order) {
     const Vec3 axes = axes_of(k);
+    const double radius = axes.maxCoeff() * (1.0 + clearance);  // away from walls
     for (std::size_t i = 0; i < batches[k].count; ++i) {
       Vec3 centre = Vec3::Zero();
       int draws = 0;
@@ -235,7 +252,9 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
                            std::to_string(particles.size() + 1) + " in " +
                            std::to_string(most_draws) + " draws; another seed may");
         for (int axis = 0; axis < how.dimensions; ++axis)
-          centre[axis] = edges[axis] * uniform(random);
+          centre[axis] = how.walled[static_cast<std::size_t>(axis)]
+                             ? radius + (edges[axis] - 2.0 * radius) * uniform(random)
+                             : edges[axis] * uniform(random);
       } while (placed.meets(centre, axes.maxCoeff()));
       placed.add(centre, axes.maxCoeff());
       particles.add(centre, uniform_rotation(random, how.dimensions), axes, batches[k].density,

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
@@ -19,7 +20,16 @@ struct Batch {
   std::size_t count;
 };
 
-enum class Arrangement { lattice, random };
+/// One particle of an explicit arrangement.
+struct Body {
+  std::size_t type;  ///< index of its batch
+  Vec3 position;
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< not 0, of any length
+  Vec3 velocity = Vec3::Zero();                                     ///< relative to the strain
+  Vec3 angular_velocity = Vec3::Zero();                             ///< in space axes
+};
+
+enum class Arrangement { lattice, random, explicit_bodies };
 
 /// How they are put into the cell.
 struct Placement {
@@ -30,6 +40,8 @@ struct Placement {
   /// random, without a cell_size: the share of the cell that the bounding spheres fill.
   double bounding_fraction = 0.25;
   int dimensions = 3;  ///< 2: in the plane, on a square lattice, by bounding circles
+  std::array<bool, 3> walled{};    ///< as in Cell
+  std::span<const Body> bodies{};  ///< of an explicit arrangement, which needs a cell_size
 };
 
 /// A cell without room, or with too many sites: what() says how much room there is.
@@ -46,7 +58,7 @@ constexpr double largest_bounding_fraction(int dimensions) { return dimensions =
 /// Is there room for them? @throws DoesNotFit, as place() would but for bad luck in random()
 void check_room(const std::vector<Batch>& batches, const Placement& how);
 
-/// place_on_lattice() or place_at_random().
+/// place_on_lattice(), place_at_random() or the bodies as they are.
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
 /// Puts the particles at rest on the sites of a simple cubic lattice, the kinds shuffled and

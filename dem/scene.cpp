@@ -2,21 +2,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
+#include <numbers>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/scene.hpp>
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene_section.hpp>
 
 namespace tangency::dem {
 namespace {
-
-/// The tables of a scene.
-constexpr std::string_view sections = "cell particles contact stage output";
 
 /// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
 constexpr double largest_growth_of_an_increment = 0.01;
@@ -24,191 +18,16 @@ constexpr double largest_growth_of_an_increment = 0.01;
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
 constexpr double largest_strain_of_a_step = 0.1;
 
-std::string short_text(double x) {
-  std::ostringstream text;
-  text << std::setprecision(3) << x;
-  return text.str();
+/// What walls are called in [contact.NAME-NAME].
+constexpr std::string_view wall = "wall";
+
+/// The largest stiffness of a Hertz contact of two bodies of these shapes: flat on flat.
+HertzContact stiffest(const Vec3& a, const Vec3& b, double overlap, const Material& material) {
+  // At its flattest place, the end of the shortest axis, an ellipsoid has radii a^2/c and b^2/c.
+  const double curvature[2] = {a[2] / (a[1] * a[1]) + b[2] / (b[1] * b[1]),
+                               a[2] / (a[0] * a[0]) + b[2] / (b[0] * b[0])};
+  return hertz_contact(curvature, overlap, material);
 }
-
-/// A name in a scene: also part of a key's path, so without '-', '.' and blanks.
-bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
-
-/// The shortest text that reads back to x: toml++ writes 0.05 with 17 digits.
-std::string text_of(double x) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
-  const std::string text(buffer.data(), end.ptr);
-  return text.find_first_not_of("-0123456789") == text.npos ? text + ".0" : text;
-}
-
-/// A value on one line, as TOML writes it.
-std::string text_of(const toml::node& node) {
-  if (node.is_table()) return "a table";
-  if (node.is_floating_point()) return text_of(*node.value<double>());
-  std::ostringstream out;
-  if (const auto* array = node.as_array()) {
-    if (array->is_array_of_tables()) return "a list of tables";
-    out << *array;
-  } else {
-    node.visit([&](const auto& value) {
-      if constexpr (toml::is_value<decltype(value)>) out << value;
-    });
-  }
-  std::string text = out.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-/// What every message starts with.
-class Source {
- public:
-  explicit Source(std::string name) : name_(std::move(name)) {}
-
-  [[noreturn]] void fail(const toml::source_region& at, const std::string& message) const {
-    throw SceneError(name_ + ":" + std::to_string(at.begin.line) + ": " + message);
-  }
-  /// For what is missing from the whole file.
-  [[noreturn]] void fail(const std::string& message) const {
-    throw SceneError(name_ + ":1: " + message);
-  }
-
- private:
-  std::string name_;
-};
-
-bool fits(const Key& key, const toml::node& node) {
-  // No range holds nan, nor an infinity: its bounds are open there.
-  const auto number_fits = [&](const toml::node& one) {
-    return one.is_number() && key.range.holds(*one.value<double>());
-  };
-  switch (key.type) {
-    case KeyType::integer:
-      return node.is_integer() && number_fits(node);
-    case KeyType::real:
-      return number_fits(node);
-    case KeyType::real3: {
-      const auto* array = node.as_array();
-      return array && array->size() == 3 && std::all_of(array->begin(), array->end(), number_fits);
-    }
-    case KeyType::text: {
-      if (!node.is_string()) return false;
-      const std::string& text = node.ref<std::string>();
-      return key.choices.empty() ? is_name(text) : is_among(text, key.choices);
-    }
-  }
-  return false;
-}
-
-/// One table of a scene, checked against the keys of its section. Values are taken by name.
-class Section {
- public:
-  /// @param path     what messages call the table: "particles.p"; "" for the top level
-  /// @param section  of scene_keys()
-  /// @param kind     of a stage, else ""
-  /// @param base     looked in for keys that the table lacks: [contact] for [contact.a-b]
-  Section(const Source& source, const toml::table& table, std::string path,
-          std::string_view section, std::string_view kind = {}, const toml::table* base = nullptr)
-      : source_(source),
-        table_(table),
-        path_(std::move(path)),
-        section_(section),
-        kind_(kind),
-        base_(base) {
-    for (const auto& [name, node] : table_) check(name, node);
-    for (const Key& key : scene_keys())
-      if (applies(key) && key.required() && !find(key.name))
-        source_.fail(table_.source(), label(key.name) + " is missing: " + allowed_values(key));
-  }
-
-  /// Refuses the value of a key that the section has.
-  [[noreturn]] void fail(std::string_view name, const std::string& allowed) const {
-    const toml::node& node = *find(name);
-    source_.fail(node.source(), label(name) + " = " + text_of(node) + ": " + allowed);
-  }
-
-  /// The same for a number that may be the key's default: then at the table's line.
-  void refuse(std::string_view name, std::int64_t value, const std::string& allowed) const {
-    if (has(name)) fail(name, allowed);
-    source_.fail(table_.source(), label(name) + " = " + std::to_string(value) + ": " + allowed);
-  }
-
-  bool has(std::string_view name) const { return find(name) != nullptr; }
-
-  double real(std::string_view name) const {
-    const toml::node* node = find(name);
-    return node ? *node->value<double>() : std::stod(std::string(fallback(name)));
-  }
-  std::optional<double> optional_real(std::string_view name) const {
-    return has(name) ? std::optional(real(name)) : std::nullopt;
-  }
-  std::int64_t integer(std::string_view name) const {
-    const toml::node* node = find(name);
-    return node ? *node->value<std::int64_t>() : std::stoll(std::string(fallback(name)));
-  }
-  std::string text(std::string_view name, std::string_view otherwise) const {
-    const toml::node* node = find(name);
-    return node ? node->ref<std::string>() : std::string(otherwise);
-  }
-  std::string text(std::string_view name) const { return text(name, fallback(name)); }
-  std::optional<Vec3> optional_real3(std::string_view name) const {
-    const toml::array* array = table_.get_as<toml::array>(name);
-    if (!array) return std::nullopt;
-    Vec3 v = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-      v[static_cast<int>(k)] = array->get(k)->value<double>().value_or(0.0);
-    return v;
-  }
-
- private:
-  bool applies(const Key& key) const {
-    return key.section == section_ && (kind_.empty() || is_among(kind_, key.kinds));
-  }
-
-  std::string label(std::string_view name) const {
-    return path_.empty() ? std::string(name) : path_ + "." + std::string(name);
-  }
-
-  void check(const toml::key& name, const toml::node& node) const {
-    if (section_.empty() && is_among(name.str(), sections)) return;
-    if (section_ == "contact" && node.is_table()) return;  // a pair
-    std::string names;
-    for (const Key& key : scene_keys()) {
-      if (!applies(key)) continue;
-      if (key.name == name.str()) {
-        if (fits(key, node)) return;
-        fail(key.name, allowed_values(key));
-      }
-      names += (names.empty() ? "" : ", ") + std::string(key.name);
-    }
-    if (section_.empty())
-      for (const char c : " " + std::string(sections)) names += c == ' ' ? ", " : std::string(1, c);
-    source_.fail(name.source(), label(name.str()) + ": no such key" +
-                                    (kind_.empty() ? "" : " in a stage of this kind") +
-                                    "; allowed are " + names);
-  }
-
-  const toml::node* find(std::string_view name) const {
-    const toml::node* node = table_.get(name);
-    return node || !base_ ? node : base_->get(name);
-  }
-
-  std::string_view fallback(std::string_view name) const {
-    const auto keys = scene_keys();
-    return std::find_if(keys.begin(), keys.end(),
-                        [&](const Key& key) { return applies(key) && key.name == name; })
-        ->fallback;
-  }
-
-  const Source& source_;
-  const toml::table& table_;
-  std::string path_;
-  std::string section_, kind_;
-  const toml::table* base_;
-};
 
 class Reader {
  public:
@@ -217,6 +36,7 @@ class Reader {
   Scene read() {
     const Section top(source_, root_, "", "");
     read_cell();
+    read_motion();
     read_particles();
     read_contacts();
     read_stages();
@@ -245,6 +65,23 @@ class Reader {
     scene_.dimensions = static_cast<int>(cell.integer("dimensions"));
     if (scene_.dimensions == 2 && scene_.cell_size && (*scene_.cell_size)[2] != 1.0)
       cell.fail("size", "with dimensions = 2 the third edge is the unit thickness, 1");
+    const std::string walls = cell.text("walls");
+    for (std::size_t k = 0; k < 3; ++k)
+      scene_.walled[k] = walls != "none" && walls.find("xyz"[k]) != walls.npos;
+    if (scene_.dimensions == 2 && scene_.walled[2])
+      cell.fail("walls", "with dimensions = 2 of x and y alone");
+  }
+
+  void read_motion() {
+    const Section motion(source_, table("motion"), "motion", "motion");
+    scene_.gravity = motion.optional_real3("gravity").value_or(Vec3::Zero());
+    if (scene_.dimensions == 2 && scene_.gravity[2] != 0.0)
+      motion.fail("gravity", "with dimensions = 2 none along z");
+    const std::string rotation = motion.text("rotation");
+    scene_.rotation = rotation == "full"         ? Rotation::full
+                      : rotation == "simplified" ? Rotation::simplified
+                                                 : Rotation::none;
+    scene_.branch = motion.text("contacts") == "global" ? Branch::global : Branch::follow;
   }
 
   /// In the plane there is nothing to be flat.
@@ -260,6 +97,8 @@ class Reader {
       if (!is_name(name.str()))
         source_.fail(name.source(), path + ": a name of letters, digits and underscores");
       if (!node.is_table()) source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
+      if (name.str() == wall)
+        source_.fail(name.source(), path + ": another name: walls have it in [contact.NAME-wall]");
       const Section type(source_, *node.as_table(), path, "particles");
       check_flatness(type);
       scene_.particle_types.push_back(
@@ -272,18 +111,51 @@ class Reader {
       source_.fail(types.source(), "particles = {}: at least one table [particles.NAME]");
   }
 
-  ContactLaw law_of(const Section& section) const {
-    const double normal = section.real("normal_stiffness");
-    return {normal, section.optional_real("shear_stiffness").value_or(normal),
-            section.real("friction_coefficient"), section.real("cohesion")};
+  /// Semi-axes of a type, of a wall those of a sphere so large that it is flat.
+  Vec3 shape_of(std::size_t type) const {
+    const auto& types = scene_.particle_types;
+    return type < types.size() ? types[type].batch.shape.semi_axes(scene_.dimensions)
+                               : Vec3::Constant(1e150);
   }
 
-  /// The index of a type; the number of types where there is none of this name.
-  std::size_t type_named(std::string_view name) const {
+  ContactLaw law_of(const Section& section, std::size_t a, std::size_t b) const {
+    const double friction = section.real("friction_coefficient");
+    const double cohesion = section.real("cohesion");
+    if (section.text("law") == "linear") {
+      for (const char* key : {"young_modulus", "poisson_ratio", "largest_overlap"})
+        section.forbid(key, "with law = \"hertz\" alone");
+      if (!section.has("normal_stiffness")) section.fail_missing("normal_stiffness");
+      const double normal = section.real("normal_stiffness");
+      return {normal, section.optional_real("shear_stiffness").value_or(normal), friction, cohesion};
+    }
+    if (scene_.dimensions == 2)
+      section.fail("law", "with dimensions = 2 linear: Hertz has no overlap of disks");
+    for (const char* key : {"normal_stiffness", "shear_stiffness"})
+      section.forbid(key, "with law = \"linear\" alone");
+    if (!section.has("young_modulus")) section.fail_missing("young_modulus");
+    const Material material{section.real("young_modulus"), section.real("poisson_ratio")};
+    const Vec3 shape_a = shape_of(a), shape_b = shape_of(b);
+    const double smaller = std::cbrt(std::min(shape_a.prod(), shape_b.prod()));
+    const HertzContact most =
+        stiffest(shape_a, shape_b, section.real("largest_overlap") * smaller, material);
+    return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]), friction,
+            cohesion, material};
+  }
+
+  /// The index of a type, of "wall" in a walled cell the one after them.
+  std::optional<std::size_t> type_named(std::string_view name) const {
     const auto& types = scene_.particle_types;
-    const auto found = std::find_if(types.begin(), types.end(),
-                                    [&](const ParticleType& type) { return type.name == name; });
-    return static_cast<std::size_t>(found - types.begin());
+    for (std::size_t k = 0; k < types.size(); ++k)
+      if (types[k].name == name) return k;
+    if (scene_.has_walls() && name == wall) return types.size();
+    return std::nullopt;
+  }
+  bool are_walls(std::size_t a, std::size_t b) const {
+    return std::min(a, b) == scene_.particle_types.size();
+  }
+  std::string type_name(std::size_t type) const {
+    const auto& types = scene_.particle_types;
+    return type < types.size() ? types[type].name : std::string(wall);
   }
 
   /// [contact.a-b] and [contact.b-a] are one law: of the two, refuses that of the later line.
@@ -304,32 +176,35 @@ class Reader {
   void read_contacts() {
     const toml::table& contact =
         table("contact", "a table [contact] for all pairs, or [contact.NAME-NAME] for each");
-    const std::size_t types = scene_.particle_types.size();
+    const std::size_t types = scene_.particle_types.size() + (scene_.has_walls() ? 1 : 0);
     std::vector<std::optional<ContactLaw>> laws(types * types);
     const bool common = std::any_of(contact.begin(), contact.end(),
                                     [](const auto& entry) { return !entry.second.is_table(); });
-    if (common || contact.empty())
-      laws.assign(types * types, law_of(Section(source_, contact, "contact", "contact")));
+    if (common || contact.empty()) {
+      const Section section(source_, contact, "contact", "contact");
+      for (std::size_t k = 0; k < laws.size(); ++k)
+        if (!are_walls(k / types, k % types)) laws[k] = law_of(section, k / types, k % types);
+    }
     for (const auto& [name, node] : contact) {
       if (!node.is_table()) continue;
       const std::string_view pair = name.str();
-      const std::size_t dash = pair.find('-');
-      const std::size_t a = type_named(pair.substr(0, dash));
-      const std::size_t b = dash == pair.npos ? types : type_named(pair.substr(dash + 1));
+      const std::size_t dash = std::min(pair.find('-'), pair.size());
+      const auto a = type_named(pair.substr(0, dash));
+      const auto b = type_named(pair.substr(std::min(dash + 1, pair.size())));
       const std::string path = "contact." + std::string(pair);
-      if (a == types || b == types)
-        source_.fail(name.source(), path + ": NAME-NAME of two of the scene's particle types");
+      if (!a || !b || are_walls(*a, *b))
+        source_.fail(name.source(), path + ": NAME-NAME of two of the scene's particle types" +
+                                        (scene_.has_walls() ? ", or of one and wall" : ""));
       refuse_second_law(contact, name, pair.substr(dash + 1), pair.substr(0, dash));
-      const ContactLaw law =
-          law_of(Section(source_, *node.as_table(), path, "contact", {}, &contact));
-      laws[a * types + b] = laws[b * types + a] = law;
+      const Section section(source_, *node.as_table(), path, "contact", {}, &contact);
+      laws[*a * types + *b] = laws[*b * types + *a] = law_of(section, *a, *b);
     }
     scene_.laws.types = types;
     for (std::size_t k = 0; k < laws.size(); ++k) {
+      if (are_walls(k / types, k % types)) laws[k] = laws.front();  // no two walls meet
       if (!laws[k])
         source_.fail(contact.source(),
-                     "contact." + scene_.particle_types[k / types].name + "-" +
-                         scene_.particle_types[k % types].name +
+                     "contact." + type_name(k / types) + "-" + type_name(k % types) +
                          " is missing: a law for every two types, or one in [contact] for all");
       scene_.laws.law.push_back(*laws[k]);
     }
@@ -364,25 +239,79 @@ class Reader {
     Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}, {}});
     if (kind == "place") {
       added.place = read_place(section);
+      read_bodies(section);
       check_placement(path, stage);
       return;
     }
-    added.compress = read_compress(section, kind);
-    check_step(section, *added.compress);
+    added.drive = read_drive(section, kind);
+    check_step(section, *added.drive);
     if (kind == "grow") added.growth = read_growth(section);
   }
 
   Place read_place(const Section& section) const {
-    const Place place{
-        section.text("arrangement") == "random" ? Arrangement::random : Arrangement::lattice,
-        static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter"),
-        section.real("bounding_fraction")};
+    const std::string arrangement = section.text("arrangement");
+    const auto only_of = [&](const char* one, std::initializer_list<const char*> keys) {
+      for (const char* key : keys)
+        if (arrangement != one)
+          section.forbid(key, "with arrangement = \"" + std::string(one) + "\" alone");
+    };
+    only_of("lattice", {"jitter"});
+    only_of("random", {"bounding_fraction"});
+    only_of("explicit", {"file"});
+    if (arrangement == "explicit") section.forbid("seed", "not with arrangement = \"explicit\"");
+    const Place place{arrangement == "random"     ? Arrangement::random
+                      : arrangement == "explicit" ? Arrangement::explicit_bodies
+                                                  : Arrangement::lattice,
+                      static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter"),
+                      section.real("bounding_fraction"), section.text("file", "")};
     const double most = largest_bounding_fraction(scene_.dimensions);
     if (place.bounding_fraction > most)
       section.fail("bounding_fraction",
                    "a finite number > 0 and <= " + short_text(most) +
                        " with dimensions = " + std::to_string(scene_.dimensions));
     return place;
+  }
+
+  /// The scene's [[body]] tables, which an explicit arrangement without a file must have.
+  void read_bodies(const Section& place) {
+    const bool wanted = scene_.stages.front().place->arrangement == Arrangement::explicit_bodies &&
+                        scene_.stages.front().place->file.empty();
+    const toml::node* node = root_.get("body");
+    if (!node && wanted) place.fail("arrangement", "with a file, or a list of [[body]] tables");
+    if (!node) return;
+    if (!wanted)
+      source_.fail(node->source(),
+                   "body: a place with arrangement = \"explicit\" and without a file has it");
+    const toml::array* list = node->as_array();
+    if (!list || !list->is_homogeneous<toml::table>())
+      source_.fail(node->source(), "body = " + text_of(*node) + ": a list of [[body]] tables");
+    std::vector<Body> bodies;
+    for (std::size_t k = 0; k < list->size(); ++k)
+      bodies.push_back(read_body(Section(source_, *list->get(k)->as_table(),
+                                         "body[" + std::to_string(k) + "]", "body")));
+    set_bodies(scene_, std::move(bodies), source_.at(node->source()));
+  }
+
+  Body read_body(const Section& section) const {
+    const auto type = type_named(section.text("type"));
+    if (!type || *type == scene_.particle_types.size())
+      section.fail("type", "a name of one of the scene's particle types");
+    Body body{*type, *section.optional_real3("position")};
+    if (const auto q = section.optional_real4("orientation")) {
+      if (q->isZero(0.0)) section.fail("orientation", "4 finite numbers, not all 0");
+      if (scene_.dimensions == 2 && ((*q)[1] != 0.0 || (*q)[2] != 0.0))
+        section.fail("orientation", "with dimensions = 2 about z: x and y are 0");
+      body.orientation = {(*q)[0], (*q)[1], (*q)[2], (*q)[3]};
+    }
+    body.velocity = section.optional_real3("velocity").value_or(Vec3::Zero());
+    body.angular_velocity = section.optional_real3("angular_velocity").value_or(Vec3::Zero());
+    if (scene_.dimensions == 2) {
+      if (body.position[2] != 0.0) section.fail("position", "with dimensions = 2 z is 0");
+      if (body.velocity[2] != 0.0) section.fail("velocity", "with dimensions = 2 none along z");
+      if (body.angular_velocity.head<2>() != Vec2::Zero())
+        section.fail("angular_velocity", "with dimensions = 2 about z");
+    }
+    return body;
   }
 
   void check_placement(const std::string& path, const toml::table& stage) const {
@@ -412,19 +341,85 @@ class Reader {
     return growth;
   }
 
-  static Compress read_compress(const Section& section, const std::string& kind) {
-    return {
-        {section.real("mean_stress"), section.real("servo_gain"), section.real("max_strain_rate")},
-        section.real("damping"),
-        section.real("time_step_factor"),
-        kind == "grow" ? std::optional(section.real("friction_coefficient"))
-                       : section.optional_real("friction_coefficient"),
-        section.real("stress_tolerance"),
-        kind == "relax" ? std::optional(section.real("max_unbalanced_ratio")) : std::nullopt,
-        section.integer("max_cycles")};
+  Drive read_drive(const Section& section, const std::string& kind) const {
+    Drive drive{};
+    Loading& loading = drive.loading;
+    if (kind == "servo")
+      read_servo(section, drive);
+    else if (kind == "shear")
+      read_shear(section, drive);
+    else
+      loading.targets = {Target::mean_stress(section.real("mean_stress"), scene_.dimensions)};
+    if (kind != "servo" && kind != "shear") drive.stress_tolerance = section.real("stress_tolerance");
+    if (section.has("max_strain_rate"))
+      loading.servo.max_strain_rate = section.real("max_strain_rate");
+    else if (kind == "shear")
+      loading.servo.max_strain_rate = section.real("axial_strain_rate");
+    else if (!loading.targets.empty())
+      section.fail_missing("max_strain_rate");
+    loading.servo.gain = section.real("servo_gain");
+    loading.servo.published_gain = section.optional_real("published_gain").value_or(0.0);
+    drive.damping = section.real("damping");
+    drive.time_step_factor = section.real("time_step_factor");
+    drive.friction_coefficient = kind == "grow" || kind == "unload"
+                                     ? std::optional(section.real("friction_coefficient"))
+                                     : section.optional_real("friction_coefficient");
+    if (kind == "relax" || kind == "unload")
+      drive.max_unbalanced_ratio = section.real("max_unbalanced_ratio");
+    drive.max_cycles = section.integer("max_cycles");
+    return drive;
   }
 
-  void check_step(const Section& section, const Compress& stage) const {
+  /// Axial compression, sideways as much extension as keeps the volume, and what is held.
+  void read_shear(const Section& section, Drive& drive) const {
+    const int lateral = scene_.dimensions - 1;  // axes before the axial one
+    const double rate = section.real("axial_strain_rate");
+    for (int axis = 0; axis < lateral; ++axis) drive.loading.strain_rate(axis, axis) = rate / lateral;
+    drive.loading.strain_rate(lateral, lateral) = -rate;
+    drive.axial_strain = section.real("axial_strain");
+    if (const auto mean = section.optional_real("mean_stress")) {
+      section.forbid("lateral_stress", "not together with mean_stress");
+      drive.loading.targets = {Target::mean_stress(*mean, scene_.dimensions)};
+    } else if (const auto stress = section.optional_real("lateral_stress")) {
+      for (int axis = 0; axis < lateral; ++axis)
+        drive.loading.targets.push_back(Target::component(axis, *stress));
+    }
+  }
+
+  void read_servo(const Section& section, Drive& drive) const {
+    Loading& loading = drive.loading;
+    const bool plane = scene_.dimensions == 2;
+    drive.duration = section.integer("duration");
+    const Vec3 strain = section.optional_real3("strain_rate").value_or(Vec3::Zero());
+    const Vec3 shear = section.optional_real3("shear_rate").value_or(Vec3::Zero());
+    if (plane && strain[2] != 0.0) section.fail("strain_rate", "with dimensions = 2 none along z");
+    if (plane && (shear[1] != 0.0 || shear[2] != 0.0))
+      section.fail("shear_rate", "with dimensions = 2 of xy alone");
+    Mat3 rate = strain.asDiagonal();
+    for (int k = 0; k < 3; ++k) rate(k, (k + 1) % 3) = rate((k + 1) % 3, k) = shear[k];
+    loading.strain_rate = -rate;
+    if (scene_.has_walls())
+      for (const char* key : {"shear_rate", "major_direction"})
+        section.forbid(key, "not in a cell with walls");
+    if (plane)
+      for (const char* key : {"stress_zz", "plane_mean_stress"})
+        section.forbid(key, "with dimensions = 3 alone");
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto stress = section.optional_real(stress_keys[axis]))
+        loading.targets.push_back(Target::component(axis, *stress));
+    if (const auto mean = section.optional_real("mean_stress"))
+      loading.targets.push_back(Target::mean_stress(*mean, scene_.dimensions));
+    if (const auto mean = section.optional_real("plane_mean_stress"))
+      loading.targets.push_back(Target::plane_mean_stress(*mean));
+    if (const auto angle = section.optional_real("major_direction"))
+      loading.targets.push_back(
+          Target::direction(plane ? 1 : 2, 0, *angle * std::numbers::pi / 180.0));
+    if (!loading.is_independent())
+      for (const char* key : {"plane_mean_stress", "mean_stress"})
+        section.forbid(key, "not together with stresses that it is the mean of");
+  }
+
+  void check_step(const Section& section, const Drive& stage) const {
     if (stage.damping * stage.time_step_factor > 2.0)
       section.fail("damping",
                    "with time_step_factor = " + short_text(stage.time_step_factor) +
@@ -438,11 +433,18 @@ class Reader {
     const double largest =
         largest_strain_of_a_step /
         (stage.time_step_factor * std::sqrt(lightest / scene_.laws.largest_stiffness()));
-    if (!(stage.servo.max_strain_rate < largest))
-      section.fail("max_strain_rate", "a finite number < " + short_text(largest) +
-                                          " (1/s), a strain of " +
-                                          short_text(largest_strain_of_a_step) + " a time step");
+    const std::string allowed = "a finite number < " + short_text(largest) + " (1/s), a strain of " +
+                                short_text(largest_strain_of_a_step) + " a time step";
+    const Servo& servo = stage.loading.servo;
+    if (!(servo.max_strain_rate < largest))
+      section.fail(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate",
+                   allowed);
+    if (!(stage.loading.strain_rate.cwiseAbs().maxCoeff() < largest))
+      for (const char* key : {"axial_strain_rate", "strain_rate", "shear_rate"})
+        section.forbid(key, allowed);
   }
+
+  static constexpr const char* stress_keys[] = {"stress_xx", "stress_yy", "stress_zz"};
 
   const toml::table& root_;
   const Source& source_;
@@ -477,7 +479,9 @@ Placement Scene::placement() const {
           place.seed,
           place.arrangement,
           place.bounding_fraction,
-          dimensions};
+          dimensions,
+          walled,
+          bodies};
 }
 
 Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const {
@@ -486,6 +490,17 @@ Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t incremen
     if (const auto& growth = stages[k].growth)
       shape = growth->shape_after(shape, k < stage ? growth->increments : increments);
   return shape;
+}
+
+void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name) {
+  std::vector<std::size_t> counts(scene.particle_types.size(), 0);
+  for (const Body& body : bodies) ++counts.at(body.type);
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (const ParticleType& type = scene.particle_types[k]; counts[k] != type.batch.count)
+      throw SceneError(name + ": " + std::to_string(counts[k]) + " bodies of type " + type.name +
+                       ": as many as particles." + type.name + ".count, " +
+                       std::to_string(type.batch.count));
+  scene.bodies = std::move(bodies);
 }
 
 Scene parse_scene(const std::string& text, const std::string& name) {

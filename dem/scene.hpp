@@ -3,6 +3,7 @@
 /// A scene: everything that determines a run. scene_keys.hpp has the keys and what they may be.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/growth.hpp>
 #include <tangency/dem/loading.hpp>
+#include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
 #include <vector>
 
@@ -33,17 +35,20 @@ struct Place {
   std::uint64_t seed;
   double jitter;             ///< in mean radii of the smallest type
   double bounding_fraction;  ///< of a random arrangement without a cell size
+  /// Of an explicit arrangement whose bodies do not stand in the scene: a table of them.
+  std::string file;
 };
 
-/// How a stage moves: strains the cell isotropically until the mean stress is reached and, if so
-/// asked, until the particles are in equilibrium.
-struct Compress {
-  PressureServo servo;
+/// How a stage moves, and when it ends: as soon as all that is set holds.
+struct Drive {
+  Loading loading;
   double damping;           ///< in 1 / characteristic_time()
   double time_step_factor;  ///< in characteristic_time()
   std::optional<double> friction_coefficient;
-  double stress_tolerance;                     ///< relative
-  std::optional<double> max_unbalanced_ratio;  ///< set for a stage that relaxes
+  std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
+  std::optional<double> max_unbalanced_ratio;  ///< of every particle
+  std::optional<double> axial_strain;          ///< compression reached, logarithmic
+  std::optional<std::int64_t> duration;        ///< cycles
   std::int64_t max_cycles;
 };
 
@@ -52,8 +57,8 @@ struct Compress {
 struct Stage {
   std::string name;
   std::optional<Place> place;
-  std::optional<Compress> compress;
-  std::optional<Growth> growth;  ///< set besides compress
+  std::optional<Drive> drive;
+  std::optional<Growth> growth;  ///< set besides drive
 };
 
 struct OutputIntervals {
@@ -62,14 +67,20 @@ struct OutputIntervals {
 
 struct Scene {
   int dimensions = 3;
+  std::array<bool, 3> walled{};
   std::optional<Vec3> cell_size;
+  Vec3 gravity = Vec3::Zero();
+  Rotation rotation = Rotation::full;
+  Branch branch = Branch::follow;
   std::vector<ParticleType> particle_types;
+  std::vector<Body> bodies;  ///< of an explicit arrangement
   ContactLaws laws;
   std::vector<Stage> stages;  ///< the first, and no other, places
   OutputIntervals output;
 
   std::vector<Batch> batches() const;
   std::size_t particle_count() const;
+  bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
   double smallest_mean_radius() const;
   Placement placement() const;
   /// The shape of a type in stage number `stage` after so many increments of it; in a stage that
@@ -82,5 +93,9 @@ Scene load_scene(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);
+
+/// Gives a scene whose place names a file its bodies.
+/// @throws SceneError  where they are not as many of each type as the scene says; starts with `name`
+void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name);
 
 }  // namespace tangency::dem

@@ -25,6 +25,7 @@ constexpr double most_increments = 1e6;
 /// of inertia, sqrt(m/K) and its inverse are normal doubles, at most 1e200 and at least 1e-200.
 constexpr Range positive = between(1e-30, 1e30);
 constexpr Range not_negative = between(0.0, 1e30);
+constexpr Range any_size = between(-1e30, 1e30);
 /// Of semi-axes. Chosen: two of them make a needle or a disk of 1e8.
 constexpr Range axis_ratio = between(1.0, 1e4);
 /// Measured on shear tests of one sample at steps growing from 0.05 sqrt(m/K_n): a step above
@@ -32,8 +33,9 @@ constexpr Range axis_ratio = between(1.0, 1e4);
 /// friction angle silently falls from 44 to 33 degrees.
 constexpr double largest_time_step_factor = 0.3;
 
-constexpr std::string_view kinds = "place compress grow relax";
-constexpr std::string_view moving = "compress grow relax";
+constexpr std::string_view kinds = "place compress grow relax unload shear servo";
+constexpr std::string_view moving = "compress grow relax unload shear servo";
+constexpr std::string_view isotropic = "compress grow relax unload";
 
 constexpr std::array table{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
@@ -42,6 +44,14 @@ constexpr std::array table{
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
     Key{"cell", "dimensions", integer, "-", "3", between(2, 3), "", "",
         "2: elliptic disks of unit thickness in the plane z = 0; a size then has 1 along z"},
+    Key{"cell", "walls", text, "-", "none", any, "none x y z xy xz yz xyz", "",
+        "Axes whose two faces are plane walls; the others are periodic"},
+
+    Key{"motion", "gravity", real3, "m/s^2", "(0)", any_size, "", "", "Acceleration"},
+    Key{"motion", "rotation", text, "-", "full", any, "none simplified full", "",
+        "Euler's equations: full, without their quadratic terms, or none at all"},
+    Key{"motion", "contacts", text, "-", "follow", any, "follow global", "",
+        "Of several ways out of an overlap: that of the step before, or the shortest"},
 
     Key{"particles", "count", integer, "-", "", between(1, most_particles), "", "",
         "Number of particles of this type"},
@@ -52,28 +62,69 @@ constexpr std::array table{
     Key{"particles", "density", real, "kg/m^3", "1000.0", positive, "", "",
         "Mass over volume; scales time, and nothing else in slow motion"},
 
-    Key{"contact", "normal_stiffness", real, "N/m", "", positive, "", "",
+    Key{"body", "type", text, "-", "", any, "", "", "Name of a particle type"},
+    Key{"body", "position", real3, "m", "", any_size, "", "", "Centre"},
+    Key{"body", "orientation", real4, "-", "(1, 0, 0, 0)", any_size, "", "",
+        "Quaternion w, x, y, z, not 0, of any length; in the plane about z"},
+    Key{"body", "velocity", real3, "m/s", "(0)", any_size, "", "", "Relative to the strain"},
+    Key{"body", "angular_velocity", real3, "1/s", "(0)", any_size, "", "", "In space axes"},
+
+    Key{"contact", "law", text, "-", "linear", any, "linear hertz", "",
+        "hertz: elliptic contacts by Hertz and Mindlin, from curvatures and material"},
+    Key{"contact", "normal_stiffness", real, "N/m", "(needed by linear)", positive, "", "",
         "K_n: normal force over overlap"},
     Key{"contact", "shear_stiffness", real, "N/m", "(normal_stiffness)", not_negative, "", "",
         "K_s: shear force over shear displacement"},
     Key{"contact", "friction_coefficient", real, "-", "0.0", not_negative, "", "",
         "tan(phi): slope of the Coulomb limit of the shear force"},
+    Key{"contact", "young_modulus", real, "Pa", "(needed by hertz)", positive, "", "",
+        "hertz: E of both bodies"},
+    Key{"contact", "poisson_ratio", real, "-", "0.3", between(0.0, 0.5), "", "",
+        "hertz: nu of both bodies"},
+    Key{"contact", "largest_overlap", real, "mean_radius", "0.02", above_to(0.0, 0.2), "", "",
+        "hertz: overlap, of the smaller radius, up to which the time step is right"},
     Key{"contact", "cohesion", real, "N", "0.0", not_negative, "", "",
         "Coulomb limit without a normal force"},
 
     Key{"stage", "kind", text, "-", "", any, kinds, kinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", any, "", kinds,
         "Name in the column stage of history.csv"},
-    Key{"stage", "arrangement", text, "-", "lattice", any, "lattice random", "place",
-        "A simple cubic (in the plane square) lattice, or drawn places that do not overlap"},
+    Key{"stage", "arrangement", text, "-", "lattice", any, "lattice random explicit", "place",
+        "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or [[body]] "
+        "by [[body]]"},
+    Key{"stage", "file", path, "-", "(the scene's [[body]])", any, "", "place",
+        "explicit: a table of bodies instead, beside the scene: CSV with type, x, y, z and, if so "
+        "wanted, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
     Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
         "Start of the random numbers"},
     Key{"stage", "jitter", real, "mean_radius", "1e-3", between(0.0, 1.0), "", "place",
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
     Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
         "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
-    Key{"stage", "mean_stress", real, "Pa", "", positive, "", moving,
-        "Mean stress to reach (compress) or to hold (grow, relax)"},
+    Key{"stage", "mean_stress", real, "Pa", "", positive, "", isotropic,
+        "Mean stress to reach (compress) or to hold (grow, relax, unload)"},
+    Key{"stage", "mean_stress", real, "Pa", "(not held)", positive, "", "shear servo",
+        "Mean stress to hold; a shear that holds none keeps its volume"},
+    Key{"stage", "lateral_stress", real, "Pa", "(not held)", positive, "", "shear",
+        "Stress to hold along the lateral axes, instead of a mean stress"},
+    Key{"stage", "axial_strain_rate", real, "1/s", "", positive, "", "shear",
+        "Compression along z (in the plane y); the lateral axes extend at constant volume but for "
+        "what is held"},
+    Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
+        "Logarithmic axial compression at which the stage ends"},
+    Key{"stage", "strain_rate", real3, "1/s", "(0)", any_size, "", "servo",
+        "Along x, y, z, compression positive; servos add to it"},
+    Key{"stage", "shear_rate", real3, "1/s", "(0)", any_size, "", "servo",
+        "Components xy, yz, zx of the strain rate, of the same sign"},
+    Key{"stage", "stress_xx", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
+    Key{"stage", "stress_yy", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
+    Key{"stage", "stress_zz", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
+    Key{"stage", "plane_mean_stress", real, "Pa", "(not held)", positive, "", "servo",
+        "(s_xx + s_yy) / 2 to hold"},
+    Key{"stage", "major_direction", real, "degrees", "(not held)", between(-90.0, 90.0), "", "servo",
+        "Of a principal stress in the plane of z and x (in the plane y and x), from z towards x"},
+    Key{"stage", "duration", integer, "cycles", "", between(1, most_cycles), "", "servo",
+        "The stage ends after so many"},
     Key{"stage", "elongation", real, "-", "", axis_ratio, "", "grow",
         "a / b at the end, of all types; mean radii and masses stay"},
     Key{"stage", "flatness", real, "-", "(as it is)", axis_ratio, "", "grow",
@@ -82,21 +133,28 @@ constexpr std::array table{
         "Steps in which elongation and flatness change; one changes a semi-axis by at most 0.01"},
     Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
         "Increments wait for the inertial fraction to be at most this, and so does the end"},
-    Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", moving,
-        "Bound on the size of the isotropic linear strain rate; a step strains by less than 0.1"},
+    Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", isotropic,
+        "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
+    Key{"stage", "max_strain_rate", real, "1/s", "(axial_strain_rate)", positive, "", "shear",
+        "The same"},
+    Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", positive, "", "servo",
+        "The same"},
     Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", moving,
         "Share of the stress error that the servo removes in a cycle"},
+    Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", positive, "", moving,
+        "Gain of the published servo instead: the rate grows by it times the stress error each "
+        "cycle; it rings"},
     Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "", moving,
         "Rate at which the velocity of a free particle decays; times time_step_factor at most 2"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",
-        "compress relax", "Used for all contacts during this stage"},
-    Key{"stage", "friction_coefficient", real, "-", "0.0", not_negative, "", "grow",
+        "compress relax shear servo", "Used for all contacts during this stage"},
+    Key{"stage", "friction_coefficient", real, "-", "0.0", not_negative, "", "grow unload",
         "Used for all contacts during this stage"},
-    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", moving,
+    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", isotropic,
         "The stage ends with the mean stress this close to the wanted, relatively"},
-    Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax",
+    Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax unload",
         "The stage ends with every particle's unbalanced force, and moment over its largest "
         "semi-axis, below this times the mean contact force"},
     Key{"stage", "max_cycles", integer, "-", "200000", between(1, most_cycles), "", moving,
@@ -148,7 +206,10 @@ std::string_view type_text(KeyType type) {
       return "number";
     case real3:
       return "3 numbers";
+    case real4:
+      return "4 numbers";
     case text:
+    case path:
       return "text";
   }
   return "";
@@ -157,8 +218,10 @@ std::string_view type_text(KeyType type) {
 std::string_view header_of(std::string_view section) {
   if (section == "particles") return "[particles.NAME]";
   if (section == "contact") return "[contact] for all pairs, [contact.NAME-NAME] for one";
+  if (section == "body") return "[[body]], of a place with arrangement = explicit";
   if (section == "stage") return "[[stage]], in the order of the run";
   if (section == "cell") return "[cell]";
+  if (section == "motion") return "[motion]";
   if (section == "output") return "[output]";
   return "top level";
 }
@@ -183,6 +246,10 @@ std::string allowed_values(const Key& key) {
       return "a finite number " + range_text(key.range) + unit;
     case real3:
       return "3 finite numbers " + range_text(key.range) + unit;
+    case real4:
+      return "4 finite numbers " + range_text(key.range) + unit;
+    case path:
+      return "the name of a file";
     case text:
       break;
   }
@@ -203,7 +270,8 @@ void print_schema(std::ostream& out) {
           << "meaning\n";
     }
     const std::string allowed =
-        key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
+        key.type == path ? std::string("a file's name")
+        : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
     out << "  " << std::left << std::setw(22) << key.name << std::setw(11) << type_text(key.type)
         << std::setw(19) << key.unit << std::setw(26)

@@ -14,7 +14,11 @@
 
 namespace tangency::dem {
 
-enum class KeyType { integer, real, real3, text };
+enum class KeyType { integer, real, real3, real4, text, path };
+
+/// The tables of a scene.
+inline constexpr std::string_view scene_sections =
+    "cell motion particles body contact stage output";
 
 /// The values a number may have, each bound included or not.
 struct Range {
@@ -29,7 +33,7 @@ struct Range {
 };
 
 struct Key {
-  std::string_view section;  ///< "", "cell", "particles", "contact", "stage" or "output"
+  std::string_view section;  ///< "" or one of scene_sections
   std::string_view name;
   KeyType type;
   std::string_view unit;  ///< "-" for none

@@ -67,10 +67,12 @@ void require_same_particles(const State& state, const Scene& scene) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene) : scene_(scene) {
+Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
   renew_list();
-  state_.contacts.update(state_.particles, state_.cell, state_.list, scene_.laws, 0.0);
+  update_contacts(0.0);
+  state_.energy = {};
+  state_.energy.start = kinetic_energy(state_.particles) + elastic_energy(state_.contacts);
   next_stage();
 }
 
@@ -86,6 +88,12 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
                                 std::to_string(most));
   require_same_particles(state_, scene_);
   prepare_stage();
+  const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
+  if (state_.stage_cycle == 0) state_.servos.assign(servos, {});  // a stage added after the last
+  if (!finished() && state_.servos.size() != servos)
+    throw std::invalid_argument("a state of a stage that holds " +
+                                std::to_string(state_.servos.size()) +
+                                " stresses; the scene's stage holds " + std::to_string(servos));
 }
 
 const Stage& Simulation::stage() const {
@@ -94,43 +102,60 @@ const Stage& Simulation::stage() const {
 
 void Simulation::prepare_stage() {
   laws_ = scene_.laws;
-  if (!finished() && stage().compress->friction_coefficient)
+  if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
-      law.friction_coefficient = *stage().compress->friction_coefficient;
+      law.friction_coefficient = *stage().drive->friction_coefficient;
 }
 
 void Simulation::next_stage() {
   assert(!finished());
   ++state_.stage;
   state_.stage_cycle = 0;
-  state_.servo_integral = 0.0;
+  state_.servos.assign(finished() ? 0 : stage().drive->loading.targets.size(), {});
   state_.increments = 0;
   prepare_stage();
 }
 
 double Simulation::time_step() const {
-  return stage().compress->time_step_factor *
+  return stage().drive->time_step_factor *
          characteristic_time(state_.particles, laws_.largest_stiffness());
+}
+
+double Simulation::time_step_ratio() const {
+  return time_step() / critical_time_step(state_.particles, state_.contacts, state_.list);
+}
+
+Motion Simulation::motion() const {
+  const double time = characteristic_time(state_.particles, laws_.largest_stiffness());
+  return {scene_.rotation, scene_.gravity, stage().drive->damping / time};
 }
 
 void Simulation::step() {
   assert(!finished());
-  const Compress& stage = *this->stage().compress;
-  if (state_.stage_cycle == 0) state_.cell.reference_length = state_.cell.length;
+  if (state_.stage_cycle == 0) state_.cell.reference_edges = state_.cell.edges;
   if (!is_grown() && is_relaxed()) grow();
   const double dt = time_step();
-  const double damping =
-      stage.damping / characteristic_time(state_.particles, laws_.largest_stiffness());
   const Stress stress = stress_of(state_.contacts, state_.cell);
-  state_.cell.rate = state_.cell.isotropic(stage.servo.rate(stress, dt, state_.servo_integral));
+  state_.cell.rate = stage().drive->loading.rate(stress, dt, state_.servos);
 
-  move(state_.particles, state_.cell, state_.contacts.resultants(), damping, dt);
+  const MotionWork work =
+      move(state_.particles, state_.cell, state_.contacts.resultants(), motion(), dt);
+  state_.energy.damping += work.damping;
+  state_.energy.gravity += work.gravity;
   if (!state_.list.is_current(state_.particles, state_.cell)) renew_list();
-  state_.contacts.update(state_.particles, state_.cell, state_.list, laws_, dt);
+  update_contacts(dt);
 
   ++state_.cycle;
   ++state_.stage_cycle;
   state_.time += dt;
+}
+
+void Simulation::update_contacts(double dt) {
+  const ContactWork work = state_.contacts.update(state_.particles, state_.cell, state_.list, laws_,
+                                                  dt, scene_.branch);
+  state_.energy.sliding += work.sliding;
+  state_.energy.boundary += work.boundary;
+  state_.energy.branch += work.branch;
 }
 
 void Simulation::renew_list() {
@@ -141,18 +166,27 @@ void Simulation::renew_list() {
   state_.contacts.carry_over(before, state_.list.pairs());
 }
 
-/// Is the stress the wanted one and, where the stage asks for it, the assembly in balance?
+/// Are the stresses the wanted ones and, where the stage asks for it, the assembly in balance?
 bool Simulation::is_relaxed() const {
-  const Compress& stage = *this->stage().compress;
-  const double wanted = stage.servo.mean_stress;
-  const double off = std::abs(stress_of(state_.contacts, state_.cell).mean() - wanted);
-  if (!(off <= stage.stress_tolerance * wanted)) return false;
+  const Drive& stage = *this->stage().drive;
+  if (stage.stress_tolerance &&
+      !stage.loading.is_met(stress_of(state_.contacts, state_.cell), *stage.stress_tolerance))
+    return false;
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
   const Balance balance = balance_of(state_.particles, state_.contacts, state_.list);
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;
+}
+
+bool Simulation::is_at_its_end() const {
+  const Drive& stage = *this->stage().drive;
+  const int axial = state_.cell.dimensions - 1;
+  if (stage.duration && state_.stage_cycle < *stage.duration) return false;
+  return !stage.axial_strain ||
+         (state_.stage_cycle > 0 &&
+          -state_.cell.logarithmic_strain()(axial, axial) >= *stage.axial_strain);
 }
 
 bool Simulation::is_grown() const {
@@ -167,22 +201,32 @@ void Simulation::grow() {
     axes.push_back(
         scene_.shape_in(type, state_.stage, state_.increments).semi_axes(state_.cell.dimensions));
   Particles& particles = state_.particles;
+  const auto energy = [&] { return elastic_energy(state_.contacts) + kinetic_energy(particles); };
+  const double before = energy();
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.semi_axes[i] = axes[static_cast<std::size_t>(particles.type[i])];
+  if (!state_.list.is_current(particles, state_.cell)) renew_list();
+  const EnergyAccount account = state_.energy;
+  update_contacts(0.0);
+  state_.energy = account;  // nothing moved: what changed is the growth's
+  state_.energy.growth += energy() - before;
 }
 
 StageStatus Simulation::status() const {
-  if (is_grown() && is_relaxed()) return StageStatus::done;
-  return state_.stage_cycle < stage().compress->max_cycles ? StageStatus::running
+  if (is_grown() && is_at_its_end() && is_relaxed()) return StageStatus::done;
+  return state_.stage_cycle < stage().drive->max_cycles ? StageStatus::running
                                                            : StageStatus::out_of_cycles;
 }
 
 double Simulation::stage_fraction() const {
   if (finished()) return 1.0;
-  const Compress& stage = *this->stage().compress;
+  const Drive& stage = *this->stage().drive;
   if (const auto& growth = this->stage().growth)
     return static_cast<double>(state_.increments) / static_cast<double>(growth->increments);
+  if (stage.duration)
+    return static_cast<double>(state_.stage_cycle) / static_cast<double>(*stage.duration);
   const Observation seen = observe();
+  if (stage.axial_strain) return std::clamp(seen.axial_strain / *stage.axial_strain, 0.0, 1.0);
   if (stage.max_unbalanced_ratio) {
     const double worst = std::max(seen.balance.largest_unbalanced_ratio,
                                   seen.balance.largest_unbalanced_moment_ratio);
@@ -194,12 +238,21 @@ double Simulation::stage_fraction() const {
       seen.volumetric_strain;
   const double volume_part =
       to_jamming > 0.0 ? std::clamp(-seen.volumetric_strain / to_jamming, 0.0, 1.0) : 1.0;
-  const double stress_part = std::clamp(seen.stress.mean() / stage.servo.mean_stress, 0.0, 1.0);
+  const double stress_part =
+      std::clamp(seen.stress.mean() / stage.loading.targets.front().wanted, 0.0, 1.0);
   return 0.8 * volume_part + 0.2 * stress_part;
 }
 
 Observation Simulation::observe() const {
-  return dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
+  Observation seen =
+      dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
+  const double kinetic = state_.cycle > 0
+                             ? kinetic_energy_at(state_.particles, state_.contacts.resultants(),
+                                                 motion(), time_step())
+                             : seen.kinetic_energy;
+  seen.account = state_.energy;
+  seen.energy_error = kinetic + seen.elastic_energy - state_.energy.sum();
+  return seen;
 }
 
 }  // namespace tangency::dem

@@ -21,8 +21,9 @@ struct State {
   double time = 0.0;
   std::size_t stage = 0;  ///< the current one; the number of stages when all are done
   std::int64_t stage_cycle = 0;
-  double servo_integral = 0.0;
+  std::vector<ServoMemory> servos;  ///< of the current stage's targets
   std::int64_t increments = 0;  ///< of growth, made in the current stage
+  EnergyAccount energy;
 };
 
 enum class StageStatus {
@@ -60,6 +61,10 @@ class Simulation {
   /// Time step of the current stage.
   double time_step() const;
 
+  /// The time step over critical_time_step(): above 1 the motion is no longer that of the model,
+  /// even where nothing blows up.
+  double time_step_ratio() const;
+
   /// A guess at how much of the current stage is done, in [0, 1]: for progress bars only.
   double stage_fraction() const;
 
@@ -69,8 +74,11 @@ class Simulation {
   void prepare_stage();
   bool is_relaxed() const;
   bool is_grown() const;
+  bool is_at_its_end() const;
   void grow();
   void renew_list();
+  void update_contacts(double dt);
+  Motion motion() const;
 
   Scene scene_;
   State state_;

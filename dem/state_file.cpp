@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
 constexpr std::string_view magic = "TANGSTAT";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 class Writer {
  public:
@@ -85,11 +85,25 @@ void pass(Archive& archive, P& pair) {
 template <class Archive, class C>
 requires std::is_same_v<std::remove_const_t<C>, Contact>
 void pass(Archive& archive, C& contact) {
-  for (auto* v : {&contact.normal, &contact.branch, &contact.arm, &contact.force, &contact.shear})
+  for (auto* v : {&contact.normal, &contact.branch, &contact.arm, &contact.force,
+                  &contact.shear.force})
     pass(archive, *v);
-  archive(contact.overlap);
-  archive(contact.normal_force);
-  archive(contact.normal_stiffness);
+  for (auto* x : {&contact.shear.stiffness, &contact.shear.energy, &contact.overlap,
+                  &contact.normal_force, &contact.normal_stiffness, &contact.normal_energy})
+    archive(*x);
+}
+
+template <class Archive, class M>
+requires std::is_same_v<std::remove_const_t<M>, Mat3>
+void pass(Archive& archive, M& m) {
+  for (int k = 0; k < 9; ++k) archive(m.data()[k]);
+}
+
+template <class Archive, class S>
+requires std::is_same_v<std::remove_const_t<S>, ServoMemory>
+void pass(Archive& archive, S& servo) {
+  archive(servo.integral);
+  archive(servo.rate);
 }
 
 template <class T>
@@ -118,24 +132,41 @@ void pass_particles(Archive& archive, P& particles) {
   pass(archive, particles.type);
 }
 
+void pass_walls(Writer& archive, const std::array<bool, 3>& walled) {
+  for (const bool one : walled) archive(std::uint8_t{one});
+}
+void pass_walls(ByteReader& archive, std::array<bool, 3>& walled) {
+  for (bool& one : walled) {
+    std::uint8_t byte = 0;
+    archive(byte);
+    if (byte > 1) throw not_whole;
+    one = byte == 1;
+  }
+}
+
 /// Everything but the list and the contacts, which are classes that restore() themselves.
 template <class Archive, class S>
 void pass_plain(Archive& archive, S& state) {
   pass_particles(archive, state.particles);
-  for (auto* v : {&state.cell.length, &state.cell.rate, &state.cell.reference_length})
-    pass(archive, *v);
+  for (auto* m : {&state.cell.edges, &state.cell.rate, &state.cell.reference_edges})
+    pass(archive, *m);
   archive(state.cell.dimensions);
+  pass_walls(archive, state.cell.walled);
   archive(state.cycle);
   archive(state.time);
   archive(state.stage);
   archive(state.stage_cycle);
-  archive(state.servo_integral);
+  pass(archive, state.servos);
   archive(state.increments);
+  auto& energy = state.energy;
+  for (auto* x : {&energy.start, &energy.boundary, &energy.gravity, &energy.growth, &energy.branch,
+                  &energy.sliding, &energy.damping})
+    archive(*x);
 }
 
 template <class Archive, class R>
 void pass_reference(Archive& archive, R& reference) {
-  pass(archive, reference.cell_length);
+  pass(archive, reference.edges);
   archive(reference.skin);
   archive(reference.largest_radius);
   pass(archive, reference.reduced_position);
@@ -160,8 +191,11 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
       p.type.size() != n || reference.reduced_position.size() != n ||
       records.size() != pairs.size())
     return false;
-  for (const Pair& pair : pairs)
-    if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.b) >= n) return false;
+  for (const Pair& pair : pairs) {
+    if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.a) >= n) return false;
+    const auto b = static_cast<std::size_t>(pair.b);
+    if (b >= n && (b >= n + 6 || !state.cell.walled[(b - n) / 2])) return false;
+  }
   return true;
 }
 
@@ -169,8 +203,9 @@ bool is_positive(const Vec3& v) { return v.minCoeff() > 0.0; }
 
 bool lengths_are_positive(const State& state, const NeighbourList::Reference& reference) {
   const std::vector<Vec3>& axes = state.particles.semi_axes;
-  return is_positive(state.cell.length) && is_positive(state.cell.reference_length) &&
-         is_positive(reference.cell_length) && reference.skin > 0.0 &&
+  const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
+  return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
+         has_volume(reference.edges) && reference.skin > 0.0 &&
          reference.largest_radius > 0.0 && std::all_of(axes.begin(), axes.end(), is_positive);
 }
 

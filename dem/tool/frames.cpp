@@ -53,8 +53,8 @@ std::string vtp_of(const State& state) {
   out << "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
          "<FieldData>\n";
-  data_array(out, real + "\"3\" NumberOfTuples=\"1\" Name=\"cell\"", 1,
-             [&](std::size_t) { return row(state.cell.length); });
+  data_array(out, real + "\"9\" NumberOfTuples=\"1\" Name=\"cell\"", 1,
+             [&](std::size_t) { return row(state.cell.edges.reshaped()); });
   out << "</FieldData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << n
       << "\">\n<Points>\n";
   data_array(out, real + "\"3\"", n, [&](std::size_t i) { return row(wrapped(state, i)); });
@@ -80,10 +80,12 @@ std::string vtp_of(const State& state) {
 std::string xyz_of(const Simulation& simulation) {
   const State& state = simulation.state();
   const Particles& p = state.particles;
-  const Vec3& l = state.cell.length;
-  std::string text = to_text(p.size()) + "\nLattice=\"" + to_text(l[0]) + " 0 0 0 " +
-                     to_text(l[1]) + " 0 0 0 " + to_text(l[2]) + "\" pbc=\"T T " +
-                     (state.cell.dimensions == 2 ? "F" : "T") +
+  std::string periodic;
+  for (std::size_t k = 0; k < 3; ++k)
+    periodic += std::string(k ? " " : "") +
+                (state.cell.walled[k] || (k == 2 && state.cell.dimensions == 2) ? "F" : "T");
+  std::string text = to_text(p.size()) + "\nLattice=\"" + row(state.cell.edges.reshaped()) +
+                     "\" pbc=\"" + periodic +
                      "\" Properties=species:S:1:pos:R:3:orientation:R:4:"
                      "aspherical_shape:R:3:velo:R:3 cycle=" +
                      to_text(state.cycle) + " Time=" + to_text(state.time) + "\n";

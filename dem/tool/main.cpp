@@ -52,7 +52,15 @@ logarithmic and count from the start of the stage:
   mean_overlap          m, of a contact
   inertial_fraction     mean unbalanced force of a particle that has contacts, over the
                         mean contact force
-  kinetic_energy        J, of the motion relative to the cell
+  kinetic_energy        J, of the motion relative to the cell, half a step ago
+  elastic_energy        J, stored by the contacts
+  boundary_work gravity_work growth_work branch_work
+                        J since the start: done on the assembly by the straining cell and its
+                        walls, by gravity, by particles that change shape, and gained where a
+                        contact went over to another normal
+  sliding_loss damping_loss
+                        J since the start: lost to friction and to damping
+  energy_error          J: kinetic and elastic energy less what all these say it should be
 
 More keys of summary.json:
   particles, cycles, threads

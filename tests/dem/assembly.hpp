@@ -20,7 +20,7 @@ inline dem::Particles crowd(std::size_t count, const dem::Cell& cell, std::uint6
   dem::Particles particles;
   for (std::size_t i = 0; i < count; ++i) {
     // Up to a cell length outside: particles are not wrapped.
-    const Vec3 centre = cell.length.cwiseProduct(3.0 * uniform3() - Vec3::Ones());
+    const Vec3 centre = cell.edges * (3.0 * uniform3() - Vec3::Ones());
     const Vec3 radii = 0.5 * (Vec3::Ones() + uniform3());
     particles.add(centre, dem::uniform_rotation(random), radii, 1.0, 0);
     particles.velocity.back() = uniform3() - Vec3::Constant(0.5);

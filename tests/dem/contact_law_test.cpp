@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include <algorithm>
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/tests/support/generators.hpp>
 
@@ -11,40 +12,71 @@ namespace {
 
 using tangency::Vec3;
 using tangency::dem::ContactLaw;
+using tangency::dem::NormalResponse;
+using tangency::dem::ShearState;
 using tangency::dem::turned_with;
 
 const Vec3 kNormal = Vec3(1.0, 2.0, 2.0) / 3.0;
 const Vec3 kTangent = Vec3(2.0, 1.0, -2.0) / 3.0;
 constexpr ContactLaw kLaw{100.0, 50.0, 0.5, 0.0};
 
-TEST(ContactLaw, NormalForceIsLinearInOverlapAndNeverPulls) {
-  EXPECT_EQ(kLaw.normal_force(0.25), 25.0);
-  EXPECT_EQ(kLaw.normal_force(0.0), 0.0);
-  EXPECT_EQ(kLaw.normal_force(-0.25), 0.0);
+/// The shear force of a law after one step from `before`, under a push of `normal_force`.
+Vec3 sheared(const ContactLaw& law, const Vec3& before, const Vec3& normal_before,
+             const Vec3& normal, const Vec3& displacement, double normal_force) {
+  ShearState state{before, law.shear_stiffness, before.squaredNorm() / (2.0 * law.shear_stiffness)};
+  NormalResponse response = law.normal_response(normal_force / law.normal_stiffness, {});
+  law.shear(state, {normal_before, normal, displacement}, response);
+  return state.force;
+}
+
+TEST(ContactLaw, NormalForceIsLinearInOverlapAndItsEnergyThatOfASpring) {
+  const NormalResponse response = kLaw.normal_response(0.25, {});
+  EXPECT_EQ(response.force, 25.0);
+  EXPECT_EQ(response.stiffness, 100.0);
+  EXPECT_EQ(response.energy, 0.5 * 100.0 * 0.25 * 0.25);
+}
+
+TEST(ContactLaw, WorkOnTheShearSpringIsStoredOrSlidAway) {
+  // Out along the tangent until it slides, back until it slides the other way.
+  ShearState state;
+  const NormalResponse response = kLaw.normal_response(0.1, {});
+  double work = 0.0, slid = 0.0, limit = 0.0;
+  for (int step = 0; step < 300; ++step) {
+    const Vec3 moved = (step < 100 ? 0.002 : -0.002) * kTangent + 1e-4 * step * kNormal;
+    const Vec3 before = state.force;
+    slid += kLaw.shear(state, {kNormal, kNormal, moved}, response);
+    work -= 0.5 * (before + state.force).dot(moved);
+    limit = std::max(limit, state.force.norm());
+  }
+  EXPECT_NEAR(limit, 5.0, 1e-14);
+  EXPECT_NEAR(state.energy, 5.0 * 5.0 / (2.0 * 50.0), 1e-14);
+  EXPECT_NEAR(work, slid + state.energy, 1e-14);
+  // It sticks over 0.1 outward and 0.2 back, and slides under 5 over the rest.
+  EXPECT_NEAR(slid, 5.0 * (0.2 - 0.1) + 5.0 * (0.4 - 0.2), 1e-12);
 }
 
 TEST(ContactLaw, ShearForceOpposesTheTangentialDisplacement) {
   const Vec3 moved = 0.01 * kTangent + 0.3 * kNormal;
-  const Vec3 shear = kLaw.shear_force(Vec3::Zero(), kNormal, kNormal, moved, 1e9);
+  const Vec3 shear = sheared(kLaw, Vec3::Zero(), kNormal, kNormal, moved, 1e9);
   EXPECT_LT((shear + 0.5 * kTangent).norm(), 1e-14);
 }
 
 TEST(ContactLaw, ShearForceGrowsUpToTheCoulombLimit) {
   Vec3 shear = Vec3::Zero();
   for (int step = 0; step < 100; ++step)
-    shear = kLaw.shear_force(shear, kNormal, kNormal, 0.01 * kTangent, 10.0);
+    shear = sheared(kLaw, shear, kNormal, kNormal, 0.01 * kTangent, 10.0);
   EXPECT_LT((shear + 5.0 * kTangent).norm(), 1e-13);
 }
 
 TEST(ContactLaw, CohesionAddsToTheLimit) {
   constexpr ContactLaw cohesive{100.0, 50.0, 0.5, 3.0};
-  const Vec3 shear = cohesive.shear_force(Vec3::Zero(), kNormal, kNormal, kTangent, 10.0);
+  const Vec3 shear = sheared(cohesive, Vec3::Zero(), kNormal, kNormal, kTangent, 10.0);
   EXPECT_NEAR(shear.norm(), 8.0, 1e-14);
 }
 
 TEST(ContactLaw, ShearForceTurnsWithTheNormalAtConstantLength) {
   const Vec3 turned = Vec3(1.0, 2.0, 2.5).normalized();
-  const Vec3 shear = kLaw.shear_force(kTangent, kNormal, turned, Vec3::Zero(), 1e9);
+  const Vec3 shear = sheared(kLaw, kTangent, kNormal, turned, Vec3::Zero(), 1e9);
   EXPECT_NEAR(shear.norm(), 1.0, 1e-15);
   EXPECT_NEAR(shear.dot(turned), 0.0, 1e-15);
   // The smallest turn leaves the axis across both normals where it is.

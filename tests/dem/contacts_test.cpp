@@ -15,7 +15,7 @@ constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
 constexpr ContactLaw kFrictional{100.0, 80.0, 0.3, 0.0};
 
 struct Assembly {
-  Cell cell{Vec3::Constant(5.0), Vec3::Constant(-0.1), Vec3::Constant(5.0)};
+  Cell cell = Cell::box(Vec3::Constant(5.0));
   Particles particles = crowd(60, cell, 11);
   NeighbourList list;
   Contacts contacts;
@@ -60,7 +60,7 @@ Assembly two_on_a_diagonal() {
   two.particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
   two.particles.add(Vec3::Ones() + 2.6 * direction, Eigen::Quaterniond::Identity(),
                     Vec3::Constant(2.0), 1.0, 0);
-  two.cell.length.setConstant(20.0);
+  two.cell = Cell::box(Vec3::Constant(20.0));
   return two;
 }
 
@@ -74,13 +74,13 @@ TEST(Contacts, AreAtTheMidpointOfTheTwoWitnessPoints) {
 TEST(Contacts, ShearByTheStrainOfTheCellAndByRotation) {
   Assembly two = two_on_a_diagonal();
   const Vec3 n = Vec3(1.0, 2.0, 2.0) / 3.0;
-  two.cell.rate = {-0.01, 0.02, 0.005};
+  two.cell.rate = Vec3(-0.01, 0.02, 0.005).asDiagonal();
   two.particles.angular_velocity[1] = {0.001, 0.002, -0.003};
   two.update(kFrictional, 0.1);
   const Vec3 velocity =
-      two.cell.rate.cwiseProduct(2.6 * n) + two.particles.angular_velocity[1].cross(-1.8 * n);
+      two.cell.rate * (2.6 * n) + two.particles.angular_velocity[1].cross(-1.8 * n);
   const Vec3 expected = -80.0 * 0.1 * (velocity - n * n.dot(velocity));
-  EXPECT_LT((two.contacts.records()[0].shear - expected).norm(), 1e-14);
+  EXPECT_LT((two.contacts.records()[0].shear.force - expected).norm(), 1e-14);
 }
 
 // Pairs that are followed by their stored normal, skipped by it, or new: none may be missed.
@@ -156,8 +156,8 @@ TEST(Contacts, ShearForcesSurviveARenewedList) {
     const auto now =
         std::lower_bound(crowd_of.list.pairs().begin(), crowd_of.list.pairs().end(), before[k]) -
         crowd_of.list.pairs().begin();
-    EXPECT_EQ(crowd_of.contacts.records()[static_cast<std::size_t>(now)].shear, kept[k].shear);
-    largest = std::max(largest, kept[k].shear.norm());
+    EXPECT_EQ(crowd_of.contacts.records()[static_cast<std::size_t>(now)].shear.force, kept[k].shear.force);
+    largest = std::max(largest, kept[k].shear.force.norm());
   }
   EXPECT_GT(largest, 0.1);
 }
@@ -166,7 +166,7 @@ TEST(Contacts, WithoutFrictionCarryNoShear) {
   Assembly crowd_of;
   crowd_of.update(kFrictional);
   crowd_of.update(kFrictionless);
-  for (const Contact& contact : crowd_of.contacts.records()) EXPECT_EQ(contact.shear, Vec3::Zero());
+  for (const Contact& contact : crowd_of.contacts.records()) EXPECT_EQ(contact.shear.force, Vec3::Zero());
 }
 
 TEST(Contacts, TakeTheLawOfTheTwoTypes) {

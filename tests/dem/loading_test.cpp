@@ -13,6 +13,9 @@ using tangency::Mat3;
 
 constexpr double kStep = 0.01;
 
+const Target kTarget = Target::mean_stress(100.0, 3);
+constexpr Servo kServo{0.01, 0.05};
+
 /// A body whose mean stress is stiffness * (compressive strain - slack), and creeps.
 struct Spring {
   double stiffness, slack, creep_rate, strain = 0.0;
@@ -21,11 +24,11 @@ struct Spring {
     const double pressure = std::max(0.0, stiffness * (strain - slack));
     return {pressure * Mat3::Identity(), pressure > 0.0 ? stiffness : 0.0};
   }
-  std::vector<double> load(const PressureServo& servo, int cycles) {
+  std::vector<double> load(const Servo& servo, int cycles) {
     std::vector<double> pressures;
-    double integral = 0.0;
+    ServoMemory memory;
     for (int cycle = 0; cycle < cycles; ++cycle) {
-      strain -= servo.rate(stress(), kStep, integral) * kStep;
+      strain -= servo.rate(kTarget, stress(), kStep, memory) * kStep;
       slack += creep_rate * kStep;
       pressures.push_back(stress().mean());
     }
@@ -33,9 +36,8 @@ struct Spring {
   }
 };
 
-constexpr PressureServo kServo{100.0, 0.01, 0.05};
 
-TEST(PressureServo, ReachesTheWantedStressWithoutRinging) {
+TEST(Servo, ReachesTheWantedStressWithoutRinging) {
   const auto pressures = Spring{1000.0, 0.2, 0.0}.load(kServo, 20000);
   EXPECT_NEAR(pressures.back(), 100.0, 0.01);
   EXPECT_LT(*std::max_element(pressures.begin(), pressures.end()), 105.0);
@@ -45,17 +47,17 @@ TEST(PressureServo, ReachesTheWantedStressWithoutRinging) {
   EXPECT_LE(crossings, 2);
 }
 
-TEST(PressureServo, TakesUpSteadyCreepWithoutALastingError) {
+TEST(Servo, TakesUpSteadyCreepWithoutALastingError) {
   const auto pressures = Spring{1000.0, 0.0, 0.005}.load(kServo, 20000);
   EXPECT_NEAR(pressures.back(), 100.0, 0.01);
 }
 
-TEST(PressureServo, KeepsItsRateWithinTheBoundAndCompressesWhatBearsNothing) {
-  double integral = 0.0;
-  EXPECT_EQ(kServo.rate(Stress{}, kStep, integral), -0.05);
+TEST(Servo, KeepsItsRateWithinTheBoundAndCompressesWhatBearsNothing) {
+  ServoMemory memory;
+  EXPECT_EQ(kServo.rate(kTarget, Stress{}, kStep, memory), -0.05);
   const Stress far{1e9 * Mat3::Identity(), 1.0};
-  EXPECT_EQ(kServo.rate(far, kStep, integral), 0.05);
-  EXPECT_EQ(integral, 0.0) << "no wind-up at the bound";
+  EXPECT_EQ(kServo.rate(kTarget, far, kStep, memory), 0.05);
+  EXPECT_EQ(memory.integral, 0.0) << "no wind-up at the bound";
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using tangency::Vec3;
 using tangency::test::crowd;
 using tangency::test::meeting_pairs;
 
-Cell cell_of(const Vec3& edges) { return {edges, Vec3::Zero(), edges}; }
+Cell cell_of(const Vec3& edges) { return Cell::box(edges); }
 
 bool lists_all(const NeighbourList& list, const std::vector<Pair>& pairs) {
   return std::includes(list.pairs().begin(), list.pairs().end(), pairs.begin(), pairs.end());
@@ -57,13 +57,13 @@ int steps_until_out_of_date(double speed, const Vec3& rate) {
   Particles particles = crowd(100, cell, 4);
   NeighbourList list;
   list.build(particles, cell, 0.2);
-  cell.rate = rate;
+  cell.rate = rate.asDiagonal();
   const double dt = 0.002;
   constexpr int most_steps = 1000;
   for (int steps = 0; steps < most_steps; ++steps) {
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.position[i] +=
-          dt * (speed * particles.velocity[i] + cell.rate.cwiseProduct(particles.position[i]));
+          dt * (speed * particles.velocity[i] + cell.rate * particles.position[i]);
     cell.strain(dt);
     if (!list.is_current(particles, cell)) return steps;
     EXPECT_TRUE(lists_all(list, meeting_pairs(particles, cell, 4)));

@@ -29,7 +29,7 @@ struct Seen {
   }
 };
 
-Cell cube(double edge) { return {Vec3::Constant(edge), Vec3::Zero(), Vec3::Constant(edge)}; }
+Cell cube(double edge) { return Cell::box(Vec3::Constant(edge)); }
 
 /// Three spheres in a row along x, touching 0-1 (overlap 0.5) and 1-2 (overlap 0.25), and one
 /// apart.
@@ -70,7 +70,7 @@ TEST(Observe, StressIsTheDerivativeOfTheElasticEnergyByStrain) {
     const auto energy_at = [&](double e) {
       Cell strained = cell;
       Particles moved = particles;
-      strained.length[axis] *= 1.0 + e;
+      strained.edges(axis, axis) *= 1.0 + e;
       for (Vec3& x : moved.position) x[axis] *= 1.0 + e;
       return elastic_energy(moved, strained);
     };
@@ -103,7 +103,7 @@ TEST(Observe, RowHasTheAssemblysNumbers) {
   Particles particles = row_of_spheres();
   particles.velocity[0] = {3.0, 0.0, 4.0};
   Cell cell = cube(10.0);
-  cell.reference_length = {10.0, 12.0, 20.0};
+  cell.reference_edges = Vec3(10.0, 12.0, 20.0).asDiagonal();
   const Seen seen(particles, cell);
   const Observation row = observe(particles, cell, seen.contacts, seen.list);
   EXPECT_NEAR(row.axial_strain, std::log(2.0), 1e-15);
@@ -136,7 +136,8 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
   EXPECT_EQ(names,
             "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
             "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
-            "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,");
+            "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
+            "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,");
 }
 
 }  // namespace

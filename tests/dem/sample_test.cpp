@@ -34,14 +34,14 @@ TEST(PlaceOnLattice, LeavesNoTwoParticlesOverlappingWhateverTheJitter) {
 TEST(PlaceOnLattice, FillsTheSmallestCubeWithoutASize) {
   Cell cell;
   place_on_lattice({{{1.0, 1.0, 1.0}, 1.0, 28}}, {{}, 0.0, 1}, cell);
-  EXPECT_LT((cell.length - Vec3::Constant(8.0)).norm(), 1e-4);
+  EXPECT_LT((cell.edges.diagonal() - Vec3::Constant(8.0)).norm(), 1e-4);
 }
 
 TEST(PlaceOnLattice, SpreadsOverAGivenCellAndRefusesOneTooSmall) {
   Cell cell;
   const Vec3 edges(200.0, 150.0, 300.0);
   const Particles particles = place_on_lattice(kProlate, {edges, 0.0, 1}, cell);
-  EXPECT_EQ(cell.length, edges);
+  EXPECT_EQ(Vec3(cell.edges.diagonal()), edges);
   for (const Vec3& x : particles.position) EXPECT_TRUE((x.array() < edges.array()).all());
   EXPECT_THROW(place_on_lattice(kProlate, {Vec3::Constant(100.0), 0.0, 1}, cell), DoesNotFit);
   EXPECT_THROW(check_room(kProlate, {Vec3::Constant(1e6), 0.0, 1}), DoesNotFit);

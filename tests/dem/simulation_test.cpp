@@ -111,10 +111,10 @@ TEST(Simulation, RelaxesUntilEveryParticleIsInBalanceToTheWantedRatio) {
 TEST(Simulation, StartsEachStageWithAFreshServoAndFreshStrains) {
   Simulation simulation = dense(64);
   run_cycles(simulation, 200);
-  while (simulation.state().servo_integral == 0.0) simulation.step();
+  while (simulation.state().servos[0].integral == 0.0) simulation.step();
   ASSERT_LT(simulation.observe().volumetric_strain, -0.1);
   simulation.next_stage();
-  EXPECT_EQ(simulation.state().servo_integral, 0.0);
+  EXPECT_EQ(simulation.state().servos[0].integral, 0.0);
   EXPECT_EQ(simulation.state().stage_cycle, 0);
   simulation.step();
   EXPECT_GT(simulation.observe().volumetric_strain, -0.01);
@@ -151,7 +151,7 @@ struct Recount {
       const auto at = std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin();
       const Contact& record = state.contacts.records()[static_cast<std::size_t>(at)];
       const double stiffness = simulation.scene().laws.between(0, 0).normal_stiffness;
-      const Vec3 force = -stiffness * gap.gap * gap.normal + record.shear;
+      const Vec3 force = -stiffness * gap.gap * gap.normal + record.shear.force;
       stress += force * d.transpose() / state.cell.volume();
       mean_force += force.norm();
       ++contacts;

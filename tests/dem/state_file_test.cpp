@@ -62,9 +62,9 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
   save_state(half_way().state(), folder.path("a.state"));
   const std::string bytes = read_whole(folder.path("a.state")).value();
   std::string changed = bytes;
-  changed[8] = 3;
+  changed[8] = 4;
   EXPECT_EQ(failure(folder.write("v.state", changed)),
-            folder.path("v.state") + ": state of version 3: this program reads version 2");
+            folder.path("v.state") + ": state of version 4: this program reads version 3");
   changed = bytes;
   changed[bytes.size() / 2] ^= 1;
   EXPECT_EQ(failure(folder.write("d.state", changed)),
@@ -127,7 +127,7 @@ TEST(StateFile, WithAnImpossibleNumberIsRefused) {
   EXPECT_EQ(refusal([](State& s) { s.time = INFINITY; }), damaged + "number that is not finite");
   EXPECT_EQ(refusal([](State& s) { s.particles.semi_axes[3][1] = 0.0; }),
             damaged + "length that is not > 0");
-  EXPECT_EQ(refusal([](State& s) { s.cell.length[2] = -1.0; }), damaged + "length that is not > 0");
+  EXPECT_EQ(refusal([](State& s) { s.cell.edges(2, 2) = -1.0; }), damaged + "length that is not > 0");
   EXPECT_EQ(refusal([](State& s) { s.particles.mass[0] = 0.0; }), damaged + "mass that is not > 0");
 }
 

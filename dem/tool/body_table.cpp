@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <tangency/dem/tool/body_table.hpp>
+#include <tangency/geometry/tool/csv.hpp>
+
+namespace tangency::dem {
+namespace {
+
+using Columns = std::vector<csv::Column>;
+
+/// Columns of which a table has all or none; empty where it has none.
+Columns group(const csv::Header& header, const std::vector<std::string>& names) {
+  Columns columns;
+  for (const std::string& name : names)
+    if (const auto column = header.find(name)) columns.push_back(*column);
+  if (columns.empty() || columns.size() == names.size()) return columns;
+  for (const std::string& name : names) header.require(name);  // names the one that is missing
+  return columns;
+}
+
+template <class Vector>
+Vector numbers(const csv::RowCursor& row, const Columns& columns, const Vector& otherwise) {
+  if (columns.empty()) return otherwise;
+  Vector v = otherwise;
+  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = row.number(columns[static_cast<std::size_t>(k)]);
+  return v;
+}
+
+class BodyTable {
+ public:
+  BodyTable(const csv::Header& header, const Scene& scene)
+      : scene_(scene),
+        type_(header.require("type")),
+        position_{header.require("x"), header.require("y"), header.require("z")},
+        orientation_(group(header, {"qw", "qx", "qy", "qz"})),
+        velocity_(group(header, {"vx", "vy", "vz"})),
+        angular_velocity_(group(header, {"wx", "wy", "wz"})) {}
+
+  Body read(const csv::RowCursor& row) const {
+    const Vec3 none = Vec3::Zero();
+    const Eigen::Vector4d q = numbers(row, orientation_, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
+    if (q.isZero(0.0)) throw row.error(orientation_[0], "4 finite numbers, not all 0");
+    const Body body{type_of(row), numbers(row, position_, none),
+                    {q[0], q[1], q[2], q[3]}, numbers(row, velocity_, none),
+                    numbers(row, angular_velocity_, none)};
+    const bool in_plane = body.position[2] == 0.0 && q[1] == 0.0 && q[2] == 0.0 &&
+                          body.velocity[2] == 0.0 && body.angular_velocity.head<2>() == Vec2::Zero();
+    if (scene_.dimensions == 2 && !in_plane)
+      throw row.error(position_[2], "with dimensions = 2 a body lies, moves and turns in z = 0");
+    return body;
+  }
+
+ private:
+  std::size_t type_of(const csv::RowCursor& row) const {
+    const auto& types = scene_.particle_types;
+    for (std::size_t k = 0; k < types.size(); ++k)
+      if (types[k].name == row.text(type_)) return k;
+    throw row.error(type_, "a name of one of the scene's particle types");
+  }
+
+  const Scene& scene_;
+  csv::Column type_;
+  Columns position_, orientation_, velocity_, angular_velocity_;
+};
+
+}  // namespace
+
+void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
+  const std::string& name = scene.stages.front().place->file;
+  if (name.empty()) return;
+  const std::string file = (scene_file.parent_path() / name).string();
+  std::vector<Body> bodies;
+  try {
+    csv::Reader reader(file);
+    const BodyTable table(reader.header(), scene);
+    csv::for_each_row(reader, [&](const csv::RowCursor& row) { bodies.push_back(table.read(row)); });
+  } catch (const csv::Error& error) {
+    throw SceneError(error.what());
+  }
+  set_bodies(scene, std::move(bodies), file);
+}
+
+}  // namespace tangency::dem

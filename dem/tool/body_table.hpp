@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The table of bodies that an explicit arrangement may name.
+#pragma once
+
+#include <filesystem>
+#include <tangency/dem/scene.hpp>
+
+namespace tangency::dem {
+
+/// Reads the table that the scene's place names, if it names one, from beside the scene: CSV with
+/// the columns type, x, y, z and, each group all or none, qw, qx, qy, qz; vx, vy, vz; wx, wy, wz.
+/// @throws SceneError  "bodies.csv:3: type = p: ..."
+void read_bodies(Scene& scene, const std::filesystem::path& scene_file);
+
+}  // namespace tangency::dem
