@@ -19,11 +19,23 @@ struct Step {
 /// space. About the axes 1, 2, 3, 2, 1 for dt/2, dt/2, dt, dt/2, dt/2, each turn exact
 /// [Dullweber1997].
 void turn_freely(Eigen::Quaterniond& q, Vec3& momentum, const Vec3& inertia, double dt) {
+  const Vec3 half_angle_per_momentum = 0.5 * dt * inertia.cwiseInverse();
   for (const int axis : {0, 1, 2, 1, 0}) {
-    const double angle = (axis == 2 ? dt : 0.5 * dt) * momentum[axis] / inertia[axis];
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vec3::Unit(axis)));
-    q = q * turn;
-    momentum = turn.conjugate() * momentum;
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    const double share = axis == 2 ? 1.0 : 0.5;
+    const double half = share * half_angle_per_momentum[axis] * momentum[axis];
+    const double c = std::cos(half), s = std::sin(half);
+    // q <- q (c + s e_axis)
+    const double w = q.w(), x = q.vec()[axis], y = q.vec()[next], z = q.vec()[last];
+    q.w() = w * c - x * s;
+    q.vec()[axis] = w * s + x * c;
+    q.vec()[next] = y * c + z * s;
+    q.vec()[last] = z * c - y * s;
+    // momentum <- turned back by the whole angle
+    const double sine = 2.0 * s * c, cosine = 1.0 - 2.0 * s * s;
+    const double along_next = momentum[next];
+    momentum[next] = cosine * along_next + sine * momentum[last];
+    momentum[last] = cosine * momentum[last] - sine * along_next;
   }
   q.normalize();
 }
@@ -41,14 +53,15 @@ double turn(Particles& particles, std::size_t i, const Vec3& moment_in_space, co
   Vec3& spin = particles.angular_velocity[i];
   const Vec3 inertia =
       principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
-  const Vec3 moment = q.conjugate() * moment_in_space;
+  const Mat3 axes = q.toRotationMatrix();
+  const Vec3 moment = axes.transpose() * moment_in_space;
   const Vec3 before = spin;
-  spin = keep * spin + push * (q * moment.cwiseQuotient(inertia));
-  const Vec3 mean = q.conjugate() * (0.5 * (before + spin));
+  spin = keep * spin + push * (axes * moment.cwiseQuotient(inertia));
+  const Vec3 mean = axes.transpose() * (0.5 * (before + spin));
   if (motion.rotation == Rotation::full && !is_free_of_quadratic_terms(particles, i)) {
-    Vec3 momentum = inertia.cwiseProduct(q.conjugate() * spin);
+    Vec3 momentum = inertia.cwiseProduct(axes.transpose() * spin);
     turn_freely(q, momentum, inertia, dt);
-    spin = q * momentum.cwiseQuotient(inertia);
+    spin = q.toRotationMatrix() * momentum.cwiseQuotient(inertia);
   } else {
     q = turned_by(q, dt * spin);
   }

@@ -30,25 +30,25 @@ void find_spheres(double a, double b, Touch& touch) {
   touch.arm = (a + 0.5 * touch.gap) * touch.normal;
 }
 
-/// Is a pair seen to be apart without asking for its gap: do the bounding spheres not meet, or does
-/// the plane across the last normal still part the bodies? (For any unit n, n.d - h_a - h_b is at
-/// most the gap.) Leaves the last normal as a start for next time.
-template <class Body, class Vector>
-bool seen_apart(const Body& a, const Body& b, const Vector& last_normal, Touch& touch) {
+/// Are two bodies apart because their bounding spheres are? The normal is then forgotten.
+template <class Body>
+bool spheres_apart(const Body& a, const Body& b, Touch& touch) {
   const double reach = a.largest_semi_axis() + b.largest_semi_axis();
   touch.gap = apart;
   touch.normal.setZero();
-  if (touch.branch.squaredNorm() >= reach * reach) return true;
-  if (last_normal.isZero(0.0)) return false;
-  touch.normal.template head<Vector::SizeAtCompileTime>() = last_normal;
-  const Vector d = touch.branch.template head<Vector::SizeAtCompileTime>();
-  return last_normal.dot(d) - a.support(last_normal) - b.support(last_normal) > 0.0;
+  return touch.branch.squaredNorm() >= reach * reach;
 }
 
 void find_ellipses(const Ellipse& a, const Ellipse& b, const Vec2& last_normal, Branch branch,
                    Touch& touch) {
-  if (seen_apart(a, b, last_normal, touch)) return;
+  if (spheres_apart(a, b, touch)) return;
   const Vec2 d = touch.branch.head<2>();
+  if (!last_normal.isZero(0.0)) {
+    // For any unit n, n.d - h_a - h_b is at most the gap: while the plane across the last normal
+    // parts the bodies nothing else is asked. The normal is kept as a start for next time.
+    touch.normal = in_space(last_normal);
+    if (last_normal.dot(d) - a.support(last_normal) - b.support(last_normal) > 0.0) return;
+  }
   const PlaneGap gap = branch == Branch::global || last_normal.isZero(0.0)
                            ? signed_gap(a, b, d)
                            : follow_gap(a, b, d, last_normal);
@@ -65,10 +65,10 @@ struct Questions {
   std::array<std::uint32_t, Contacts::block> place;  ///< in the block
   std::size_t count = 0;
 
-  void add(const Pair& pair, const Touch& touch, std::size_t k) {
+  void add(const Pair& pair, const Touch& touch, const Vec3& last_normal, std::size_t k) {
     pairs[count] = {static_cast<std::uint32_t>(pair.a), static_cast<std::uint32_t>(pair.b)};
     separations[count] = touch.branch;
-    normals[count] = touch.normal;
+    normals[count] = last_normal;
     place[count++] = static_cast<std::uint32_t>(k);
   }
   template <class T>
@@ -145,9 +145,9 @@ void Bodies::find_ellipsoids(std::span<const Pair> pairs, std::span<const Vec3> 
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::size_t a = at(pairs[k].a), b = at(pairs[k].b);
     if (b >= ellipsoids_.size()) continue;  // a wall
-    if (seen_apart(ellipsoids_[a], ellipsoids_[b], normals[k], touches[k])) continue;
+    if (spheres_apart(ellipsoids_[a], ellipsoids_[b], touches[k])) continue;
     const bool asked_afresh = branch == Branch::global || normals[k].isZero(0.0);
-    (asked_afresh ? fresh : followed).add(pairs[k], touches[k], k);
+    (asked_afresh ? fresh : followed).add(pairs[k], touches[k], normals[k], k);
   }
   if (followed.count > 0)
     follow_gaps(*array_, followed.list(), followed.first(followed.normals), followed.columns());
