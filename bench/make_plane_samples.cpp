@@ -43,8 +43,8 @@ std::string index_row(const dem::Simulation& simulation) {
   const dem::State& state = simulation.state();
   const dem::Observation seen = simulation.observe();
   const double radius = simulation.scene().smallest_mean_radius();
-  return simulation.stage().name + "," + text_of(state.cell.length[0]) + "," +
-         text_of(state.cell.length[1]) + "," + std::to_string(seen.contacts) + "," +
+  return simulation.stage().name + "," + text_of(state.cell.edges(0, 0)) + "," +
+         text_of(state.cell.edges(1, 1)) + "," + std::to_string(seen.contacts) + "," +
          text_of(seen.mean_overlap / radius) + "\n";
 }
 

@@ -105,6 +105,19 @@ void Simulation::prepare_stage() {
   if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
+  turns_ = anything_turns();
+}
+
+/// Smooth spheres at rest never turn. (In the plane a turn costs next to nothing.)
+bool Simulation::anything_turns() const {
+  if (scene_.dimensions == 2) return true;
+  const auto& laws = laws_.law;
+  const Particles& particles = state_.particles;
+  return std::any_of(laws.begin(), laws.end(), [](const ContactLaw& law) { return law.bears_shear(); }) ||
+         std::any_of(particles.semi_axes.begin(), particles.semi_axes.end(),
+                     [](const Vec3& axes) { return axes != Vec3::Constant(axes[0]); }) ||
+         std::any_of(particles.angular_velocity.begin(), particles.angular_velocity.end(),
+                     [](const Vec3& spin) { return !spin.isZero(0.0); });
 }
 
 void Simulation::next_stage() {
@@ -127,7 +140,7 @@ double Simulation::time_step_ratio() const {
 
 Motion Simulation::motion() const {
   const double time = characteristic_time(state_.particles, laws_.largest_stiffness());
-  return {scene_.rotation, scene_.gravity, stage().drive->damping / time};
+  return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity, stage().drive->damping / time};
 }
 
 void Simulation::step() {
@@ -205,6 +218,7 @@ void Simulation::grow() {
   const double before = energy();
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.semi_axes[i] = axes[static_cast<std::size_t>(particles.type[i])];
+  turns_ = anything_turns();
   if (!state_.list.is_current(particles, state_.cell)) renew_list();
   const EnergyAccount account = state_.energy;
   update_contacts(0.0);

@@ -72,6 +72,7 @@ class Simulation {
 
  private:
   void prepare_stage();
+  bool anything_turns() const;
   bool is_relaxed() const;
   bool is_grown() const;
   bool is_at_its_end() const;
@@ -83,6 +84,7 @@ class Simulation {
   Scene scene_;
   State state_;
   ContactLaws laws_;  ///< the scene's, with the current stage's friction
+  bool turns_ = true;  ///< is there anything that could turn, or seem to?
 };
 
 }  // namespace tangency::dem
