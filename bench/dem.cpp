@@ -99,16 +99,20 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   if (!answers_agree()) return 1;
   for (const Features& features : scenes())
-    benchmark::RegisterBenchmark(features.name.c_str(), [features](benchmark::State& state) {
-      Simulation simulation = assembly(features, 20);
-      for (auto _ : state) simulation.step();
-      const auto pairs = static_cast<double>(simulation.state().list.pairs().size());
-      state.counters["pairs"] = pairs;
-      state.counters["contacts"] = static_cast<double>(simulation.observe().contacts);
-      state.counters["pair_ns"] =
-          benchmark::Counter(1e-9 * pairs, benchmark::Counter::kIsIterationInvariantRate |
-                                               benchmark::Counter::kInvert);
-    })->Unit(benchmark::kMicrosecond)->MinTime(0.3);
+    benchmark::RegisterBenchmark(
+        features.name.c_str(),
+        [features](benchmark::State& state) {
+          Simulation simulation = assembly(features, 20);
+          for (auto _ : state) simulation.step();
+          const auto pairs = static_cast<double>(simulation.state().list.pairs().size());
+          state.counters["pairs"] = pairs;
+          state.counters["contacts"] = static_cast<double>(simulation.observe().contacts);
+          state.counters["pair_ns"] =
+              benchmark::Counter(1e-9 * pairs, benchmark::Counter::kIsIterationInvariantRate |
+                                                   benchmark::Counter::kInvert);
+        })
+        ->Unit(benchmark::kMicrosecond)
+        ->MinTime(0.3);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -43,9 +43,7 @@ Image Cell::image_of(const Vec3& x) const {
   return image;
 }
 
-Mat3 Cell::isotropic(double r) const {
-  return Vec3(r, r, dimensions == 3 ? r : 0.0).asDiagonal();
-}
+Mat3 Cell::isotropic(double r) const { return Vec3(r, r, dimensions == 3 ? r : 0.0).asDiagonal(); }
 
 Mat3 Cell::logarithmic_strain() const {
   if (is_box() && reference_edges.isDiagonal(0.0))

@@ -37,9 +37,7 @@ struct Cell {
   Vec3 heights() const;
 
   /// The translation that takes a particle to its image.
-  Vec3 translation(const Image& image) const {
-    return edges * Vec3(image[0], image[1], image[2]);
-  }
+  Vec3 translation(const Image& image) const { return edges * Vec3(image[0], image[1], image[2]); }
 
   /// Coordinates in parts of the edges: [0, 1) inside.
   Vec3 reduced(const Vec3& x) const;

@@ -15,8 +15,8 @@ namespace tangency::dem {
 
 /// Shear force over shear displacement of a contact, symmetric in the tangent plane.
 struct ShearStiffness {
-  double along = 0.0;   ///< force/length, for displacements along `direction`
-  double across = 0.0;  ///< for those normal to it
+  double along = 0.0;             ///< force/length, for displacements along `direction`
+  double across = 0.0;            ///< for those normal to it
   Vec3 direction = Vec3::Zero();  ///< unit and tangent, or 0 where the two are equal
 
   Vec3 times(const Vec3& v) const { return across * v + (along - across) * part_along(v); }

@@ -9,13 +9,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// K and D of modulus sqrt(1 - k^2) by the arithmetic-geometric mean (DLMF, section 19.8): with c_0^2 =
-/// 1 - k^2, c_(n+1) = c_n^2 / (4 a_(n+1)) and D / K = (1/2) sum over n of 2^n c_n^2 / c_0^2. No term
-/// cancels another, near the circle or near the line.
+/// K and D of modulus sqrt(1 - k^2) by the arithmetic-geometric mean (DLMF, section 19.8): with
+/// c_0^2 = 1 - k^2, c_(n+1) = c_n^2 / (4 a_(n+1)) and D / K = (1/2) sum over n of 2^n c_n^2 /
+/// c_0^2. No term cancels another, near the circle or near the line.
 std::pair<double, double> elliptic_integrals(double k) {
   double a = 0.5 * (1.0 + k), b = std::sqrt(k);
-  double c = 0.5 * (1.0 - k);                            // c_1
-  double share = 0.25 * (1.0 - k) / (1.0 + k);           // c_1^2 / c_0^2
+  double c = 0.5 * (1.0 - k);                   // c_1
+  double share = 0.25 * (1.0 - k) / (1.0 + k);  // c_1^2 / c_0^2
   double sum = 1.0, weight = 2.0;
   // Quadratic: c_n falls below u after eight steps from k = 1e-200.
   while (weight * share > 0x1p-60) {
@@ -35,7 +35,8 @@ std::pair<double, double> elliptic_integrals(double k) {
 
 ContactEllipse contact_ellipse(double ratio) {
   // Secant method for ln k in ln(k^2 D / (K - D)) = ln(ratio), which rises with a slope between 1.5
-  // (the circle) and 2 (the line): from the circle's slope every step lands above the root or on it.
+  // (the circle) and 2 (the line): from the circle's slope every step lands above the root or on
+  // it.
   const double wanted = std::log(ratio);
   double x = wanted / 1.5, slope = 1.5;
   double before = 0.0, value_before = 0.0;

@@ -42,10 +42,10 @@ ContactEllipse contact_ellipse(double ratio);
 
 /// A loaded contact.
 struct HertzContact {
-  double force;             ///< P, a push
-  double stiffness;         ///< dP / d overlap at these curvatures
-  double energy;            ///< 2/5 P overlap
-  double semi_axes[2];      ///< a >= b
+  double force;               ///< P, a push
+  double stiffness;           ///< dP / d overlap at these curvatures
+  double energy;              ///< 2/5 P overlap
+  double semi_axes[2];        ///< a >= b
   double shear_stiffness[2];  ///< shear force over displacement along a and along b
 };
 

@@ -17,10 +17,13 @@ Mat3 unit(int dimensions) { return Vec3(1.0, 1.0, dimensions == 3 ? 1.0 : 0.0).a
 }  // namespace
 
 Target Target::mean_stress(double wanted, int dimensions) {
-  return {"mean stress", unit(dimensions), static_cast<double>(dimensions), wanted, unit(dimensions)};
+  return {"mean stress", unit(dimensions), static_cast<double>(dimensions), wanted,
+          unit(dimensions)};
 }
 
-Target Target::plane_mean_stress(double wanted) { return {"plane mean stress", unit(2), 2.0, wanted, unit(2)}; }
+Target Target::plane_mean_stress(double wanted) {
+  return {"plane mean stress", unit(2), 2.0, wanted, unit(2)};
+}
 
 Target Target::component(int axis, double wanted) {
   const Mat3 along = Vec3::Unit(axis).asDiagonal();
@@ -41,7 +44,8 @@ double Target::measured(const Stress& stress) const {
 
 double Target::affine_stiffness(const Stress& stress) const {
   // <n_i n_j n_k n_l> is (1/15) of the three products of unit tensors, in the plane 1/8.
-  const double pairs = weights.trace() * actuator.trace() + 2.0 * weights.cwiseProduct(actuator).sum();
+  const double pairs =
+      weights.trace() * actuator.trace() + 2.0 * weights.cwiseProduct(actuator).sum();
   const double of_mean = stress.dimensions == 3 ? 5.0 : 4.0;  // 3/15 and 2/8, inverted
   return stress.affine_stiffness * (pairs / divisor / of_mean);
 }
@@ -50,8 +54,8 @@ double Servo::rate(const Target& target, const Stress& measured, double dt,
                    ServoMemory& memory) const {
   const double missing = target.wanted - target.measured(measured);
   if (published_gain > 0.0) {
-    memory.rate = std::clamp(memory.rate - published_gain * missing, -max_strain_rate,
-                             max_strain_rate);
+    memory.rate =
+        std::clamp(memory.rate - published_gain * missing, -max_strain_rate, max_strain_rate);
     return memory.rate;
   }
   const double stiffness = target.affine_stiffness(measured);

@@ -87,8 +87,7 @@ double largest_radius_of(const Particles& particles) {
 
 void NeighbourList::build(const Particles& particles, const Cell& cell, double skin) {
   reference_ = {cell.edges, skin, largest_radius_of(particles), {}};
-  for (const Vec3& x : particles.position)
-    reference_.reduced_position.push_back(cell.reduced(x));
+  for (const Vec3& x : particles.position) reference_.reduced_position.push_back(cell.reduced(x));
 
   pairs_.clear();
   const Boxes boxes(particles, cell, 2.0 * reference_.largest_radius + skin);

@@ -101,8 +101,8 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
       if (!contact.touches()) continue;
       const Vec3& n = contact.normal;
       const double shear = contact.shear.stiffness;
-      const Mat3 stiffness = shear * Mat3::Identity() +
-                             (contact.normal_stiffness - shear) * n * n.transpose();
+      const Mat3 stiffness =
+          shear * Mat3::Identity() + (contact.normal_stiffness - shear) * n * n.transpose();
       const Vec3 arm = at->as_b ? Vec3(contact.arm - contact.branch) : contact.arm;
       Mat3 lever;  // lever v = v x arm
       lever << 0.0, arm[2], -arm[1], -arm[2], 0.0, arm[0], arm[1], -arm[0], 0.0;
@@ -114,8 +114,8 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
         principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
     const auto scale = inertia.cwiseSqrt().cwiseInverse().asDiagonal();
     const Mat3 turn_in_body = scale * (axes.transpose() * turn * axes) * scale;
-    largest = std::max({largest, largest_eigenvalue(shift) / particles.mass[i],
-                        largest_eigenvalue(turn_in_body)});
+    largest = std::max(
+        {largest, largest_eigenvalue(shift) / particles.mass[i], largest_eigenvalue(turn_in_body)});
   }
   return std::sqrt(2.0 / largest);
 }

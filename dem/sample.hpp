@@ -39,7 +39,7 @@ struct Placement {
   Arrangement arrangement = Arrangement::lattice;
   /// random, without a cell_size: the share of the cell that the bounding spheres fill.
   double bounding_fraction = 0.25;
-  int dimensions = 3;  ///< 2: in the plane, on a square lattice, by bounding circles
+  int dimensions = 3;              ///< 2: in the plane, on a square lattice, by bounding circles
   std::array<bool, 3> walled{};    ///< as in Cell
   std::span<const Body> bodies{};  ///< of an explicit arrangement, which needs a cell_size
 };

@@ -95,7 +95,8 @@ Scene load_scene(const std::filesystem::path& file);
 Scene parse_scene(const std::string& text, const std::string& name);
 
 /// Gives a scene whose place names a file its bodies.
-/// @throws SceneError  where they are not as many of each type as the scene says; starts with `name`
+/// @throws SceneError  where they are not as many of each type as the scene says; starts with
+/// `name`
 void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name);
 
 }  // namespace tangency::dem

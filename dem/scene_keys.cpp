@@ -90,7 +90,8 @@ constexpr std::array table{
     Key{"stage", "name", text, "-", "(its kind)", any, "", kinds,
         "Name in the column stage of history.csv"},
     Key{"stage", "arrangement", text, "-", "lattice", any, "lattice random explicit", "place",
-        "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or [[body]] "
+        "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
+        "[[body]] "
         "by [[body]]"},
     Key{"stage", "file", path, "-", "(the scene's [[body]])", any, "", "place",
         "explicit: a table of bodies instead, beside the scene: CSV with type, x, y, z and, if so "
@@ -121,7 +122,8 @@ constexpr std::array table{
     Key{"stage", "stress_zz", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
     Key{"stage", "plane_mean_stress", real, "Pa", "(not held)", positive, "", "servo",
         "(s_xx + s_yy) / 2 to hold"},
-    Key{"stage", "major_direction", real, "degrees", "(not held)", between(-90.0, 90.0), "", "servo",
+    Key{"stage", "major_direction", real, "degrees", "(not held)", between(-90.0, 90.0), "",
+        "servo",
         "Of a principal stress in the plane of z and x (in the plane y and x), from z towards x"},
     Key{"stage", "duration", integer, "cycles", "", between(1, most_cycles), "", "servo",
         "The stage ends after so many"},
@@ -271,8 +273,9 @@ void print_schema(std::ostream& out) {
     }
     const std::string allowed =
         key.type == path ? std::string("a file's name")
-        : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
-                         : range_text(key.range);
+        : key.type == text
+            ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
+            : range_text(key.range);
     out << "  " << std::left << std::setw(22) << key.name << std::setw(11) << type_text(key.type)
         << std::setw(19) << key.unit << std::setw(26)
         << (key.required() ? "required" : key.fallback) << std::setw(27) << allowed << key.meaning;

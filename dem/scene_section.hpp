@@ -47,7 +47,8 @@ class Section {
   /// @param section  of scene_keys()
   /// @param kind     of a stage, else ""
   /// @param base     looked in for keys that the table lacks: [contact] for [contact.a-b]
-  /// @throws SceneError  for unknown keys, values that do not fit and required keys that are missing
+  /// @throws SceneError  for unknown keys, values that do not fit and required keys that are
+  /// missing
   Section(const Source& source, const toml::table& table, std::string path,
           std::string_view section, std::string_view kind = {}, const toml::table* base = nullptr);
 

@@ -113,7 +113,8 @@ bool Simulation::anything_turns() const {
   if (scene_.dimensions == 2) return true;
   const auto& laws = laws_.law;
   const Particles& particles = state_.particles;
-  return std::any_of(laws.begin(), laws.end(), [](const ContactLaw& law) { return law.bears_shear(); }) ||
+  return std::any_of(laws.begin(), laws.end(),
+                     [](const ContactLaw& law) { return law.bears_shear(); }) ||
          std::any_of(particles.semi_axes.begin(), particles.semi_axes.end(),
                      [](const Vec3& axes) { return axes != Vec3::Constant(axes[0]); }) ||
          std::any_of(particles.angular_velocity.begin(), particles.angular_velocity.end(),
@@ -164,8 +165,8 @@ void Simulation::step() {
 }
 
 void Simulation::update_contacts(double dt) {
-  const ContactWork work = state_.contacts.update(state_.particles, state_.cell, state_.list, laws_,
-                                                  dt, scene_.branch);
+  const ContactWork work =
+      state_.contacts.update(state_.particles, state_.cell, state_.list, laws_, dt, scene_.branch);
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;
@@ -229,7 +230,7 @@ void Simulation::grow() {
 StageStatus Simulation::status() const {
   if (is_grown() && is_at_its_end() && is_relaxed()) return StageStatus::done;
   return state_.stage_cycle < stage().drive->max_cycles ? StageStatus::running
-                                                           : StageStatus::out_of_cycles;
+                                                        : StageStatus::out_of_cycles;
 }
 
 double Simulation::stage_fraction() const {
@@ -258,12 +259,11 @@ double Simulation::stage_fraction() const {
 }
 
 Observation Simulation::observe() const {
-  Observation seen =
-      dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
-  const double kinetic = state_.cycle > 0
-                             ? kinetic_energy_at(state_.particles, state_.contacts.resultants(),
-                                                 motion(), time_step())
-                             : seen.kinetic_energy;
+  Observation seen = dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
+  const double kinetic =
+      state_.cycle > 0
+          ? kinetic_energy_at(state_.particles, state_.contacts.resultants(), motion(), time_step())
+          : seen.kinetic_energy;
   seen.account = state_.energy;
   seen.energy_error = kinetic + seen.elastic_energy - state_.energy.sum();
   return seen;

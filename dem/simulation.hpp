@@ -22,7 +22,7 @@ struct State {
   std::size_t stage = 0;  ///< the current one; the number of stages when all are done
   std::int64_t stage_cycle = 0;
   std::vector<ServoMemory> servos;  ///< of the current stage's targets
-  std::int64_t increments = 0;  ///< of growth, made in the current stage
+  std::int64_t increments = 0;      ///< of growth, made in the current stage
   EnergyAccount energy;
 };
 
@@ -83,7 +83,7 @@ class Simulation {
 
   Scene scene_;
   State state_;
-  ContactLaws laws_;  ///< the scene's, with the current stage's friction
+  ContactLaws laws_;   ///< the scene's, with the current stage's friction
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
 };
 

@@ -85,8 +85,8 @@ void pass(Archive& archive, P& pair) {
 template <class Archive, class C>
 requires std::is_same_v<std::remove_const_t<C>, Contact>
 void pass(Archive& archive, C& contact) {
-  for (auto* v : {&contact.normal, &contact.branch, &contact.arm, &contact.force,
-                  &contact.shear.force})
+  for (auto* v :
+       {&contact.normal, &contact.branch, &contact.arm, &contact.force, &contact.shear.force})
     pass(archive, *v);
   for (auto* x : {&contact.shear.stiffness, &contact.shear.energy, &contact.overlap,
                   &contact.normal_force, &contact.normal_stiffness, &contact.normal_energy})
@@ -205,8 +205,8 @@ bool lengths_are_positive(const State& state, const NeighbourList::Reference& re
   const std::vector<Vec3>& axes = state.particles.semi_axes;
   const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
   return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
-         has_volume(reference.edges) && reference.skin > 0.0 &&
-         reference.largest_radius > 0.0 && std::all_of(axes.begin(), axes.end(), is_positive);
+         has_volume(reference.edges) && reference.skin > 0.0 && reference.largest_radius > 0.0 &&
+         std::all_of(axes.begin(), axes.end(), is_positive);
 }
 
 State state_of(std::string_view bytes) {

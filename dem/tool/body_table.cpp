@@ -22,7 +22,8 @@ template <class Vector>
 Vector numbers(const csv::RowCursor& row, const Columns& columns, const Vector& otherwise) {
   if (columns.empty()) return otherwise;
   Vector v = otherwise;
-  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = row.number(columns[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < v.size(); ++k)
+    v[k] = row.number(columns[static_cast<std::size_t>(k)]);
   return v;
 }
 
@@ -40,11 +41,14 @@ class BodyTable {
     const Vec3 none = Vec3::Zero();
     const Eigen::Vector4d q = numbers(row, orientation_, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
     if (q.isZero(0.0)) throw row.error(orientation_[0], "4 finite numbers, not all 0");
-    const Body body{type_of(row), numbers(row, position_, none),
-                    {q[0], q[1], q[2], q[3]}, numbers(row, velocity_, none),
+    const Body body{type_of(row),
+                    numbers(row, position_, none),
+                    {q[0], q[1], q[2], q[3]},
+                    numbers(row, velocity_, none),
                     numbers(row, angular_velocity_, none)};
     const bool in_plane = body.position[2] == 0.0 && q[1] == 0.0 && q[2] == 0.0 &&
-                          body.velocity[2] == 0.0 && body.angular_velocity.head<2>() == Vec2::Zero();
+                          body.velocity[2] == 0.0 &&
+                          body.angular_velocity.head<2>() == Vec2::Zero();
     if (scene_.dimensions == 2 && !in_plane)
       throw row.error(position_[2], "with dimensions = 2 a body lies, moves and turns in z = 0");
     return body;
@@ -73,7 +77,8 @@ void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
   try {
     csv::Reader reader(file);
     const BodyTable table(reader.header(), scene);
-    csv::for_each_row(reader, [&](const csv::RowCursor& row) { bodies.push_back(table.read(row)); });
+    csv::for_each_row(reader,
+                      [&](const csv::RowCursor& row) { bodies.push_back(table.read(row)); });
   } catch (const csv::Error& error) {
     throw SceneError(error.what());
   }

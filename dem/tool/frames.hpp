@@ -4,9 +4,9 @@
 ///
 /// DIR/frames.pvd (ParaView) lists DIR/frames/CYCLE.vtp: points with `orientation` (x y z w),
 /// `semi_axes`, `velocity`, `type`, `contacts` and the tensor `axes` = R diag(2a) R', which the
-/// filter Tensor Glyph draws to scale as its sphere of diameter 1; field data `cell`, its three edge vectors.
-/// DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation` x y z w and
-/// `aspherical_shape`, the three semi-axes.
+/// filter Tensor Glyph draws to scale as its sphere of diameter 1; field data `cell`, its three
+/// edge vectors. DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation` x y z w
+/// and `aspherical_shape`, the three semi-axes.
 #pragma once
 
 #include <filesystem>

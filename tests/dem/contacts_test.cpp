@@ -156,7 +156,8 @@ TEST(Contacts, ShearForcesSurviveARenewedList) {
     const auto now =
         std::lower_bound(crowd_of.list.pairs().begin(), crowd_of.list.pairs().end(), before[k]) -
         crowd_of.list.pairs().begin();
-    EXPECT_EQ(crowd_of.contacts.records()[static_cast<std::size_t>(now)].shear.force, kept[k].shear.force);
+    EXPECT_EQ(crowd_of.contacts.records()[static_cast<std::size_t>(now)].shear.force,
+              kept[k].shear.force);
     largest = std::max(largest, kept[k].shear.force.norm());
   }
   EXPECT_GT(largest, 0.1);
@@ -166,7 +167,8 @@ TEST(Contacts, WithoutFrictionCarryNoShear) {
   Assembly crowd_of;
   crowd_of.update(kFrictional);
   crowd_of.update(kFrictionless);
-  for (const Contact& contact : crowd_of.contacts.records()) EXPECT_EQ(contact.shear.force, Vec3::Zero());
+  for (const Contact& contact : crowd_of.contacts.records())
+    EXPECT_EQ(contact.shear.force, Vec3::Zero());
 }
 
 TEST(Contacts, TakeTheLawOfTheTwoTypes) {

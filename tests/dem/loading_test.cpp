@@ -36,7 +36,6 @@ struct Spring {
   }
 };
 
-
 TEST(Servo, ReachesTheWantedStressWithoutRinging) {
   const auto pressures = Spring{1000.0, 0.2, 0.0}.load(kServo, 20000);
   EXPECT_NEAR(pressures.back(), 100.0, 0.01);

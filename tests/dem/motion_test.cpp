@@ -21,7 +21,8 @@ struct One {
                   0);
   }
   void move(double damping, double dt) {
-    tangency::dem::move(particles, cell, resultants, {Rotation::simplified, Vec3::Zero(), damping}, dt);
+    tangency::dem::move(particles, cell, resultants, {Rotation::simplified, Vec3::Zero(), damping},
+                        dt);
   }
   /// A spring to the place where it started; returns where it is after a time of 1.
   double oscillate(int steps) {

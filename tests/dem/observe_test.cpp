@@ -133,11 +133,12 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
   std::string names;
   for (const Field& field : history_fields(0, 0.0, "place", Observation{}))
     names += field.name + ",";
-  EXPECT_EQ(names,
-            "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
-            "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
-            "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
-            "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,");
+  EXPECT_EQ(
+      names,
+      "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
+      "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
+      "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
+      "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,");
 }
 
 }  // namespace

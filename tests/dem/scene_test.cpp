@@ -96,7 +96,8 @@ TEST(Scene, AWrongTypeIsNamed) {
             "scene.toml:3: cell.size = [ 1.0, 2.0 ]: 3 finite numbers from 1e-30 to 1e+30 (m)");
   EXPECT_EQ(refusal_with("[cell]", "cell = 3"), "scene.toml:2: cell = 3: a table");
   EXPECT_EQ(refusal_with("\"compress\"", "7"),
-            "scene.toml:13: stage[1].kind = 7: one of place, compress, grow, relax, unload, shear, servo");
+            "scene.toml:13: stage[1].kind = 7: one of place, compress, grow, relax, unload, shear, "
+            "servo");
 }
 
 TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
@@ -104,7 +105,8 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "scene.toml:6: particles.grain.colour: no such key; allowed are count, mean_radius, "
             "elongation, flatness, density");
   EXPECT_EQ(refusal_with("[cell]", "[sell]"),
-            "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, body, contact, stage, "
+            "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, body, "
+            "contact, stage, "
             "output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
@@ -118,7 +120,8 @@ TEST(Scene, AMissingKeyIsNamedWithItsTable) {
             "scene.toml:3: particles.grain.count is missing: an integer from 1 to 1000000");
   EXPECT_EQ(refusal_with("schema = 1\n", ""), "scene.toml:1: schema is missing: an integer 1");
   EXPECT_EQ(refusal_with("kind = \"place\"\n", ""),
-            "scene.toml:10: stage[0].kind is missing: one of place, compress, grow, relax, unload, shear, servo");
+            "scene.toml:10: stage[0].kind is missing: one of place, compress, grow, relax, unload, "
+            "shear, servo");
 }
 
 TEST(Scene, AMissingSectionIsNamed) {
@@ -190,7 +193,8 @@ TEST(Scene, ADampingThatTurnsVelocitiesRoundIsRefused) {
 
 TEST(Scene, AStageOfAnotherKindOrOutOfPlaceIsRefused) {
   EXPECT_EQ(refusal_with("\"compress\"", "\"melt\""),
-            "scene.toml:13: stage[1].kind = 'melt': one of place, compress, grow, relax, unload, shear, servo");
+            "scene.toml:13: stage[1].kind = 'melt': one of place, compress, grow, relax, unload, "
+            "shear, servo");
   EXPECT_EQ(refusal_with("\"compress\"", "\"place\""),
             "scene.toml:13: stage[1].kind = 'place': only the first stage may be of kind place");
   EXPECT_EQ(refusal_with("kind = \"place\"\n[[stage]]\n", ""),

@@ -77,7 +77,8 @@ void print(const std::string& name, const Peak& peak) {
 int main(int argc, char** argv) {
   const bool growth_alone = argc == 3 && argv[2] == std::string("--growth-alone");
   if (argc != 2 && !growth_alone) {
-    std::cerr << "usage: shear_study SCENE [--growth-alone], a scene whose stages before the last two make a sample, the "
+    std::cerr << "usage: shear_study SCENE [--growth-alone], a scene whose stages before the last "
+                 "two make a sample, the "
                  "last but one relaxes it and the last shears it\n";
     return 2;
   }
@@ -93,8 +94,7 @@ int main(int argc, char** argv) {
     run_stage(simulation, [&] {
       const auto& axes = simulation.state().particles.semi_axes.front();
       if (axes[0] - axes[1] < 0.05 * (axes[0] + axes[1])) return;
-      if (early_coordination == 0.0)
-        early_coordination = simulation.observe().coordination_number;
+      if (early_coordination == 0.0) early_coordination = simulation.observe().coordination_number;
     });
     simulation.next_stage();
   }

@@ -127,7 +127,8 @@ TEST(StateFile, WithAnImpossibleNumberIsRefused) {
   EXPECT_EQ(refusal([](State& s) { s.time = INFINITY; }), damaged + "number that is not finite");
   EXPECT_EQ(refusal([](State& s) { s.particles.semi_axes[3][1] = 0.0; }),
             damaged + "length that is not > 0");
-  EXPECT_EQ(refusal([](State& s) { s.cell.edges(2, 2) = -1.0; }), damaged + "length that is not > 0");
+  EXPECT_EQ(refusal([](State& s) { s.cell.edges(2, 2) = -1.0; }),
+            damaged + "length that is not > 0");
   EXPECT_EQ(refusal([](State& s) { s.particles.mass[0] = 0.0; }), damaged + "mass that is not > 0");
 }
 

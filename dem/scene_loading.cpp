@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tangency/dem/scene_loading.hpp>
+
+namespace tangency::dem {
+namespace {
+
+/// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
+constexpr double largest_strain_of_a_step = 0.1;
+
+constexpr const char* stress_keys[] = {"stress_xx", "stress_yy", "stress_zz"};
+
+/// Axial compression, sideways as much extension as keeps the volume, and what is held.
+void read_shear(const Section& section, const Scene& scene, Drive& drive) {
+  const int lateral = scene.dimensions - 1;  // axes before the axial one
+  const double rate = section.real("axial_strain_rate");
+  for (int axis = 0; axis < lateral; ++axis) drive.loading.strain_rate(axis, axis) = rate / lateral;
+  drive.loading.strain_rate(lateral, lateral) = -rate;
+  drive.axial_strain = section.real("axial_strain");
+  if (const auto mean = section.optional_real("mean_stress")) {
+    section.forbid("lateral_stress", "not together with mean_stress");
+    drive.loading.targets = {Target::mean_stress(*mean, scene.dimensions)};
+  } else if (const auto stress = section.optional_real("lateral_stress")) {
+    for (int axis = 0; axis < lateral; ++axis)
+      drive.loading.targets.push_back(Target::component(axis, *stress));
+  }
+}
+
+void read_servo(const Section& section, const Scene& scene, Drive& drive) {
+  Loading& loading = drive.loading;
+  const bool plane = scene.dimensions == 2;
+  drive.duration = section.integer("duration");
+  const Vec3 strain = section.optional_real3("strain_rate").value_or(Vec3::Zero());
+  const Vec3 shear = section.optional_real3("shear_rate").value_or(Vec3::Zero());
+  if (plane && strain[2] != 0.0) section.fail("strain_rate", "with dimensions = 2 none along z");
+  if (plane && (shear[1] != 0.0 || shear[2] != 0.0))
+    section.fail("shear_rate", "with dimensions = 2 of xy alone");
+  Mat3 rate = strain.asDiagonal();
+  for (int k = 0; k < 3; ++k) rate(k, (k + 1) % 3) = rate((k + 1) % 3, k) = shear[k];
+  loading.strain_rate = -rate;
+  if (scene.has_walls())
+    for (const char* key : {"shear_rate", "major_direction"})
+      section.forbid(key, "not in a cell with walls");
+  if (plane)
+    for (const char* key : {"stress_zz", "plane_mean_stress"})
+      section.forbid(key, "with dimensions = 3 alone");
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto stress = section.optional_real(stress_keys[axis]))
+      loading.targets.push_back(Target::component(axis, *stress));
+  if (const auto mean = section.optional_real("mean_stress"))
+    loading.targets.push_back(Target::mean_stress(*mean, scene.dimensions));
+  if (const auto mean = section.optional_real("plane_mean_stress"))
+    loading.targets.push_back(Target::plane_mean_stress(*mean));
+  if (const auto angle = section.optional_real("major_direction"))
+    loading.targets.push_back(
+        Target::direction(plane ? 1 : 2, 0, *angle * std::numbers::pi / 180.0));
+  if (!loading.is_independent())
+    for (const char* key : {"plane_mean_stress", "mean_stress"})
+      section.forbid(key, "not together with stresses that it is the mean of");
+}
+
+void check_step(const Section& section, const Drive& stage, const Scene& scene) {
+  if (stage.damping * stage.time_step_factor > 2.0)
+    section.fail("damping", "with time_step_factor = " + short_text(stage.time_step_factor) +
+                                " a finite number <= " + short_text(2.0 / stage.time_step_factor) +
+                                ": a step that damps more would turn velocities round");
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const Batch& batch : scene.batches())
+    lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes(scene.dimensions),
+                                                            scene.dimensions));
+  const double largest =
+      largest_strain_of_a_step /
+      (stage.time_step_factor * std::sqrt(lightest / scene.laws.largest_stiffness()));
+  const std::string allowed = "a finite number < " + short_text(largest) + " (1/s), a strain of " +
+                              short_text(largest_strain_of_a_step) + " a time step";
+  const Servo& servo = stage.loading.servo;
+  if (!(servo.max_strain_rate < largest))
+    section.fail(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate", allowed);
+  if (!(stage.loading.strain_rate.cwiseAbs().maxCoeff() < largest))
+    for (const char* key : {"axial_strain_rate", "strain_rate", "shear_rate"})
+      section.forbid(key, allowed);
+}
+
+}  // namespace
+
+Drive read_drive(const Section& section, const std::string& kind, const Scene& scene) {
+  Drive drive{};
+  Loading& loading = drive.loading;
+  if (kind == "servo")
+    read_servo(section, scene, drive);
+  else if (kind == "shear")
+    read_shear(section, scene, drive);
+  else
+    loading.targets = {Target::mean_stress(section.real("mean_stress"), scene.dimensions)};
+  if (kind != "servo" && kind != "shear") drive.stress_tolerance = section.real("stress_tolerance");
+  if (section.has("max_strain_rate"))
+    loading.servo.max_strain_rate = section.real("max_strain_rate");
+  else if (kind == "shear")
+    loading.servo.max_strain_rate = section.real("axial_strain_rate");
+  else if (!loading.targets.empty())
+    section.fail_missing("max_strain_rate");
+  loading.servo.gain = section.real("servo_gain");
+  loading.servo.published_gain = section.optional_real("published_gain").value_or(0.0);
+  drive.damping = section.real("damping");
+  drive.time_step_factor = section.real("time_step_factor");
+  drive.friction_coefficient = kind == "grow" || kind == "unload"
+                                   ? std::optional(section.real("friction_coefficient"))
+                                   : section.optional_real("friction_coefficient");
+  if (kind == "relax" || kind == "unload")
+    drive.max_unbalanced_ratio = section.real("max_unbalanced_ratio");
+  drive.max_cycles = section.integer("max_cycles");
+  check_step(section, drive, scene);
+  return drive;
+}
+
+}  // namespace tangency::dem

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How a stage of a scene moves, from its table.
+#pragma once
+
+#include <string>
+#include <tangency/dem/scene_section.hpp>
+
+namespace tangency::dem {
+
+/// @param scene  as far as it is read: cell, particles and contacts
+/// @throws SceneError
+Drive read_drive(const Section& section, const std::string& kind, const Scene& scene);
+
+}  // namespace tangency::dem
