@@ -37,6 +37,8 @@ void require_same_particles(const State& state, const Scene& scene) {
   const Particles& particles = state.particles;
   const std::vector<ParticleType>& types = scene.particle_types;
   require_equal("cell.dimensions", state.cell.dimensions, scene.dimensions);
+  if (state.cell.walled != scene.walled)
+    throw std::invalid_argument("a state with other cell.walls than the scene");
   const auto count = static_cast<std::int32_t>(types.size());
   std::vector<std::size_t> counts(types.size(), 0);
   for (const std::int32_t type : particles.type) {
