@@ -38,7 +38,8 @@ class Reader {
     read_stages();
     const Section output(source_, table("output"), "output", "output");
     scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
-                     output.integer("checkpoint_interval")};
+                     output.integer("checkpoint_interval"),
+                     output.real("checkpoint_seconds")};
     return std::move(scene_);
   }
 

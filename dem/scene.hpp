@@ -63,6 +63,7 @@ struct Stage {
 
 struct OutputIntervals {
   std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
+  double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
 };
 
 struct Scene {

@@ -167,7 +167,9 @@ constexpr std::array table{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, most_cycles), "", "",
         "Between two frames; a stage's end always has one, and 0 leaves it at these"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, most_cycles), "", "",
-        "Between two writes of checkpoint.state; 0 leaves it at interrupted runs"},
+        "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
+    Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",
+        "Time of the clock on the wall after which it is written again; 0 leaves it at cycles"},
 };
 
 /// Whole numbers in full, as one writes them for an integer.

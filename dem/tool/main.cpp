@@ -29,7 +29,8 @@ DIR receives:
   history.csv        a row every history_interval cycles and at the end of each stage
   summary.json       of a complete run: the values of its last row, and the keys below
   final.state        of a complete run: where another scene of the same particles goes on
-  checkpoint.state   every checkpoint_interval cycles and at the run's end, whichever it is
+  checkpoint.state   every checkpoint_interval cycles, every minute or
+                     checkpoint_seconds, and at the run's end, whichever it is
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts
 

@@ -108,7 +108,13 @@ class Run {
     const std::int64_t now = simulation_.state().cycle;
     if (now % every.history == 0) results_.add_row(simulation_);
     if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
-    if (every.checkpoint > 0 && now % every.checkpoint == 0) results_.checkpoint(simulation_);
+    const bool by_cycles = every.checkpoint > 0 && now % every.checkpoint == 0;
+    const bool by_time = every.checkpoint_seconds > 0.0 &&
+                         seconds_since(last_checkpoint_) >= every.checkpoint_seconds;
+    if (by_cycles || by_time) {
+      results_.checkpoint(simulation_);
+      last_checkpoint_ = Clock::now();
+    }
     if (progress_.is_due()) show_progress();
   }
 
@@ -192,6 +198,7 @@ class Run {
   }
 
   Clock::time_point start_ = Clock::now();
+  Clock::time_point last_checkpoint_ = start_;
   Simulation simulation_;
   Results results_;
   Progress progress_;
