@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators change what they say and nothing else; the draw and the bookkeeping add up."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import fast_tests
+from mutants import Explained, draws, mutants_of, plain, shares, sources
+from operators import OPERATORS, changes
+from results import Results, share_killed, table
+from tree import Tree
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def made(operator, statement):
+    """What an operator makes of a statement in a function."""
+    text = f"void f() {{\n  {statement}\n}}\n"
+    found = [c.applied_to(text) for c in changes(text) if c.operator == operator]
+    return [plain(t)[len("void f() { "):-len(" }")] for t in found]
+
+
+class Operators(unittest.TestCase):
+    def test_sign_turns_plus_and_minus(self):
+        self.assertEqual(made("sign", "x = a + b;"), ["x = a - b;"])
+        self.assertEqual(made("sign", "x -= a;"), ["x += a;"])
+        self.assertEqual(made("sign", "return -a;"), ["return a;"])
+
+    def test_index_takes_another_component(self):
+        self.assertEqual(made("index", "x = a[2];"), ["x = a[0];", "x = a[1];"])
+        self.assertEqual(made("index", "x = a[i];"), ["x = a[0];"])
+        self.assertEqual(made("index", "x = v.z;"), ["x = v.x;"])
+        self.assertEqual(made("index", "x = m.col(0);"), ["x = m.col(1);", "x = m.col(2);"])
+
+    def test_index_leaves_sizes_and_lambdas(self):
+        self.assertEqual(made("index", "double a[2];"), [])
+        self.assertEqual(made("index", "const auto f = [x](int) { return x; };"), [])
+
+    def test_comparison_moves_the_boundary_or_turns_it_round(self):
+        self.assertEqual(made("comparison", "x = a < b;"), ["x = a <= b;", "x = a >= b;"])
+        self.assertEqual(made("comparison", "x = a == b && !c;"),
+                         ["x = a != b && !c;", "x = a == b || !c;", "x = a == b && c;"])
+
+    def test_comparison_leaves_templates(self):
+        self.assertEqual(made("comparison", "std::vector<int> v = f<1>(std::move(w));"), [])
+        self.assertEqual([c for c in changes("template <class T>\nvoid f(T&& t);\n")], [])
+
+    def test_constant_gives_a_neighbour_nothing_or_the_opposite(self):
+        self.assertEqual(made("constant", "x = 3 * a;"),
+                         ["x = (3 + 1) * a;", "x = (3 - 1) * a;", "x = 0 * a;"])
+        self.assertEqual(made("constant", "x = 0.5;"),
+                         ["x = (-0.5);", "x = (0.5 + 1.0);", "x = (0.5 - 1.0);", "x = 0.0;"])
+        self.assertEqual(made("constant", "x = 0x1p60;"), ["x = (-0x1p60);", "x = 0.0;"])
+
+    def test_dropped_statement_takes_it_whole_and_keeps_the_lines(self):
+        self.assertEqual(made("dropped statement", "x = a;"), [";"])
+        self.assertEqual(made("dropped statement", "if (a) return b;"), [";"])
+        self.assertEqual(made("dropped statement", "f(a, [&] { return b; });"), [";"])
+        text = "void f() {\n  g(a,\n    b);\n}\n"
+        for change in changes(text):
+            self.assertEqual(change.applied_to(text).count("\n"), text.count("\n"))
+
+    def test_dropped_statement_leaves_declarations_answers_and_assertions(self):
+        for statement in ("const double x = a;", "Vec3 v(a, b);", "return a;", "assert(f(a));",
+                          "std::vector<int> v(n);", "using A = B;", "double* p = f();"):
+            self.assertEqual(made("dropped statement", statement), [], statement)
+        self.assertEqual(made("dropped statement", "if (a) return b; else return c;"), [])
+
+    def test_swapped_argument_exchanges_neighbours(self):
+        self.assertEqual(made("swapped argument", "f(a, b, g(c));"),
+                         ["f(b, a, g(c));", "f(a, g(c), b);"])
+        self.assertEqual(made("swapped argument", "return {a, b};"), ["return {b, a};"])
+        self.assertEqual(made("swapped argument", "x = std::max(a, b);"), [])
+        self.assertEqual(made("swapped argument", "f(a, a);"), [])
+
+    def test_comments_strings_directives_and_assertions_stay(self):
+        for statement in ("// a + b < 3", "/* -1 */", '#define A (1 + 2)', 'f("a + 1");',
+                          "static_assert(a + 1 < 2);", "assert(a[0] == -1);"):
+            text = f"void f() {{\n{statement}\n}}\n"
+            self.assertEqual([c for c in changes(text) if c.operator != "dropped statement"], [],
+                             statement)
+
+    def test_every_change_of_the_kernel_changes_its_text_within_its_lines(self):
+        seen = set()
+        for file, text in sources(ROOT, r"methods/(gap|both)").items():
+            for mutant in mutants_of(file, text):
+                self.assertNotEqual(plain(mutant.original), plain(mutant.mutated), mutant.diff())
+                self.assertEqual(mutant.change.applied_to(text).count("\n"), text.count("\n"))
+                self.assertNotIn(mutant.id, seen)
+                seen.add(mutant.id)
+        self.assertGreater(len(seen), 1000)
+
+
+class Draw(unittest.TestCase):
+    TEXT = "int f(int a) {\n  a += 1;\n  return a * 2;\n}\n"
+
+    def test_every_file_has_a_share_and_they_add_up(self):
+        self.assertEqual(shares({"a": 1, "b": 99, "c": 100}, 20), {"a": 1, "b": 9, "c": 10})
+        self.assertEqual(shares({"a": 1, "b": 1000}, 2), {"a": 1, "b": 1})
+
+    def test_a_seed_draws_the_same_and_each_mutant_once(self):
+        mutants = mutants_of("geometry/f.cpp", self.TEXT)
+        first = [m.id for m in draws(1, "geometry/f.cpp", mutants)]
+        self.assertEqual(first, [m.id for m in draws(1, "geometry/f.cpp", mutants)])
+        self.assertEqual(sorted(first), sorted(m.id for m in mutants))
+
+    def test_the_first_draws_are_of_different_lines(self):
+        mutants = mutants_of("geometry/f.cpp", self.TEXT)
+        one, other = [m for _, m in zip(range(2), draws(1, "geometry/f.cpp", mutants))]
+        self.assertNotEqual(one.change.line, other.change.line)
+
+    def test_ids_outlive_edits_elsewhere(self):
+        before = {m.id for m in mutants_of("geometry/f.cpp", self.TEXT)}
+        after = {m.id for m in mutants_of("geometry/f.cpp", "int g();\n" + self.TEXT)}
+        self.assertEqual(before, after)
+
+
+class Bookkeeping(unittest.TestCase):
+    EXPLAINED = ("## Equivalent\n\n### geometry/f.cpp\n```diff\n-  return a * 2;\n"
+                 "+  return a * (2 + 1);\n```\nSome reason.\n\n## Not noticed\n")
+
+    def test_an_explanation_is_found_by_text_and_a_stale_one_is_told(self):
+        explained = Explained(self.EXPLAINED)
+        mutants = mutants_of("geometry/f.cpp", "\n" + Draw.TEXT)
+        self.assertEqual([explained.of(m) for m in mutants if explained.of(m)],
+                         [("equivalent", "Some reason.")])
+        self.assertEqual(explained.stale({"geometry/f.cpp": Draw.TEXT}), [])
+        self.assertEqual(len(explained.stale({"geometry/f.cpp": "int f(int a);\n"})), 1)
+
+    def test_an_explanation_needs_a_reason(self):
+        with self.assertRaises(ValueError):
+            Explained(self.EXPLAINED.replace("Some reason.", ""))
+
+    def test_equivalents_and_what_does_not_compile_are_not_in_the_share(self):
+        rows = [{"status": s, "operator": "sign"} for s in
+                ("killed", "killed", "killed", "survived", "equivalent", "not compiling")]
+        self.assertEqual(share_killed(rows), 0.75)
+        self.assertIn("| sign | 5 | 3 | 1 | 1 | 1 | 75.0 % |",
+                      list(table(rows, "operator", OPERATORS)))
+
+    def test_a_resumed_run_keeps_what_still_holds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "results.jsonl")
+            first = Results(path, {"tree": "1", "texts": {"f": "t", "g": "t"}}, resume=False)
+            for name, status, file in (("k", "killed", "f"), ("s", "survived", "f"),
+                                       ("o", "killed", "g")):
+                first.add({"id": name, "status": status, "file": file, "tree": "1", "text": "t"})
+            with path.open("a") as out:
+                out.write('{"id": "torn')
+            same = Results(path, {"tree": "1", "texts": {"f": "t", "g": "t"}}, resume=True)
+            self.assertEqual(set(same.rows), {"k", "s", "o"})
+            changed = Results(path, {"tree": "2", "texts": {"f": "t", "g": "new"}}, resume=True)
+            self.assertEqual(set(changed.rows), {"k"})
+            self.assertEqual(Results(path, {"tree": "2", "texts": {}}, resume=False).rows, {})
+
+    def test_a_mutant_is_taken_out_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tree = Tree(ROOT, pathlib.Path(folder), 1)
+            source, built = tree.source / "geometry/f.cpp", tree.build / "f.o"
+            for path in (source, built):
+                path.parent.mkdir(parents=True)
+                path.write_text(Draw.TEXT)
+            tree._keep_build()
+            was = source.stat().st_mtime_ns, built.stat().st_mtime_ns
+            mutant = mutants_of("geometry/f.cpp", Draw.TEXT)[0]
+            tree.put(mutant)
+            built.write_text("mutated")
+            self.assertFalse(tree.is_clean(["f.o"]))
+            self.assertNotEqual(source.read_text(), Draw.TEXT)
+            tree.take_out(mutant)
+            self.assertTrue(tree.is_clean(["f.o"]))
+            self.assertEqual(source.read_text(), Draw.TEXT)
+            self.assertEqual((source.stat().st_mtime_ns, built.stat().st_mtime_ns), was)
+
+
+class Children(unittest.TestCase):
+    def outcome(self, script, clean=0.0):
+        return fast_tests.FastTests._run(None, ["sh", "-c", script], clean)
+
+    def test_an_exit_status_or_a_signal_is_a_kill_and_named(self):
+        self.assertTrue(self.outcome("exit 0").passed)
+        self.assertEqual(self.outcome("exit 3").by, "exit status 3")
+        self.assertEqual(self.outcome("kill -SEGV $$").by, "SIGSEGV")
+        failing = 'echo "[  FAILED  ] Gap.IsRight (3 ms)"; exit 1'
+        self.assertEqual(self.outcome(failing).by, "Gap.IsRight")
+
+    def test_what_does_not_end_is_ended_by_its_cpu_time(self):
+        slack, fast_tests.SLACK = fast_tests.SLACK, 0.0
+        try:
+            self.assertEqual(self.outcome("while :; do :; done").by, "does not end")
+        finally:
+            fast_tests.SLACK = slack
+
+    def test_what_stands_still_is_ended(self):
+        idle, look = fast_tests.IDLE, fast_tests.LOOK
+        fast_tests.IDLE, fast_tests.LOOK = 0.2, 0.1
+        try:
+            self.assertEqual(self.outcome("sleep 60").by, "stands still")
+        finally:
+            fast_tests.IDLE, fast_tests.LOOK = idle, look
+
+
+if __name__ == "__main__":
+    unittest.main()
