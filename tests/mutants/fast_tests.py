@@ -29,13 +29,19 @@ COMMANDS = {
         "--tool", "{tangency} contact --method midpoint-potential"],
     "grade/ellipses": GRADE + PRECISE + ["--corpus", "ellipses", "--tool", "{tangency} ellipse"],
     "grade/quadrics": GRADE + ["--corpus", "quadrics", "--tool", "{tangency} classify"],
-    "verify/relation": ["{relation_agreement}", "--per-class", "20000", "--adversarial", "20000"],
+    "verify/relation": ["{relation_agreement}", "--per-class", "2000", "--adversarial", "2000"],
     "verify/gap": ["{gap_agreement}", "--per-family", "100"],
     "verify/primitives": ["{primitives_agreement}", "--count", "5000"],
     "verify/time_of_contact": ["{time_of_contact_agreement}", "--count", "1000"],
     "verify/ellipses": ["{ellipse_agreement}", "--share", "0.01", "--numbers", "20"],
 }
+# Whose tests these are, as the rooms of the others follow from their names.
+ROOMS = {"grade/pairs": "geometry/tool/contact", "grade/perram-wertheim": "geometry/tool/contact",
+         "grade/midpoint-potential": "geometry/tool/contact",
+         "grade/ellipses": "geometry/tool/ellipse", "grade/quadrics": "geometry/tool/classify",
+         **{name: f"tests/{name}_agreement" for name in COMMANDS if name.startswith("verify/")}}
 OF_THE_TOOL = ("tests_tool/", "tests_grade/", "grade/")
+FAR = 4  # includes: where the tests of the tool stand, which start it and include nothing
 
 # A hang is a kill. CPU seconds, so that others' work on the machine does not count; chosen.
 SLOWER = 5.0
@@ -60,7 +66,7 @@ def distances(root, file):
     def room(name):
         return re.sub(r"\.[ch]pp$", "", name)
     users = collections.defaultdict(set)
-    for folder in ("geometry", "tests"):
+    for folder in ("geometry", "tests", "bench/families", "verify"):
         for path in pathlib.Path(root, folder).rglob("*.[ch]pp"):
             name = path.relative_to(root).as_posix()
             for used in INCLUDE.findall(path.read_text()):
@@ -74,8 +80,13 @@ def distances(root, file):
 
 
 class FastTests:
-    def __init__(self, tree):
-        self.tree = tree
+    """
+    @param tree     built without a mutant
+    @param slowest  CPU seconds: tests that take longer without a mutant are left out
+    """
+
+    def __init__(self, tree, slowest):
+        self.tree, self.slowest = tree, slowest
         self.paths = {p.name: p for p in tree.build.rglob("*")
                       if p.is_file() and os.access(p, os.X_OK) and "CMakeFiles" not in p.parts}
         self.seconds = {}  # of each test without a mutant
@@ -83,24 +94,32 @@ class FastTests:
         self.killers = collections.defaultdict(list)  # of a file, latest first
 
     def measure(self):
-        """Runs all of them without a mutant. Returns what failed."""
+        """Runs all of them without a mutant, but those that were too slow before. Returns what
+        failed."""
+        memory = self.tree.place / "seconds.json"
+        known = json.loads(memory.read_text()) if memory.exists() else {}
         failed = []
         for program in GTESTS:
+            slow = [t.split("/", 1)[1] for t, s in known.items()
+                    if t.startswith(program + "/") and s > self.slowest]
             with tempfile.NamedTemporaryFile(suffix=".json") as report:
-                outcome = self._run([self.paths[program], f"--gtest_output=json:{report.name}"], 1e6)
+                outcome = self._run([self.paths[program], f"--gtest_output=json:{report.name}",
+                                     f"--gtest_filter=-{':'.join(slow)}"], 1e6)
                 if not outcome.passed:
                     failed.append(outcome.by)
                     continue
                 suites = json.load(report)["testsuites"]
-            for suite in suites:
-                for test in suite["testsuite"]:
-                    name = f"{program}/{suite['name']}.{test['name']}"
-                    self.seconds[name] = float(test["time"].rstrip("s"))
+            took = {f"{program}/{suite['name']}.{test['name']}": float(test["time"].rstrip("s"))
+                    for suite in suites for test in suite["testsuite"]}
+            cpu_share = outcome.seconds / max(outcome.seconds, sum(took.values()))
+            self.seconds.update({name: cpu_share * wall for name, wall in took.items()})
         for name in COMMANDS:
             outcome = self._run(self._command(name), 1e6)
             self.seconds[name] = outcome.seconds
             if not outcome.passed:
                 failed.append(f"{name}: {outcome.by}")
+        memory.write_text(json.dumps({**known, **self.seconds}))
+        self.seconds = {t: s for t, s in self.seconds.items() if s <= self.slowest or t in COMMANDS}
         return failed
 
     def run(self, file):
@@ -139,18 +158,23 @@ class FastTests:
 
     def _chunks(self, file):
         """Lists of tests, each of one program. First what killed mutants of the file before, then
-        the nearest tests, and of those the cheap ones first."""
+        the nearest tests, and of those the cheap ones first. Left out are those which no includes
+        lead to."""
         away = distances(self.tree.source, file)
-        known = [t for t in self.killers[file][:4] if t in self.seconds]
-        def price(test):
-            near = away.get(self.room_of.get(test.split("/", 1)[1]), 4)
-            return 2.0 ** near * (0.05 + self.seconds[test])
-        chunks = [[t] for t in known]
         of_tool = file.startswith("geometry/tool/")
-        rest = [t for t in self.seconds
-                if t not in known and (not of_tool or t.startswith(OF_THE_TOOL))]
-        open_chunks = {}
-        for test in sorted(rest, key=price):
+
+        def far(test):
+            room = ROOMS.get(test) or self.room_of.get(test.split("/", 1)[1], "")
+            if test.startswith(OF_THE_TOOL) and test not in COMMANDS:
+                return away.get(room, FAR)
+            return away.get(room, None if room else FAR)
+
+        reached = {t: far(t) for t in self.seconds
+                   if far(t) is not None and (not of_tool or t.startswith(OF_THE_TOOL))}
+        known = [t for t in self.killers[file][:4] if t in reached]
+        chunks, open_chunks = [[t] for t in known], {}
+        for test in sorted(reached.keys() - set(known),
+                           key=lambda t: (2.0 ** reached[t] * (0.05 + self.seconds[t]), t)):
             program = test if test in COMMANDS else test.split("/")[0]
             chunk = open_chunks.get(program)
             if chunk is None or sum(self.seconds[t] for t in chunk) + self.seconds[test] > CHUNK:
