@@ -145,17 +145,21 @@ class Bookkeeping(unittest.TestCase):
     def test_a_resumed_run_keeps_what_still_holds(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "results.jsonl")
-            first = Results(path, {"tree": "1", "texts": {"f": "t", "g": "t"}}, resume=False)
+            settings = {"tree": "1", "slowest": 1.0, "texts": {"f": "t", "g": "t"}}
+            first = Results(path, settings, resume=False)
             for name, status, file in (("k", "killed", "f"), ("s", "survived", "f"),
                                        ("o", "killed", "g")):
-                first.add({"id": name, "status": status, "file": file, "tree": "1", "text": "t"})
+                first.add({"id": name, "status": status, "file": file, "tree": "1",
+                           "slowest": 1.0, "text": "t"})
             with path.open("a") as out:
                 out.write('{"id": "torn')
-            same = Results(path, {"tree": "1", "texts": {"f": "t", "g": "t"}}, resume=True)
-            self.assertEqual(set(same.rows), {"k", "s", "o"})
-            changed = Results(path, {"tree": "2", "texts": {"f": "t", "g": "new"}}, resume=True)
-            self.assertEqual(set(changed.rows), {"k"})
-            self.assertEqual(Results(path, {"tree": "2", "texts": {}}, resume=False).rows, {})
+            self.assertEqual(set(Results(path, settings, True).rows), {"k", "s", "o"})
+            changed = {**settings, "tree": "2", "texts": {"f": "t", "g": "new"}}
+            self.assertEqual(set(Results(path, changed, True).rows), {"k"})
+            first.add({"id": "s", "status": "survived", "file": "f", "tree": "1", "slowest": 1.0,
+                       "text": "t"})
+            self.assertEqual(set(Results(path, {**settings, "slowest": 2.0}, True).rows), {"k"})
+            self.assertEqual(Results(path, settings, resume=False).rows, {})
 
     def test_a_mutant_is_taken_out_again(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -24,14 +24,16 @@ class Results:
 
     def _read(self):
         """What was found out before and still holds. A mutant that a test killed stays killed while
-        its file is the same; what survived is asked again once any text has changed."""
+        its file is the same; what survived is asked again once any text has changed, or by slower
+        tests than before."""
         lines = self.path.read_text().splitlines()
         for line in lines[1:]:
             try:
                 row = json.loads(line)
             except json.JSONDecodeError:  # the last line of a run that was ended
                 continue
-            same = row["tree"] == self.settings["tree"]
+            same = (row["tree"] == self.settings["tree"] and
+                    row["slowest"] >= self.settings["slowest"])
             same_file = row["text"] == self.settings["texts"].get(row["file"])
             if same_file and (same or row["status"] in ("killed", "not compiling")):
                 self.rows[row["id"]] = row
