@@ -95,6 +95,19 @@ TEST(Relation, OfGenericPairsComesFromTheFilter) {
   }
 }
 
+TEST(Relation, OfPairsWithinRoundingOfATouchComesFromTheFilter) {
+  for (families::ContactFamily family : families::contact_classes()) {
+    family.gap_unit = families::ContactFamily::GapUnit::smallest_semi_axis;
+    family.largest_gap = 0x1p-50;
+    families::ManufacturedContacts contacts(family, 20261122);
+    for (int i = 0; i < 300; ++i) {
+      const auto c = contacts.next();
+      const auto answer = overlap_answer(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b));
+      ASSERT_EQ(answer.tier, Tier::filter) << family.name << ' ' << i << ", gap " << c.gap;
+    }
+  }
+}
+
 TEST(Relation, OfExactTouchesComesFromTheExactTier) {
   int touches = 0;
   verify::for_each_adversarial_pair(1, 4000, [&](const verify::AdversarialPair& p) {

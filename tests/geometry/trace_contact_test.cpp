@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
@@ -88,6 +89,20 @@ TEST(TraceContact, ReferencePointIsTheMiddleOfTheShortestPQ) {
 // Erratum 7: the corners are coplanar, but their plane is that of the trace's chords, not the
 // tangent plane of the lens: its normal is off the common one by the order of the contact's width,
 // and by nothing where planes of symmetry hold it.
+TEST(TraceContact, CountsTheCurvesOfWholeLevels) {
+  families::ManufacturedContacts contacts(families::contact_classes()[0], 20261122);
+  int middle = 0, more = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto c = contacts.next();
+    const TraceContact t = trace_contact(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b));
+    if (t.status != TraceStatus::ok || t.cone != TraceCone::published) continue;
+    EXPECT_TRUE(std::has_single_bit(static_cast<unsigned>(t.curves) + 1)) << t.curves;
+    ++(t.curves == 1 ? middle : more);
+  }
+  EXPECT_GT(middle, 0);
+  EXPECT_GT(more, 0);
+}
+
 TEST(TraceErrata, PlaneOfTheCornersIsNotTheTangentPlane) {
   for (const double depth : {0.04, 0.02, 0.01}) {
     const Contact c = skew(depth);

@@ -175,7 +175,7 @@ class Bookkeeping(unittest.TestCase):
             built.write_text("mutated")
             self.assertFalse(tree.is_clean(["f.o"]))
             self.assertNotEqual(source.read_text(), Draw.TEXT)
-            tree.take_out(mutant)
+            tree.take_out()
             self.assertTrue(tree.is_clean(["f.o"]))
             self.assertEqual(source.read_text(), Draw.TEXT)
             self.assertEqual((source.stat().st_mtime_ns, built.stat().st_mtime_ns), was)

@@ -34,12 +34,12 @@ class Tree:
         self.root, self.place, self.threads = root, place, threads
         self.source, self.build = place / "source", place / "build"
         self.store = place / "clean"  # the build as it was without a mutant
+        self.originals = place / "originals"  # of the file that is mutated now
 
     def prepare(self):
         """Copies what has changed, builds all of it and keeps the result."""
         self.place.mkdir(parents=True, exist_ok=True)
-        if self.store.exists():
-            self._restore_build()
+        self.take_out()  # what a run that was ended has left
         self._copy_sources()
         if not (self.build / "build.ninja").exists():
             self._run(["cmake", "-S", str(self.source), "-B", str(self.build), *CONFIGURE])
@@ -47,9 +47,10 @@ class Tree:
         self._keep_build()
 
     def put(self, mutant):
-        path = self.source / mutant.file
-        self.clean_text, self.clean_stat = path.read_text(), path.stat()
-        path.write_text(mutant.change.applied_to(self.clean_text))
+        path, kept = self.source / mutant.file, self.originals / mutant.file
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(path, kept)
+        path.write_text(mutant.change.applied_to(path.read_text()))
 
     def compile(self, targets):
         """False where the mutant is no C++."""
@@ -60,11 +61,13 @@ class Tree:
         """Did the compiler make the same code of the mutant as of the original?"""
         return all(self._same(path) for path in self._built() if path.name in targets)
 
-    def take_out(self, mutant):
-        path = self.source / mutant.file
-        path.write_text(self.clean_text)
-        os.utime(path, ns=(self.clean_stat.st_atime_ns, self.clean_stat.st_mtime_ns))
+    def take_out(self):
+        """With the times as they were, so that nothing is compiled again."""
+        for kept in self.originals.rglob("*"):
+            if kept.is_file():
+                shutil.copy2(kept, self.source / kept.relative_to(self.originals))
         self._restore_build()
+        shutil.rmtree(self.originals, ignore_errors=True)
 
     def _copy_sources(self):
         wanted = set(project_files(self.root))
