@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/methods/plane_gap.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 
 namespace tangency {
@@ -92,6 +93,15 @@ RC_GTEST_PROP(PlaneGapProperty, NoNormalReachesFurther, ()) {
   const Vec2 n = *testing::plane_direction();
   RC_ASSERT(reach(p, n) <= gap.gap + gap.gap_error + rounding);
   RC_ASSERT(std::abs(reach(p, gap.normal) - gap.gap) <= gap.gap_error + rounding);
+}
+
+RC_GTEST_PROP(PlaneGapProperty, AnAscentEndsWhereTheWitnessPointsFaceEachOther, ()) {
+  const EllipsePair p = *testing::ellipse_pair(100);
+  const Vec2 d = p.b.centre() - p.a.centre();
+  const methods::PlaneProof top =
+      methods::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, *testing::plane_direction());
+  const Vec2 between = d + top.arm_b - top.arm_a;
+  RC_ASSERT((between - top.gap * top.normal).norm() <= 8 * 0x1p-53 * size(p));
 }
 
 /// How far apart the normals of two answers may be that each are best but for `loss`: where the gap

@@ -62,15 +62,20 @@ class Outcome:
 
 def distances(root, file):
     """How many includes away from a file of geometry/ each file is that may depend on it. What a
-    header declares the source of its name defines, so the two are one."""
+    header declares the source of its name defines, so the two are one; a source without a header
+    of its name defines something of those that it includes from its folder."""
     def room(name):
         return re.sub(r"\.[ch]pp$", "", name)
+
     users = collections.defaultdict(set)
     for folder in ("geometry", "tests", "bench/families", "verify"):
         for path in pathlib.Path(root, folder).rglob("*.[ch]pp"):
             name = path.relative_to(root).as_posix()
             for used in INCLUDE.findall(path.read_text()):
                 users[room(used)].add(room(name))
+                if not path.with_suffix(".hpp").exists() and (
+                        used.rpartition("/")[0] == name.rpartition("/")[0]):
+                    users[room(name)].add(room(used))
     away, waiting = {room(file): 0}, [room(file)]
     for used in waiting:
         for user in sorted(users[used] - set(away)):

@@ -181,6 +181,19 @@ class Bookkeeping(unittest.TestCase):
             self.assertEqual((source.stat().st_mtime_ns, built.stat().st_mtime_ns), was)
 
 
+class Reach(unittest.TestCase):
+    def test_every_source_of_the_library_reaches_a_test(self):
+        for file in sources(ROOT, r"^geometry/(?!tool/).*\.cpp"):
+            away = fast_tests.distances(ROOT, file)
+            self.assertTrue(any(room.startswith("tests/") for room in away), file)
+
+    def test_a_source_reaches_what_uses_the_header_of_its_folder(self):
+        away = fast_tests.distances(ROOT, "geometry/methods/gap_search_coaxial.cpp")
+        self.assertEqual(away["geometry/gap"], 2)
+        self.assertEqual(away["tests/geometry/gap_test"], 3)
+        self.assertNotIn("tests/geometry/polynomial_test", away)
+
+
 class Children(unittest.TestCase):
     def outcome(self, script, clean=0.0):
         return fast_tests.FastTests._run(None, ["sh", "-c", script], clean)
