@@ -66,10 +66,13 @@ TEST(PlaneGap, IsProvenForThinDeepPairs) {
 
 TEST(PlaneGap, HoldsAtEveryScaleAndFarFromTheOrigin) {
   for (const double s : {0x1p-500, 0x1p-60, 0x1p60, 0x1p500}) {
-    const PlaneGap gap = signed_gap(Ellipse(kOrigin, {2 * s, s}), Ellipse({3.5 * s, 0}, {s, s}));
+    const PlaneGap gap = signed_gap(Ellipse({s, -s}, {2 * s, s}), Ellipse({4.5 * s, -s}, {s, s}));
     EXPECT_EQ(gap.gap, 0.5 * s);
     EXPECT_EQ(gap.status, GapStatus::ok);
     EXPECT_LE(gap.gap_error, 16 * 0x1p-53 * 6.5 * s);
+    EXPECT_EQ(gap.normal, Vec2(1, 0));
+    EXPECT_EQ(gap.arm_a, Vec2(2 * s, 0));
+    EXPECT_EQ(gap.arm_b, Vec2(-s, 0));
   }
   const Vec2 far(0x1p40, -0x1p41);
   EXPECT_EQ(signed_gap(Ellipse(far, {2, 1}), Ellipse(far + Vec2(3.5, 0), {1, 1})).gap, 0.5);

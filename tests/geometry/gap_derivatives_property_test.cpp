@@ -203,6 +203,22 @@ TEST(GapDerivatives, ScaleWithTheUnitOfLengthFarBeyondSquaresOfDoubles) {
   }
 }
 
+TEST(GapDerivatives, AreTheSameWhereTheDifferenceOfTheCentresOverflows) {
+  const Eigen::Quaterniond q(0.3, 0.5, -0.2, 0.7);
+  const auto solve = [&](double unit) {
+    const Vec3 c(2, 1, 1);
+    const Ellipsoid a(-unit * c, unit * Vec3(1, 2, 3), q), b(unit * c, unit * Vec3(3, 1, 1.5));
+    return gap_derivatives(a, b, signed_gap(a, b));
+  };
+  const GapDerivatives one = solve(1), huge = solve(0x1p1022);
+  ASSERT_EQ(huge.status, DerivativeStatus::ok);
+  for (const int body : {0, +kOfBodyB}) {
+    for (const int i : {0, 1, 2, 6, 7, 8}) {
+      EXPECT_NEAR(huge.gradient[body + i], one.gradient[body + i], 1e-14) << body << ' ' << i;
+    }
+  }
+}
+
 /// The example of docs/guide.md.
 TEST(GapDerivatives, PredictTheGapOfAPairThatMovesAndTurnsALittle) {
   const Ellipsoid a({0, 0, 0}, {3, 2, 1}), b({4, 1, 0.5}, {1, 2, 1.5});

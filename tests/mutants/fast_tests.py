@@ -2,6 +2,7 @@
 """The tests of the merge gate that geometry/ can fail, in the order that finds a mutant soonest."""
 import collections
 import dataclasses
+import functools
 import json
 import os
 import pathlib
@@ -60,23 +61,31 @@ class Outcome:
     seconds: float = 0.0
 
 
-def distances(root, file):
-    """How many includes away from a file of geometry/ each file is that may depend on it. What a
-    header declares the source of its name defines, so the two are one; a source without a header
-    of its name defines something of those that it includes from its folder."""
-    def room(name):
-        return re.sub(r"\.[ch]pp$", "", name)
+def _room(name):
+    """What a header declares the source of its name defines, so the two are one."""
+    return re.sub(r"\.[ch]pp$", "", name)
 
+
+@functools.lru_cache
+def _users(root):
+    """Of a room, those that include it. A source without a header of its name defines something of
+    those that it includes from its folder, so these count as its users too."""
     users = collections.defaultdict(set)
     for folder in ("geometry", "tests", "bench/families", "verify"):
         for path in pathlib.Path(root, folder).rglob("*.[ch]pp"):
             name = path.relative_to(root).as_posix()
             for used in INCLUDE.findall(path.read_text()):
-                users[room(used)].add(room(name))
+                users[_room(used)].add(_room(name))
                 if not path.with_suffix(".hpp").exists() and (
                         used.rpartition("/")[0] == name.rpartition("/")[0]):
-                    users[room(name)].add(room(used))
-    away, waiting = {room(file): 0}, [room(file)]
+                    users[_room(name)].add(_room(used))
+    return users
+
+
+def distances(root, file):
+    """How many includes away from a file of geometry/ each room is that may depend on it."""
+    users = _users(root)
+    away, waiting = {_room(file): 0}, [_room(file)]
     for used in waiting:
         for user in sorted(users[used] - set(away)):
             away[user] = away[used] + 1
