@@ -51,6 +51,13 @@ TEST(TimeOfContact, IsNoneUntilTheHorizonAndThenContact) {
   EXPECT_EQ(time_of_contact(a, {}, b, flight({2, 0, 0}), 1e6, kTolerance).status, Status::none);
 }
 
+TEST(TimeOfContact, CountsThePositionsLookedAt) {
+  const Ellipsoid a = sphere({0, 0, 0}, 1), b = sphere({10, 0, 0}, 2);
+  EXPECT_EQ(time_of_contact(a, {}, b, flight({2, 0, 0}), 1e6, kTolerance).steps, 1);
+  EXPECT_EQ(time_of_contact(a, {}, b, flight({-2, 0, 0}), 3, kTolerance).steps, 1);
+  EXPECT_EQ(time_of_contact(a, {}, a, flight({-2, 0, 0}), 3, kTolerance).steps, 1);
+}
+
 TEST(TimeOfContact, GrazingSpheresAreToldApartByTheirLeastDistance) {
   const Ellipsoid a = sphere({0, 0, 0}, 1);
   for (const double least : {1e-3, 1e-9, 1e-12}) {

@@ -26,12 +26,7 @@ class Results:
         """What was found out before and still holds. A mutant that a test killed stays killed while
         its file is the same; what survived is asked again once any text has changed, or by slower
         tests than before."""
-        lines = self.path.read_text().splitlines()
-        for line in lines[1:]:
-            try:
-                row = json.loads(line)
-            except json.JSONDecodeError:  # the last line of a run that was ended
-                continue
+        for row in rows_of(self.path):
             same = (row["tree"] == self.settings["tree"] and
                     row["slowest"] >= self.settings["slowest"])
             same_file = row["text"] == self.settings["texts"].get(row["file"])
@@ -42,6 +37,15 @@ class Results:
         self.rows[row["id"]] = row
         with self.path.open("a") as out:
             out.write(json.dumps(row) + "\n")
+
+
+def rows_of(path):
+    """The mutants of a result file. The last line of a run that was ended may be torn."""
+    for line in pathlib.Path(path).read_text().splitlines()[1:]:
+        try:
+            yield json.loads(line)
+        except json.JSONDecodeError:
+            pass
 
 
 def share_killed(rows):
