@@ -5,10 +5,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/methods/real_quartic.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 
 namespace tangency {
@@ -118,6 +121,22 @@ TEST(ChordContact, NeedsExactlyTwoCrossings) {
         Ellipse(kOrigin, {2, 1}, {0, 1}), Ellipse(kOrigin, {1, 1}), Ellipse(kOrigin, {2, 1})}) {
     EXPECT_EQ(chord_contact(kWide, b).status, ChordStatus::not_applicable);
   }
+}
+
+// (x + 3) (x + 3 + e) (x + 1) (x - 2): told to have two simple roots only, rounding made the pair.
+TEST(RealQuartic, OfMoreChangesOfSignThanRootsLosesTheClosestPair) {
+  const double e = 0x1p-30;
+  const std::array<exact::DoubleDouble, 5> c{-18 - 6 * e, -21 - 5 * e, 1 + 2 * e, 5 + e, 1.0};
+  const auto expect_roots = [&](exact::Meeting meeting, const std::vector<double>& expected) {
+    const methods::QuarticRoots roots = methods::real_quartic_roots(c, meeting);
+    ASSERT_EQ(roots.count, static_cast<int>(expected.size()));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(roots.root[i].at.high, expected[i], 1e-15) << i;
+      EXPECT_EQ(roots.root[i].multiplicity, 1);
+    }
+  };
+  expect_roots(exact::Meeting::four_simple, {-3 - e, -3, -1, 2});
+  expect_roots(exact::Meeting::two_simple, {-1, 2});
 }
 
 // geometry/ellipse_crossings.hpp (2)
