@@ -98,13 +98,27 @@ RC_GTEST_PROP(PlaneGapProperty, NoNormalReachesFurther, ()) {
   RC_ASSERT(std::abs(reach(p, gap.normal) - gap.gap) <= gap.gap_error + rounding);
 }
 
+/// How far the witness points where an ascent ends are from facing each other, over u L.
+double unfacing(const EllipsePair& p, const Vec2& start) {
+  const Vec2 d = p.b.centre() - p.a.centre();
+  const methods::PlaneProof top = methods::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, start);
+  return (d + top.arm_b - top.arm_a - top.gap * top.normal).norm() / (0x1p-53 * size(p));
+}
+
 RC_GTEST_PROP(PlaneGapProperty, AnAscentEndsWhereTheWitnessPointsFaceEachOther, ()) {
   const EllipsePair p = *testing::ellipse_pair(100);
-  const Vec2 d = p.b.centre() - p.a.centre();
-  const methods::PlaneProof top =
-      methods::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, *testing::plane_direction());
-  const Vec2 between = d + top.arm_b - top.arm_a;
-  RC_ASSERT((between - top.gap * top.normal).norm() <= 8 * 0x1p-53 * size(p));
+  RC_ASSERT(unfacing(p, *testing::plane_direction()) <= 8);
+}
+
+// Slopes that a double holds are no zeros.
+TEST(PlaneGap, AnAscentFromAnAxisPassesSlopesWithoutRounding) {
+  for (int i = 1; i < 32; ++i) {
+    for (int j = 1; j < 32; ++j) {
+      const EllipsePair p{Ellipse(kOrigin, {2, 1}), Ellipse({i / 8.0, j / 8.0}, {1, 1})};
+      EXPECT_LE(unfacing(p, Vec2(1, 0)), 8) << i << ' ' << j;
+      EXPECT_LE(unfacing(p, Vec2(0, 1)), 8) << i << ' ' << j;
+    }
+  }
 }
 
 /// How far apart the normals of two answers may be that each are best but for `loss`: where the gap
