@@ -53,6 +53,19 @@ TEST(GapTiers, OrdinaryContactsAreAnsweredByTheFastPath) {
   }
 }
 
+TEST(GapTiers, FollowedOrdinaryContactsAreAnsweredByTheFastPathToo) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    families::ManufacturedContacts contacts(families::contact_classes()[k], kSeed);
+    for (int i = 0; i < 500; ++i) {
+      const auto c = contacts.next();
+      const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);
+      const Vec3 before(c.normal[0] + 0.01, c.normal[1] - 0.02, c.normal[2] + 0.01);
+      const Gap gap = follow_gap(a, b, Vec3(b.centre() - a.centre()), before);
+      ASSERT_EQ(gap.tier, GapTier::fast) << k << ' ' << i;
+    }
+  }
+}
+
 TEST(GapTiers, ExtremeShapesNeedEveryTierAndAreAnswered) {
   std::array<int, 5> total{};
   for (const auto& family : families::extreme_families()) {

@@ -154,6 +154,8 @@ class Bookkeeping(unittest.TestCase):
             with path.open("a") as out:
                 out.write('{"id": "torn')
             self.assertEqual(set(Results(path, settings, True).rows), {"k", "s", "o"})
+            other = {**settings, "tree": "2"}
+            self.assertEqual(set(Results(path, other, True, {"s"}).rows), {"k", "s", "o"})
             changed = {**settings, "tree": "2", "texts": {"f": "t", "g": "new"}}
             self.assertEqual(set(Results(path, changed, True).rows), {"k"})
             first.add({"id": "s", "status": "survived", "file": "f", "tree": "1", "slowest": 1.0,

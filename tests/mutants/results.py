@@ -12,17 +12,23 @@ STATUSES = ("killed", "survived", "equivalent", "not compiling")
 
 
 class Results:
-    def __init__(self, path, settings, resume):
+    """
+    @param resume     is what the file has to be kept as far as it holds?
+    @param explained  ids of mutants whose survival is explained: a resumed run does not ask them
+                      again while their file is the same
+    """
+
+    def __init__(self, path, settings, resume, explained=frozenset()):
         self.path = pathlib.Path(path)
         self.settings = settings
         self.rows = {}
         if resume and self.path.exists():
-            self._read()
+            self._read(explained)
         self.path.parent.mkdir(parents=True, exist_ok=True)
         lines = [json.dumps(settings)] + [json.dumps(row) for row in self.rows.values()]
         self.path.write_text("".join(line + "\n" for line in lines))
 
-    def _read(self):
+    def _read(self, explained):
         """What was found out before and still holds. A mutant that a test killed stays killed while
         its file is the same; what survived is asked again once any text has changed, or by slower
         tests than before."""
@@ -30,7 +36,7 @@ class Results:
             same = (row["tree"] == self.settings["tree"] and
                     row["slowest"] >= self.settings["slowest"])
             same_file = row["text"] == self.settings["texts"].get(row["file"])
-            if same_file and (same or row["status"] in ("killed", "not compiling")):
+            if same_file and (same or row["status"] != "survived" or row["id"] in explained):
                 self.rows[row["id"]] = row
 
     def add(self, row):
