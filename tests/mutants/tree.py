@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A copy of the project in which mutants are built, and from which they are taken out again."""
+import fcntl
 import os
 import pathlib
 import shutil
@@ -39,6 +40,11 @@ class Tree:
     def prepare(self):
         """Copies what has changed, builds all of it and keeps the result."""
         self.place.mkdir(parents=True, exist_ok=True)
+        self.lock = (self.place / "lock").open("w")
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise BuildFailed(f"{self.place} is in use by another run; --build takes another place")
         self.take_out()  # what a run that was ended has left
         self._copy_sources()
         if not (self.build / "build.ninja").exists():
