@@ -232,31 +232,5 @@ TEST(Gap, OfScaledPairsScales) {
   }
 }
 
-TEST(Gap, FollowingStaysOnItsBranch) {
-  const Ellipsoid a({0, 0, 0}, {3, 2.5, 1}), b({0, 0, 0}, {3, 2, 1});
-  const Vec3 d(0.2, 0.1, 0.1);
-  const Gap best = signed_gap(a, b, d);
-  ASSERT_GT(best.normal[2], 0.9);
-  for (const Vec3& other : {Vec3(0.1, 0.2, -1), Vec3(-0.1, 0.1, -2)}) {
-    const Gap down = follow_gap(a, b, d, other);
-    EXPECT_EQ(down.status, GapStatus::local);
-    EXPECT_LT(down.normal[2], -0.9);
-    EXPECT_LT(down.gap, best.gap - 0.1);
-  }
-}
-
-// So thin that no cap of the sphere bounds the curvature: the rolling ball alone proves the gap.
-TEST(Gap, OfVeryThinBodiesApartIsProvenWithoutASearch) {
-  for (const double thin : {0x1p-100, 0x1p-200}) {
-    for (const Vec3& d : {Vec3(3, 0.3, 0.2), Vec3(0.2, 0.1, 3), Vec3(2.5, 1, 1)}) {
-      const Gap gap = signed_gap(Ellipsoid({0, 0, 0}, {1, 0.5, thin}, {0.3, 0.5, -0.2, 0.7}),
-                                 Ellipsoid(d, {thin, 1, 1}, {0.1, 0.2, 0.9, 0.3}));
-      EXPECT_EQ(gap.status, GapStatus::ok) << thin;
-      EXPECT_EQ(gap.tier, GapTier::factored) << thin;
-      EXPECT_LE(gap.gap_error, 16 * 0x1p-53 * (d.norm() + 2)) << thin;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace tangency
