@@ -17,6 +17,13 @@ constexpr double largest_growth_of_an_increment = 0.01;
 /// What walls are called in [contact.NAME-NAME].
 constexpr std::string_view wall = "wall";
 
+bool is_contact_key(std::string_view name) {
+  const auto keys = scene_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+    return key.section == "contact" && key.name == name;
+  });
+}
+
 /// The largest stiffness of a Hertz contact of two bodies of these shapes: flat on flat.
 HertzContact stiffest(const Vec3& a, const Vec3& b, double overlap, const Material& material) {
   // At its flattest place, the end of the shortest axis, an ellipsoid has radii a^2/c and b^2/c.
@@ -176,8 +183,9 @@ class Reader {
         table("contact", "a table [contact] for all pairs, or [contact.NAME-NAME] for each");
     const std::size_t types = scene_.particle_types.size() + (scene_.has_walls() ? 1 : 0);
     std::vector<std::optional<ContactLaw>> laws(types * types);
-    const bool common = std::any_of(contact.begin(), contact.end(),
-                                    [](const auto& entry) { return !entry.second.is_table(); });
+    const bool common = std::any_of(contact.begin(), contact.end(), [](const auto& entry) {
+      return !entry.second.is_table() || is_contact_key(entry.first.str());
+    });
     if (common || contact.empty()) {
       const Section section(source_, contact, "contact", "contact");
       for (std::size_t k = 0; k < laws.size(); ++k)

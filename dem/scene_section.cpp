@@ -17,12 +17,17 @@ std::string text_of(double x) {
   return text.find_first_not_of("-0123456789") == text.npos ? text + ".0" : text;
 }
 
+/// Of a number, rounded: toml++ has no double for an integer that is not exactly one.
+double real_of(const toml::node& node) {
+  return node.is_integer() ? static_cast<double>(node.ref<std::int64_t>()) : node.ref<double>();
+}
+
 template <class Vector>
 std::optional<Vector> vector_of(const toml::node* node) {
   if (!node) return std::nullopt;
   Vector v;
   for (Eigen::Index k = 0; k < v.size(); ++k)
-    v[k] = node->as_array()->get(static_cast<std::size_t>(k))->value<double>().value_or(0.0);
+    v[k] = real_of(*node->as_array()->get(static_cast<std::size_t>(k)));
   return v;
 }
 
@@ -31,7 +36,7 @@ std::optional<Vector> vector_of(const toml::node* node) {
 bool fits(const Key& key, const toml::node& node) {
   // No range holds nan, nor an infinity: its bounds are open there.
   const auto number_fits = [&](const toml::node& one) {
-    return one.is_number() && key.range.holds(*one.value<double>());
+    return one.is_number() && key.range.holds(real_of(one));
   };
   const auto numbers_fit = [&](std::size_t count) {
     const auto* array = node.as_array();
@@ -73,15 +78,16 @@ bool is_name(std::string_view text) {
 std::string text_of(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_floating_point()) return text_of(*node.value<double>());
-  std::ostringstream out;
   if (const auto* array = node.as_array()) {
     if (array->is_array_of_tables()) return "a list of tables";
-    out << *array;
-  } else {
-    node.visit([&](const auto& value) {
-      if constexpr (toml::is_value<decltype(value)>) out << value;
-    });
+    std::string items;
+    for (const toml::node& item : *array) items += (items.empty() ? " " : ", ") + text_of(item);
+    return "[" + items + (items.empty() ? "]" : " ]");
   }
+  std::ostringstream out;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>) out << value;
+  });
   std::string text = out.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -129,7 +135,7 @@ void Section::refuse(std::string_view name, std::int64_t value, const std::strin
 
 double Section::real(std::string_view name) const {
   const toml::node* node = find(name);
-  return node ? *node->value<double>() : std::stod(std::string(fallback(name)));
+  return node ? real_of(*node) : std::stod(std::string(fallback(name)));
 }
 
 std::optional<double> Section::optional_real(std::string_view name) const {
@@ -168,7 +174,6 @@ std::string Section::label(std::string_view name) const {
 
 void Section::check(const toml::key& name, const toml::node& node) const {
   if (section_.empty() && is_among(name.str(), scene_sections)) return;
-  if (section_ == "contact" && node.is_table()) return;  // a pair
   std::string names;
   for (const Key& key : scene_keys()) {
     if (!applies(key)) continue;
@@ -178,6 +183,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
     }
     names += (names.empty() ? "" : ", ") + std::string(key.name);
   }
+  if (section_ == "contact" && !base_ && node.is_table()) return;  // a pair
   if (section_.empty())
     for (const char c : " " + std::string(scene_sections))
       names += c == ' ' ? ", " : std::string(1, c);

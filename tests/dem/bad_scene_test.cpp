@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Every key of a scene, wrong in every way that its type and range allow, and keys that exclude
+/// one another: each is refused with one line that names place, key, value and what is allowed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_keys.hpp>
+
+#include "scenes.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::test::small_scene;
+using tangency::test::with;
+
+/// The message for a scene, or "" where it is accepted.
+std::string refusal(const std::string& text) {
+  try {
+    parse_scene(text, "scene.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    return std::string("not refused but failed: ") + error.what();
+  }
+  return "";
+}
+
+/// A stage with all that its kind requires.
+std::string stage_of(const std::string& kind) {
+  const std::string held = "mean_stress = 1e6\nmax_strain_rate = 0.01\n";
+  const std::string head = "[[stage]]\nkind = \"" + kind + "\"\n";
+  if (kind == "place") return head;
+  if (kind == "shear") return head + "axial_strain_rate = 0.01\naxial_strain = 0.1\n";
+  if (kind == "servo") return head + "duration = 10\n";
+  if (kind == "grow") return head + "elongation = 1.5\n" + held;
+  return head + held;
+}
+
+/// A scene that is accepted, with every section, and a stage of the kind last but for the body.
+std::string scene_with(const std::string& kind) {
+  const bool is_explicit = kind == "explicit";
+  return "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n[motion]\n[particles.grain]\n"
+         "count = 1\nmean_radius = 10.0\n[contact]\nnormal_stiffness = 1e10\n[output]\n" +
+         stage_of("place") + (is_explicit ? "arrangement = \"explicit\"\n" : "") +
+         (is_explicit || kind == "place" ? "" : stage_of(kind)) +
+         (is_explicit ? "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n" : "");
+}
+
+/// The last table of that name, with the key set to a value.
+std::string with_key(const std::string& scene, const Key& key, const std::string& value) {
+  const std::string section(key.section), name(key.name);
+  std::string text = scene;
+  const std::size_t start = section.empty()          ? 0
+                            : section == "stage"     ? text.rfind("[[stage]]")
+                            : section == "body"      ? text.rfind("[[body]]")
+                            : section == "particles" ? text.find("[particles.grain]")
+                                                     : text.find("[" + section + "]");
+  std::size_t at = section.empty() ? 0 : text.find('\n', start) + 1;
+  std::size_t end = text.find("\n[", at == 0 ? 0 : at - 1);
+  end = end == text.npos ? text.size() : end + 1;
+  const std::size_t old = ("\n" + text).find("\n" + name + " = ", at);  // shifted by one: the line
+  if (old < end) text.erase(old, text.find('\n', old) + 1 - old);
+  if (section.empty()) at = 0;
+  return text.insert(at, name + " = " + value + "\n");
+}
+
+std::string text_of(const Key& key, double x) {
+  std::ostringstream out;
+  if (key.type == KeyType::integer)
+    out << static_cast<std::int64_t>(x);
+  else
+    out << std::setprecision(17) << std::scientific << x;
+  return out.str();
+}
+
+/// Values next to a bound on its wrong side.
+std::vector<double> outside(const Key& key) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Range& range = key.range;
+  const bool whole = key.type == KeyType::integer;
+  std::vector<double> wrong;
+  if (range.low > -infinity)
+    wrong.push_back(!range.low_included ? range.low
+                    : whole             ? range.low - 1.0
+                                        : std::nextafter(range.low, -infinity));
+  if (range.high < infinity)
+    wrong.push_back(!range.high_included ? range.high
+                    : whole              ? range.high + 2.0  // of 9e15 too
+                                         : std::nextafter(range.high, infinity));
+  return wrong;
+}
+
+/// Numbers as an array of `count` with the wrong one last, or the wrong one alone.
+std::string among(const std::string& wrong, std::size_t count) {
+  if (count == 1) return wrong;
+  std::string text = "[";
+  for (std::size_t k = 1; k < count; ++k) text += "1.0, ";
+  return text + wrong + "]";
+}
+
+/// TOML values that the key must not have.
+std::vector<std::string> wrong_values(const Key& key) {
+  std::vector<std::string> wrong{"true", "{}", "1979-05-27", "[[]]"};
+  const bool is_text = key.type == KeyType::text || key.type == KeyType::path;
+  if (is_text) {
+    for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[\"none\"]"})
+      wrong.push_back(value);
+    if (key.type == KeyType::text)
+      for (const char* value : {"\"no such choice\"", "\"a.b\"", "\"a-b\"", "\"\\n\""})
+        wrong.push_back(value);
+    if (!key.choices.empty()) wrong.push_back("\"nonsense\"");
+    return wrong;
+  }
+  const std::size_t count = key.type == KeyType::real3 ? 3 : key.type == KeyType::real4 ? 4 : 1;
+  for (const char* value : {"\"many\"", "\"\"", "\"1.0\"", "nan", "inf", "-inf", "+nan"})
+    wrong.push_back(among(value, count));
+  if (count > 1)
+    for (const char* value : {"1.0", "[]", "[1.0]", "[1.0, 1.0, 1.0, 1.0, 1.0]"})
+      wrong.push_back(value);
+  else
+    for (const char* value : {"[]", "[1.0]"}) wrong.push_back(value);
+  for (const double value : outside(key)) wrong.push_back(among(text_of(key, value), count));
+  if (key.type == KeyType::integer)
+    for (const char* value : {"1.0", "1.5", "9223372036854775807", "-9223372036854775808"})
+      wrong.push_back(value);
+  return wrong;
+}
+
+std::vector<std::string> kinds_of(const Key& key) {
+  if (key.section == "body") return {"explicit"};
+  if (key.section != "stage") return {"compress"};
+  std::istringstream stream{std::string(key.kinds)};
+  std::vector<std::string> kinds;
+  for (std::string kind; stream >> kind;) kinds.push_back(kind);
+  return kinds;
+}
+
+TEST(EveryKey, WrongInEveryWayIsRefusedInOneLineThatNamesIt) {
+  std::size_t tried = 0;
+  for (const Key& key : scene_keys())
+    for (const std::string& kind : kinds_of(key)) {
+      ASSERT_EQ(refusal(scene_with(kind)), "") << kind;
+      for (const std::string& value : wrong_values(key)) {
+        const std::string scene = with_key(scene_with(kind), key, value);
+        const std::string message = refusal(scene);
+        const std::string what = std::string(key.section) + "." + std::string(key.name) + " = " +
+                                 value + " of " + kind + ": " + message;
+        ++tried;
+        // The line of the key, and after it the key itself.
+        const std::size_t at = scene.find(std::string(key.name) + " = " + value);
+        ASSERT_NE(at, scene.npos) << what;
+        const auto line =
+            1 + std::count(scene.begin(), scene.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        EXPECT_EQ(message.find("scene.toml:" + std::to_string(line) + ": "), 0u) << what;
+        EXPECT_NE(message.find(std::string(key.name) + " = "), message.npos) << what;
+        EXPECT_EQ(message.find('\n'), message.npos) << what;
+        EXPECT_NE(message.find(": " + allowed_values(key)), message.npos) << what;
+      }
+    }
+  EXPECT_GT(tried, 1000u);
+}
+
+TEST(EveryKey, EmptyOrGivenTwiceIsNoToml) {
+  for (const Key& key : scene_keys()) {
+    const std::string scene = scene_with(kinds_of(key).front());
+    const std::string name(key.name);
+    EXPECT_NE(refusal(with_key(scene, key, "")).find(": not TOML: "), std::string::npos) << name;
+    const std::string twice = with_key(scene, key, "1\n" + name + " = 1");
+    EXPECT_NE(refusal(twice).find(": not TOML: "), std::string::npos) << name;
+  }
+}
+
+TEST(EveryKey, OfStagesOfOtherKindsIsRefused) {
+  for (const char* kind : {"compress", "grow", "relax", "unload", "shear", "servo"})
+    for (const Key& key : scene_keys()) {
+      if (key.section != "stage") continue;
+      bool has = false;  // the kind has a key of that name
+      for (const Key& other : scene_keys())
+        has = has ||
+              (other.section == "stage" && other.name == key.name && is_among(kind, other.kinds));
+      if (has) continue;
+      const std::string message = refusal(with_key(scene_with(kind), key, "1.0"));
+      EXPECT_NE(message.find("." + std::string(key.name) + ": no such key in a stage of this kind"),
+                message.npos)
+          << kind << ": " << message;
+    }
+}
+
+struct Combination {
+  const char* what;
+  std::string scene, message;
+};
+
+std::string servo(const std::string& keys) { return scene_with("servo") + keys; }
+std::string place(const std::string& keys) {
+  return with(scene_with("compress"), "kind = \"place\"\n", "kind = \"place\"\n" + keys);
+}
+std::string contact(const std::string& keys) {
+  return with(scene_with("compress"), "normal_stiffness = 1e10\n", keys);
+}
+std::string walled(const std::string& keys) {
+  return with(servo(keys), "[cell]\n", "[cell]\nwalls = \"z\"\n");
+}
+
+TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
+  const std::string rate = "max_strain_rate = 0.01\n";
+  const std::vector<Combination> all{
+      {"hertz key with linear", contact("normal_stiffness = 1e10\nyoung_modulus = 1e9\n"),
+       "scene.toml:10: contact.young_modulus = 1e+09: with law = \"hertz\" alone"},
+      {"poisson with linear", contact("normal_stiffness = 1e10\npoisson_ratio = 0.2\n"),
+       "scene.toml:10: contact.poisson_ratio = 0.2: with law = \"hertz\" alone"},
+      {"linear without stiffness", contact("friction_coefficient = 0.1\n"),
+       "scene.toml:8: contact.normal_stiffness is missing: a finite number from 1e-30 to 1e+30 "
+       "(N/m)"},
+      {"stiffness with hertz",
+       contact("law = \"hertz\"\nyoung_modulus = 1e9\nnormal_stiffness = 1e10\n"),
+       "scene.toml:11: contact.normal_stiffness = 1e+10: with law = \"linear\" alone"},
+      {"hertz without modulus", contact("law = \"hertz\"\n"),
+       "scene.toml:8: contact.young_modulus is missing: a finite number from 1e-30 to 1e+30 (Pa)"},
+      {"walls with shear_rate", walled("shear_rate = [0.1, 0.0, 0.0]\n"),
+       "scene.toml:17: stage[1].shear_rate = [ 0.1, 0.0, 0.0 ]: not in a cell with walls"},
+      {"walls with a direction", walled("major_direction = 10.0\n" + rate),
+       "scene.toml:17: stage[1].major_direction = 10.0: not in a cell with walls"},
+      {"walls without their law", with(walled(""), "[contact]", "[contact.grain-grain]"),
+       "scene.toml:9: contact.grain-wall is missing: a law for every two types, or one in "
+       "[contact] "
+       "for all"},
+      {"mean and components",
+       servo("mean_stress = 1e6\nstress_xx = 1e6\nstress_yy = 1e6\nstress_zz = 1e6\n" + rate),
+       "scene.toml:16: stage[1].mean_stress = 1e+06: not together with stresses that it is the "
+       "mean of"},
+      {"plane mean and components",
+       servo("plane_mean_stress = 1e6\nstress_xx = 1e6\nstress_yy = 1e6\n" + rate),
+       "scene.toml:16: stage[1].plane_mean_stress = 1e+06: not together with stresses that it "
+       "is the mean of"},
+      {"holding without a bound", servo("mean_stress = 1e6\n"),
+       "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
+       "(1/s)"},
+      {"jitter with random", place("arrangement = \"random\"\njitter = 0.1\n"),
+       "scene.toml:14: stage[0].jitter = 0.1: with arrangement = \"lattice\" alone"},
+      {"bounding_fraction with lattice", place("bounding_fraction = 0.1\n"),
+       "scene.toml:13: stage[0].bounding_fraction = 0.1: with arrangement = \"random\" alone"},
+      {"file with lattice", place("file = \"bodies.csv\"\n"),
+       "scene.toml:13: stage[0].file = 'bodies.csv': with arrangement = \"explicit\" alone"},
+      {"seed with explicit",
+       with(scene_with("explicit"), "\"explicit\"\n", "\"explicit\"\nseed = 3\n"),
+       "scene.toml:14: stage[0].seed = 3: not with arrangement = \"explicit\""},
+      {"lateral and mean stress", scene_with("shear") + "mean_stress = 1e6\nlateral_stress = 1e6\n",
+       "scene.toml:18: stage[1].lateral_stress = 1e+06: not together with mean_stress"},
+      {"an explicit scene without bodies", place("arrangement = \"explicit\"\n"),
+       "scene.toml:13: stage[0].arrangement = 'explicit': with a file, or a list of [[body]] "
+       "tables"},
+      {"bodies of a lattice",
+       scene_with("compress") + "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n",
+       "scene.toml:17: body: a place with arrangement = \"explicit\" and without a file has it"},
+      {"more bodies than the count",
+       scene_with("explicit") + "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n",
+       "scene.toml:14: 2 bodies of type grain: as many as particles.grain.count, 1"},
+      {"a body of no type", with(scene_with("explicit"), "type = \"grain\"", "type = \"sand\""),
+       "scene.toml:15: body[0].type = 'sand': a name of one of the scene's particle types"},
+      {"a body without orientation",
+       scene_with("explicit") + "orientation = [0.0, 0.0, 0.0, 0.0]\n",
+       "scene.toml:17: body[0].orientation = [ 0.0, 0.0, 0.0, 0.0 ]: 4 finite numbers, not all 0"},
+      {"a table in a law",
+       with(scene_with("compress"), "[output]", "[contact.grain-grain.more]\n[output]"),
+       "scene.toml:10: contact.grain-grain.more: no such key; allowed are law, normal_stiffness, "
+       "shear_stiffness, friction_coefficient, young_modulus, poisson_ratio, largest_overlap, "
+       "cohesion"},
+  };
+  for (const Combination& one : all) EXPECT_EQ(refusal(one.scene), one.message) << one.what;
+}
+
+TEST(Combinations, ThatAreSoundAreAccepted) {
+  EXPECT_EQ(refusal(servo("mean_stress = 1e6\nstress_zz = 1e6\nmax_strain_rate = 0.01\n")), "");
+  EXPECT_EQ(refusal(walled("stress_zz = 1e6\nmax_strain_rate = 0.01\n")), "");
+  EXPECT_EQ(refusal(contact("law = \"hertz\"\nyoung_modulus = 1e9\n")), "");
+  EXPECT_EQ(refusal(scene_with("shear") + "lateral_stress = 1e6\n"), "");
+  EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
+}
+
+// 2^53 + 1 and the largest integer of TOML.
+TEST(Integers, ThatNoDoubleHoldsAreRoundedWhereANumberIsWanted) {
+  const auto read = [](const std::string& before, const std::string& after) {
+    return parse_scene(with(scene_with("servo"), before, after), "scene.toml");
+  };
+  const Scene heavy = read("count = 1\n", "count = 1\ndensity = 9007199254740993\n");
+  EXPECT_EQ(heavy.particle_types[0].batch.density, 9007199254740992.0);
+  const Scene pulled = read("[motion]\n", "[motion]\ngravity = [0, 0, -9223372036854775807]\n");
+  EXPECT_EQ(pulled.gravity[2], -0x1p63);
+}
+
+}  // namespace
