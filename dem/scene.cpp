@@ -122,6 +122,13 @@ class Reader {
                                : Vec3::Constant(1e150);
   }
 
+  /// Its mean radius, of a wall infinite.
+  double radius_of(std::size_t type) const {
+    const auto& types = scene_.particle_types;
+    return type < types.size() ? types[type].batch.shape.mean_radius
+                               : std::numeric_limits<double>::infinity();
+  }
+
   ContactLaw law_of(const Section& section, std::size_t a, std::size_t b) const {
     const double friction = section.real("friction_coefficient");
     const double cohesion = section.real("cohesion");
@@ -139,10 +146,9 @@ class Reader {
       section.forbid(key, "with law = \"linear\" alone");
     if (!section.has("young_modulus")) section.fail_missing("young_modulus");
     const Material material{section.real("young_modulus"), section.real("poisson_ratio")};
-    const Vec3 shape_a = shape_of(a), shape_b = shape_of(b);
-    const double smaller = std::cbrt(std::min(shape_a.prod(), shape_b.prod()));
+    const double smaller = std::min(radius_of(a), radius_of(b));
     const HertzContact most =
-        stiffest(shape_a, shape_b, section.real("largest_overlap") * smaller, material);
+        stiffest(shape_of(a), shape_of(b), section.real("largest_overlap") * smaller, material);
     return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]), friction,
             cohesion, material};
   }
