@@ -9,8 +9,10 @@
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/geometry/tool/csv.hpp>
 
 namespace {
 
@@ -21,6 +23,7 @@ constexpr const char* program_description =
 
 constexpr const char* program_help = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
+`tangency-dem report --help` says what a report of it shows;
 `tangency-dem schema` lists every key of a scene.
 )";
 
@@ -70,6 +73,12 @@ More keys of summary.json:
                         an entry of the neighbour list, each pair once
   state_hash            of final.state; the same at every number of threads
   rattlers              particles with fewer than two contacts
+  peak_friction_angle_deg, strain_at_peak_friction
+                        of the last stage of kind shear: the largest of its rows, and its axial
+                        strain
+  peak_dilation_rate, strain_at_peak_dilation
+                        of that stage: largest slope of volumetric over axial strain, by least
+                        squares over rows within 0.01 of axial strain, at least three
   largest_unbalanced_ratio, largest_unbalanced_moment_ratio
                         of any particle that has contacts: unbalanced force, and moment over
                         its largest semi-axis, over the mean contact force
@@ -86,6 +95,22 @@ Exit status:
   2          the scene, the state or the command line was refused, and earlier results are
              untouched; or a file could not be written
   128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM
+)";
+
+constexpr const char* report_help = R"(
+DIR is that of a run, complete or not: its history.csv is read and, if it is there, summary.json.
+Prints a line a stage with the values at its end (or at the last row so far):
+  cycles, mean stress, friction angle, coordination number, porosity, inertial fraction, axial
+  strain, and the energy error over the work done: energy_error / (|boundary_work| +
+  |gravity_work| + |growth_work|), all since the run began; - without work
+Writes DIR/report.html, one page that needs no network: for each stage in which the cell changes
+its shape stresses, friction angle, volumetric strain and coordination against axial strain; for
+the whole run, stages shaded, stress, coordination and porosity, strains, inertial fraction and
+the account of energy against time; and the numbers of summary.json.
+
+Exit status:
+  0    done
+  2    DIR is not one of a run that has written its history, or report.html cannot be written
 )";
 
 int refuse(const std::string& message) {
@@ -145,6 +170,9 @@ int main(int argc, char** argv) {
   run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state");
   run_command->footer(run_help);
   run_command->add_flag("--quiet", options.quiet, "No progress");
+  CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");
+  report_command->add_option("DIR", out, "Directory of a run's results")->required();
+  report_command->footer(report_help);
   CLI::App* schema_command = app.add_subcommand("schema", "Print every key of a scene");
 
   try {
@@ -161,12 +189,14 @@ int main(int argc, char** argv) {
   options.out = out.empty() ? default_directory(scene) : std::filesystem::path(out);
   if (!resume.empty()) options.resume = resume;
   try {
-    return run(options);
+    return report_command->parsed() ? report(out) : run(options);
   } catch (const SceneError& error) {
     return refuse(error.what());
   } catch (const StateError& error) {
     return refuse(error.what());
   } catch (const OutputError& error) {
+    return refuse(error.what());
+  } catch (const tangency::csv::Error& error) {
     return refuse(error.what());
   } catch (const WriteError& error) {
     return refuse(error.what());

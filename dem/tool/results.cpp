@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/numbers.hpp>
 #include <tangency/dem/tool/results.hpp>
 
@@ -61,6 +63,19 @@ std::vector<Field> row_of(const Simulation& simulation) {
   return history_fields(state.cycle, state.time, stage, simulation.observe());
 }
 
+/// The peaks of the scene's last stage of kind shear, if the history has it.
+void add_peaks(nlohmann::ordered_json& summary, const fs::path& history, const Scene& scene) {
+  const auto shears = [](const Stage& stage) { return stage.drive && stage.drive->axial_strain; };
+  const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(), shears);
+  if (last == scene.stages.rend()) return;
+  const auto peaks = peaks_of_stage(History(history), last->name);
+  if (!peaks) return;
+  summary["peak_friction_angle_deg"] = peaks->friction_angle_deg;
+  summary["strain_at_peak_friction"] = peaks->strain_at_friction;
+  summary["peak_dilation_rate"] = peaks->dilation_rate;
+  summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
+}
+
 /// Rows of the history in a directory up to those of `cycle`.
 std::string earlier_rows(const fs::path& directory, std::int64_t cycle) {
   std::ifstream in(directory / "history.csv");
@@ -91,8 +106,10 @@ void Results::add_row(const Simulation& simulation) {
 }
 
 void Results::checkpoint(const Simulation& simulation) const {
-  save_state(simulation.state(), directory_ / "checkpoint.state");
+  // The history first: a resumed run drops rows after its state's cycle, and could not make up for
+  // those before it.
   write_history();
+  save_state(simulation.state(), directory_ / "checkpoint.state");
 }
 
 void Results::write_history() const {
@@ -117,6 +134,7 @@ void Results::write_summary(const Simulation& simulation, const RunCost& cost) c
   nlohmann::ordered_json summary;
   for (const Field& field : row_of(simulation))
     std::visit([&](const auto& value) { summary[field.name] = value; }, field.value);
+  add_peaks(summary, directory_ / "history.csv", simulation.scene());
   summary["particles"] = state.particles.size();
   summary["cycles"] = state.cycle;
   summary["wall_seconds"] = cost.wall_seconds;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tangency/dem/observe.hpp>
+#include <tangency/dem/tool/history.hpp>
+#include <tangency/geometry/tool/csv.hpp>
+
+namespace tangency::dem {
+namespace {
+
+/// From where on half a strain taken back between two rows is a new stage's start. Chosen: servos
+/// that come to rest move the cell by less.
+constexpr double least_strain = 0.002;
+
+}  // namespace
+
+History::History(const std::filesystem::path& file) {
+  csv::Reader reader(file.string());
+  const csv::Column stage = reader.header().require("stage");
+  std::vector<csv::Column> places;
+  for (const Field& field : history_fields(0, 0.0, "", Observation{})) {
+    if (field.name == "stage") continue;
+    places.push_back(reader.header().require(field.name));
+    columns_.emplace_back(field.name, std::vector<double>());
+  }
+  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+    stage_.emplace_back(row.text(stage));
+    for (std::size_t k = 0; k < places.size(); ++k)
+      columns_[k].second.push_back(row.number(places[k]));
+  });
+}
+
+std::span<const double> History::column(std::string_view name) const {
+  const auto found = std::find_if(columns_.begin(), columns_.end(),
+                                  [&](const auto& one) { return one.first == name; });
+  assert(found != columns_.end());
+  return found->second;
+}
+
+std::vector<StageRows> stages_of(const History& history) {
+  const auto strain = history.column("axial_strain");
+  std::vector<StageRows> stages;
+  for (std::size_t row = 0; row < history.size(); ++row) {
+    const bool fell_back = row > 0 && std::abs(strain[row - 1]) > least_strain &&
+                           std::abs(strain[row]) < 0.5 * std::abs(strain[row - 1]);
+    if (stages.empty() || stages.back().name != history.stage(row) || fell_back)
+      stages.push_back({history.stage(row), row, row});
+    stages.back().end = row + 1;
+  }
+  return stages;
+}
+
+std::optional<ShearPeaks> peaks_of_stage(const History& history, const std::string& name) {
+  const std::vector<StageRows> stages = stages_of(history);
+  const auto found = std::find_if(stages.rbegin(), stages.rend(),
+                                  [&](const StageRows& stage) { return stage.name == name; });
+  if (found == stages.rend()) return std::nullopt;
+  const auto axial = history.column("axial_strain"), volume = history.column("volumetric_strain");
+  const auto angle = history.column("friction_angle_deg");
+  std::vector<ShearRow> rows;
+  for (std::size_t row = found->first; row < found->end; ++row)
+    rows.push_back({axial[row], volume[row], angle[row]});
+  return shear_peaks(rows);
+}
+
+}  // namespace tangency::dem

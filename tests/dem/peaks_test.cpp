@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tangency/dem/peaks.hpp>
+#include <vector>
+
+namespace {
+
+using tangency::dem::shear_peaks;
+using tangency::dem::ShearPeaks;
+using tangency::dem::ShearRow;
+
+/// Rows at equal steps of axial strain, the first a step from the start.
+template <class Volume, class Angle>
+std::vector<ShearRow> rows(double step, int count, Volume&& volume, Angle&& angle) {
+  std::vector<ShearRow> made;
+  for (int k = 1; k <= count; ++k) made.push_back({k * step, volume(k * step), angle(k * step)});
+  return made;
+}
+
+double none(double) { return 0.0; }
+
+TEST(ShearPeaks, OfNoRowAreNone) { EXPECT_FALSE(shear_peaks({})); }
+
+TEST(ShearPeaks, OfFrictionAreTheHighestRow) {
+  const auto made =
+      rows(0.002, 100, none, [](double e) { return 40.0 - 1e4 * (e - 0.05) * (e - 0.05); });
+  const ShearPeaks peaks = shear_peaks(made).value();
+  EXPECT_NEAR(peaks.friction_angle_deg, 40.0, 1e-9);
+  EXPECT_NEAR(peaks.strain_at_friction, 0.05, 1e-12);
+}
+
+TEST(ShearPeaks, OfALineHaveItsSlope) {
+  const auto made = rows(
+      0.0005, 300, [](double e) { return 0.7 * e; }, none);
+  EXPECT_NEAR(shear_peaks(made)->dilation_rate, 0.7, 1e-12);
+}
+
+// The rate -cos(pi e / 0.1) is highest at e = 0.1. A least-squares slope over a window w of it is
+// the rate less its mean square share: 1 - (pi w / 0.1)^2 / 40 to the leading order.
+TEST(ShearPeaks, OfDilationAreTheSteepestWindow) {
+  const double k = std::acos(-1.0) / 0.1;
+  const auto made = rows(
+      0.0001, 2000, [&](double e) { return -std::sin(k * e) / k; }, none);
+  const ShearPeaks peaks = shear_peaks(made).value();
+  const double width = tangency::dem::dilation_window;
+  EXPECT_NEAR(peaks.dilation_rate, 1.0 - k * k * width * width / 40.0, 1e-4);
+  EXPECT_NEAR(peaks.strain_at_dilation, 0.1, 1e-4);
+}
+
+TEST(ShearPeaks, OfDilationAreNotThoseOfOneNoisyRow) {
+  auto made = rows(
+      0.0002, 1000, [](double e) { return 0.5 * e; }, none);
+  made[500].volumetric_strain += 1e-4;  // a slope of 1 to the row before
+  EXPECT_NEAR(shear_peaks(made)->dilation_rate, 0.5, 0.02);
+}
+
+TEST(ShearPeaks, OfRowsFarApartAreThoseOfThreeNeighbours) {
+  const auto made = rows(
+      0.02, 10, [](double e) { return e < 0.11 ? 0.0 : 0.3 * (e - 0.1); }, none);
+  EXPECT_NEAR(shear_peaks(made)->dilation_rate, 0.3, 1e-12);
+}
+
+TEST(ShearPeaks, OfOneRowCountTheUnstrainedStart) {
+  const ShearRow only{0.004, 0.001, 12.0};
+  const ShearPeaks peaks = shear_peaks({&only, 1}).value();
+  EXPECT_NEAR(peaks.dilation_rate, 0.25, 1e-12);
+  EXPECT_EQ(peaks.strain_at_friction, 0.004);
+}
+
+TEST(ShearPeaks, OfARowWithoutStrainHaveNoRate) {
+  const ShearRow only{0.0, 0.0, 3.0};
+  EXPECT_EQ(shear_peaks({&only, 1})->dilation_rate, 0.0);
+}
+
+}  // namespace

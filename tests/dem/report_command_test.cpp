@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `tangency-dem report`, and the peaks in summary.json that it shows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <tangency/dem/observe.hpp>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace tangency::test {
+namespace {
+
+/// A shear test of 27 grains, of some 2000 cycles.
+std::string shearing_scene() {
+  return with(small_scene(), "[output]\n",
+              "[[stage]]\nkind = \"shear\"\nmean_stress = 10e6\naxial_strain_rate = 0.05\n"
+              "axial_strain = 0.1\ntime_step_factor = 0.3\n[output]\nhistory_interval = 10\n");
+}
+
+/// A directory with a history of rows {stage, cycle, axial strain, friction angle}, all else 0.
+struct MadeRow {
+  const char* stage;
+  int cycle;
+  double strain, angle;
+};
+std::string history_of(const std::vector<MadeRow>& rows) {
+  std::string text;
+  for (const auto& field : dem::history_fields(0, 0.0, "", dem::Observation{}))
+    text += (text.empty() ? "" : ",") + field.name;
+  text += "\n";
+  for (const MadeRow& row : rows) {
+    dem::Observation seen{};
+    seen.axial_strain = row.strain;
+    std::string line;
+    for (const auto& field : dem::history_fields(row.cycle, row.cycle, row.stage, seen)) {
+      const std::string number = field.name == "cycle" || field.name == "time"
+                                     ? std::to_string(row.cycle)
+                                 : field.name == "stage"              ? row.stage
+                                 : field.name == "axial_strain"       ? std::to_string(row.strain)
+                                 : field.name == "friction_angle_deg" ? std::to_string(row.angle)
+                                                                      : "0";
+      line += (line.empty() ? "" : ",") + number;
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(ReportCommand, PrintsALineAStageWithTheValuesAtItsEnd) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/history.csv", history_of({{"place", 0, 0.0, 0.0},
+                                              {"press", 50, 0.05, 1.0},
+                                              {"press", 120, 0.1, 7.25},
+                                              {"shear", 150, 0.01, 31.0},
+                                              {"shear", 400, 0.02, 28.5},
+                                              {"shear", 450, 0.005, 3.5}}));
+  const Finished report = run_tool({"report", folder.path("out")});
+  ASSERT_EQ(report.status, 0) << report.err;
+  const auto lines = lines_of(report.out);
+  ASSERT_EQ(lines.size(), 6u) << report.out;
+  const auto words = [&](std::size_t k) {
+    std::istringstream in(lines[k]);
+    std::vector<std::string> all;
+    for (std::string word; in >> word;) all.push_back(word);
+    return all;
+  };
+  EXPECT_EQ(words(1)[0], "place");
+  EXPECT_EQ(words(2)[0] + " " + words(2)[1] + " " + words(2)[3], "press 120 7.25");
+  EXPECT_EQ(words(3)[0] + " " + words(3)[1] + " " + words(3)[3], "shear 280 28.50");
+  EXPECT_EQ(words(4)[0] + " " + words(4)[1], "shear 50") << "the second of that name";
+}
+
+/// A page is sound markup: every tag that is opened is closed in its turn.
+void expect_balanced(const std::string& page) {
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<', 15); at != page.npos; at = page.find('<', at + 1)) {
+    const std::size_t end = page.find('>', at);
+    ASSERT_NE(end, page.npos);
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(tag[0] == '/', tag.find(' ') - (tag[0] == '/'));
+    if (tag.back() == '/' || name == "meta" || name == "br") continue;
+    if (tag[0] != '/') {
+      open.push_back(name);
+      continue;
+    }
+    ASSERT_FALSE(open.empty()) << tag;
+    ASSERT_EQ(open.back(), name);
+    open.pop_back();
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", shearing_scene());
+  const std::string out = folder.path("out");
+  ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  const Finished report = run_tool({"report", out});
+  ASSERT_EQ(report.status, 0) << report.err;
+  const std::string page = read_file(out + "/report.html");
+  expect_balanced(page);
+  for (const char* word :
+       {"Stress and friction angle: shear", "Volumetric strain: shear", "Coordination and porosity",
+        "Inertial fraction", "Energy account", "peak_friction_angle_deg", "A complete run."})
+    EXPECT_NE(page.find(word), page.npos) << word;
+  EXPECT_EQ(page.find("friction angle: compress"), page.npos) << "a stage that keeps its shape";
+  EXPECT_EQ(page.find("http"), page.find("http://www.w3.org/2000/svg")) << "needs no network";
+  EXPECT_EQ(page.find("nan"), page.npos);
+  // The energy error of the sheared end is that of the last row over the work done.
+  const auto summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  const double share =
+      summary["energy_error"].get<double>() / std::abs(summary["boundary_work"].get<double>());
+  std::ostringstream shown;
+  shown.precision(1);
+  shown << std::scientific << share;
+  EXPECT_NE(report.out.find(shown.str()), report.out.npos) << shown.str() << "\n" << report.out;
+}
+
+TEST(ReportCommand, OfARunThatIsNotCompleteSaysSo) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/history.csv", history_of({{"place", 0, 0.0, 0.0}}));
+  ASSERT_EQ(run_tool({"report", folder.path("out")}).status, 0);
+  const std::string page = read_file(folder.path("out/report.html"));
+  expect_balanced(page);
+  EXPECT_NE(page.find("A run that is not complete."), page.npos);
+}
+
+TEST(ReportCommand, OfABadDirectoryIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  for (const char* name : {"empty", "none_yet", "bad", "other"})
+    std::filesystem::create_directory(folder.path(name));
+  folder.write("none_yet/history.csv", history_of({}));
+  folder.write("bad/history.csv", with(history_of({{"place", 0, 0.25, 0.0}}), "0.25", "many"));
+  folder.write("other/history.csv", "a,b\n1,2\n");
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {folder.path("missing"), "/history.csv: cannot be read"},
+      {folder.path("empty"), "/history.csv: cannot be read"},
+      {folder.path("none_yet"), "/history.csv: no row"},
+      {folder.path("bad"), "/history.csv:2: axial_strain = many"},
+      {folder.path("other"), "/history.csv:1: "}};
+  for (const auto& [directory, message] : cases) {
+    const Finished report = run_tool({"report", directory});
+    EXPECT_EQ(report.status, 2);
+    EXPECT_EQ(report.out, "");
+    EXPECT_EQ(report.err.find(directory + message), 0u) << report.err;
+    EXPECT_EQ(lines_of(report.err).size(), 1u) << report.err;
+    EXPECT_FALSE(std::filesystem::exists(directory + "/report.html"));
+  }
+  EXPECT_EQ(run_tool({"report"}).status, 2);
+}
+
+/// The rows of a stage, of three columns, read off the file by its own header.
+struct Sheared {
+  std::vector<double> strain, volume, angle;
+
+  Sheared(const std::string& history, const std::string& stage) {
+    const auto lines = lines_of(history);
+    const auto cells = [](const std::string& line) {
+      std::vector<std::string> all;
+      std::istringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');) all.push_back(cell);
+      return all;
+    };
+    const auto names = cells(lines[0]);
+    const auto place = [&](const char* name) {
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+      const auto row = cells(lines[k]);
+      if (row[place("stage")] != stage) continue;
+      strain.push_back(std::stod(row[place("axial_strain")]));
+      volume.push_back(std::stod(row[place("volumetric_strain")]));
+      angle.push_back(std::stod(row[place("friction_angle_deg")]));
+    }
+  }
+};
+
+TEST(SummaryPeaks, AreThoseOfTheHistorysRowsAlsoOfAResumedRun) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.toml", with(shearing_scene(), "[output]\n", "[output]\ncheckpoint_interval = 900\n"));
+  const std::string out = folder.path("out");
+  ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  const auto summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  const Sheared rows(read_file(out + "/history.csv"), "shear");
+  const auto highest = std::max_element(rows.angle.begin(), rows.angle.end());
+  EXPECT_EQ(summary["peak_friction_angle_deg"].get<double>(), *highest);
+  EXPECT_EQ(summary["strain_at_peak_friction"].get<double>(),
+            rows.strain[static_cast<std::size_t>(highest - rows.angle.begin())]);
+  // The rate's mean over its window is near the chord of the volume there.
+  const double rate = summary["peak_dilation_rate"].get<double>();
+  const double at = summary["strain_at_peak_dilation"].get<double>();
+  std::size_t from = 0, to = 0;
+  for (std::size_t k = 0; k < rows.strain.size(); ++k) {
+    if (rows.strain[k] < at - 0.005) from = k;
+    if (rows.strain[k] <= at + 0.005) to = k;
+  }
+  const double chord =
+      (rows.volume[to] - rows.volume[from]) / (rows.strain[to] - rows.strain[from]);
+  EXPECT_NEAR(rate, chord, 0.15 * std::abs(chord) + 0.02);
+
+  // Stopped in the middle of the shear, gone on with: the same summary but for what it cost.
+  const std::string again = folder.path("again");
+  const std::string short_scene = folder.write(
+      "short.toml", with(shearing_scene(), "axial_strain = 0.1", "axial_strain = 0.05"));
+  std::filesystem::create_directory(again);
+  ASSERT_EQ(run_tool({"run", short_scene, "--out", again, "--quiet"}).status, 0);
+  EXPECT_LE(nlohmann::json::parse(read_file(again + "/summary.json"))["strain_at_peak_friction"],
+            0.0501);
+}
+
+}  // namespace
+}  // namespace tangency::test

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `tangency-dem run` from explicit arrangements, and what is left to go on from after a kill or a
+/// full disk.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace tangency::test {
+namespace {
+
+/// A mixture of sizes and shapes, stopped nowhere: some 1500 cycles with frames and checkpoints.
+std::string mixture() {
+  return "schema = 1\n"
+         "[particles.ball]\ncount = 12\nmean_radius = 10.0\n"
+         "[particles.disk]\ncount = 9\nmean_radius = 8.0\nflatness = 1.8\n"
+         "[particles.rod]\ncount = 6\nmean_radius = 9.0\nelongation = 2.0\ndensity = 2600.0\n"
+         "[contact]\nnormal_stiffness = 1.5e10\nfriction_coefficient = 0.5\n"
+         "[contact.ball-rod]\nfriction_coefficient = 0.1\n"
+         "[[stage]]\nkind = \"place\"\narrangement = \"random\"\nbounding_fraction = 0.3\n"
+         "[[stage]]\nkind = \"compress\"\nmean_stress = 20e6\nmax_strain_rate = 0.1\n"
+         "time_step_factor = 0.3\n"
+         "[[stage]]\nkind = \"shear\"\nmean_stress = 20e6\naxial_strain_rate = 0.05\n"
+         "axial_strain = 0.1\ntime_step_factor = 0.3\n"
+         "[output]\nhistory_interval = 7\nframe_interval = 100\ncheckpoint_interval = 60\n";
+}
+
+constexpr const char* kResults[] = {"final.state", "history.csv", "frames.xyz", "frames.pvd"};
+
+void expect_same_results(const std::string& a, const std::string& b) {
+  for (const char* file : kResults)
+    EXPECT_TRUE(read_file(a + "/" + file) == read_file(b + "/" + file)) << file;
+  auto of_a = nlohmann::json::parse(read_file(a + "/summary.json"));
+  auto of_b = nlohmann::json::parse(read_file(b + "/summary.json"));
+  for (const char* key : {"wall_seconds", "ns_per_listed_pair_per_cycle"})
+    of_a.erase(key), of_b.erase(key);
+  EXPECT_EQ(of_a, of_b);
+}
+
+Finished run_quietly(const std::string& scene, const std::string& out,
+                     std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"run", scene, "--out", out, "--quiet", "--threads", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_tool(arguments);
+}
+
+// Killed at moments that no handler sees, each time resumed from the last checkpoint and killed
+// again: in the end every file is as if the run had gone through.
+TEST(RunAgain, AfterKillsAtAnyMomentEndsWithTheSameFiles) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture());
+  const std::string whole = folder.path("whole"), parts = folder.path("parts");
+  const Finished uninterrupted = run_quietly(scene, whole);
+  ASSERT_TRUE(uninterrupted.status == 0) << uninterrupted.err;
+  const std::string state = parts + "/checkpoint.state";
+  int kills = 0;
+  for (int wait = 3; wait < 60; wait += 7) {  // milliseconds from the first file on
+    std::vector<std::string> arguments{"run", scene, "--out", parts, "--quiet", "--threads", "1"};
+    if (std::filesystem::exists(state)) arguments.insert(arguments.end(), {"--resume", state});
+    Process run(arguments);
+    while (!std::filesystem::exists(parts + "/frames.xyz.part"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+    run.send(SIGKILL);
+    kills += run.wait().signal == SIGKILL ? 1 : 0;
+  }
+  EXPECT_GT(kills, 2);
+  ASSERT_TRUE(std::filesystem::exists(state)) << "a checkpoint was reached";
+  ASSERT_EQ(run_quietly(scene, parts, {"--resume", state}).status, 0);
+  expect_same_results(whole, parts);
+}
+
+/// As on a disk that fills up: no file grows beyond `bytes` while this lives, in tools started too.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, action_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*action_)(int);
+  rlimit before_{};
+};
+
+// Two bodies have a small state and, with a row a cycle, a long history, which is what the disk has
+// no room for: a state must not be ahead of the history that belongs to it.
+TEST(RunAgain, AfterADiskThatFilledUpInTheMiddleEndsWithTheSameFiles) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.toml",
+      "schema = 1\n[cell]\nsize = [10, 10, 10]\n[particles.p]\ncount = 2\nmean_radius = 1.0\n"
+      "[contact]\nnormal_stiffness = 1e6\n[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\n"
+      "[[body]]\ntype = \"p\"\nposition = [4.0, 5.0, 5.0]\nvelocity = [1.0, 0.0, 0.0]\n"
+      "[[body]]\ntype = \"p\"\nposition = [6.1, 5.0, 5.0]\n"
+      "[[stage]]\nkind = \"servo\"\nduration = 100\n"
+      "[output]\nhistory_interval = 1\nframe_interval = 0\ncheckpoint_interval = 1\n");
+  const std::string whole = folder.path("whole"), parts = folder.path("parts");
+  ASSERT_EQ(run_quietly(scene, whole).status, 0);
+  ASSERT_LT(std::filesystem::file_size(whole + "/final.state"), 4096u);
+  ASSERT_GT(std::filesystem::file_size(whole + "/history.csv"), 8192u);
+  for (const rlim_t bytes : {rlim_t{5000}, rlim_t{8192}}) {
+    const Finished full = [&] {
+      const FileSizeLimit limit(bytes);
+      return run_quietly(scene, parts);
+    }();
+    EXPECT_EQ(full.status, 2);
+    EXPECT_EQ(full.err, parts + "/history.csv: cannot be written\n");
+    ASSERT_EQ(run_quietly(scene, parts, {"--resume", parts + "/checkpoint.state"}).status, 0);
+    expect_same_results(whole, parts);
+  }
+}
+
+std::string with_version(std::string state, char version) {
+  state.at(8) = version;  // after the 8 letters at the start
+  return state;
+}
+
+TEST(RunAgain, RefusesStatesItCannotReadAndLeavesEarlierResults) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture());
+  const std::string out = folder.path("out");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  const std::string good = read_file(out + "/final.state"),
+                    summary = read_file(out + "/summary.json");
+  std::string damaged = good;
+  damaged[good.size() / 2] ^= 1;
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {folder.path("none"), ": cannot be read: a state of an earlier run\n"},
+      {folder.path(""), ": cannot be read: a state of an earlier run\n"},
+      {folder.write("empty", ""),
+       ": no state of tangency-dem: final.state or checkpoint.state of a run\n"},
+      {folder.write("short", good.substr(0, good.size() - 1)), ": damaged: its hash is wrong\n"},
+      {folder.write("damaged", damaged), ": damaged: its hash is wrong\n"},
+      {folder.write("newer", with_version(good, 99)),
+       ": state of version 99: this program reads version "}};
+  for (const auto& [file, message] : cases) {
+    const Finished run = run_quietly(scene, out, {"--resume", file});
+    EXPECT_EQ(run.status, 2) << file;
+    EXPECT_EQ(run.err.find(file + message), 0u) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(read_file(out + "/summary.json"), summary);
+    EXPECT_TRUE(read_file(out + "/final.state") == good);
+  }
+}
+
+/// Three bodies, in the scene or in a table, and the first line of frames.xyz that holds them.
+std::string explicit_scene(const std::string& place, const std::string& bodies) {
+  return "schema = 1\n[cell]\nsize = [40, 40, 40]\n[particles.a]\ncount = 2\nmean_radius = 2.0\n"
+         "elongation = 1.5\n[particles.b]\ncount = 1\nmean_radius = 3.0\n[contact]\n"
+         "normal_stiffness = 1e6\n[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\n" +
+         place + bodies + "[[stage]]\nkind = \"servo\"\nduration = 20\n";
+}
+
+const char* const kBodies =
+    "[[body]]\ntype = \"b\"\nposition = [3.0, 4.0, 5.0]\nvelocity = [0.5, 0.0, -1.0]\n"
+    "[[body]]\ntype = \"a\"\nposition = [-1.0, 50.0, 5.5]\norientation = [0.0, 0.0, 0.0, 2.0]\n"
+    "[[body]]\ntype = \"a\"\nposition = [20.0, 20.0, 20.0]\nangular_velocity = [1.0, 2.0, 3.0]\n";
+const char* const kTable =
+    "qw,qx,qy,qz,x,y,z,type,vx,vy,vz,wx,wy,wz\n"
+    "1,0,0,0,3,4,5,b,0.5,0,-1,0,0,0\n"
+    "0,0,0,2,-1,50,5.5,a,0,0,0,0,0,0\n"
+    "1,0,0,0,20,20,20,a,0,0,0,1,2,3\n";
+
+TEST(ExplicitBodies, OfTheSceneAndOfATableRunTheSame) {
+  const TemporaryFolder folder;
+  folder.write("bodies.csv", kTable);
+  const std::string here = folder.write("here.toml", explicit_scene("", kBodies));
+  const std::string table =
+      folder.write("table.toml", explicit_scene("file = \"bodies.csv\"\n", ""));
+  ASSERT_EQ(run_quietly(here, folder.path("here")).status, 0);
+  ASSERT_EQ(run_quietly(table, folder.path("table")).status, 0);
+  expect_same_results(folder.path("here"), folder.path("table"));
+  std::istringstream frames(read_file(folder.path("here/frames.xyz")));
+  std::string line;
+  for (int skipped = 0; skipped < 3; ++skipped) std::getline(frames, line);
+  EXPECT_EQ(line.find("b 3 4 5 0 0 0 1 3 3 3 0.5 0 -1"), 0u) << line;
+  std::getline(frames, line);  // wrapped into the cell, its quaternion made unit
+  EXPECT_EQ(line.find("a 39 10 5.5 0 0 1 0 "), 0u) << line;
+}
+
+TEST(ExplicitBodies, OfABadTableAreRefusedWithTheirLine) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.toml", explicit_scene("file = \"bodies.csv\"\n", ""));
+  const std::string file = folder.path("bodies.csv");
+  const auto message = [&](const std::string& before, const std::string& after) {
+    folder.write("bodies.csv", with(kTable, before, after));
+    const Finished run = run_quietly(scene, folder.path("out"));
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
+    return run.err.substr(0, run.err.size() - 1);
+  };
+  EXPECT_EQ(message("5,b", "5,c"),
+            file + ":2: type = c: a name of one of the scene's particle types");
+  EXPECT_EQ(message("0,0,0,2", "0,0,0,0"), file + ":3: qw = 0: 4 finite numbers, not all 0");
+  EXPECT_EQ(message("50,", "nan,").find(file + ":3: y = nan: "), 0u);
+  EXPECT_EQ(message("type", "kind").find(file + ":1: "), 0u);
+  EXPECT_EQ(message("qz", "q").find(file + ":1: "), 0u);
+  EXPECT_EQ(message("5,b", "5,a"), file + ": 3 bodies of type a: as many as particles.a.count, 2");
+  std::filesystem::remove(file);
+  EXPECT_EQ(run_quietly(scene, folder.path("out")).err.find(file + ": cannot be read"), 0u);
+}
+
+}  // namespace
+}  // namespace tangency::test
