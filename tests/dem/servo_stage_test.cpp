@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Servos on a real assembly: what a stage says it holds is held.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <tangency/dem/simulation.hpp>
+
+#include "scenes.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Mat3;
+using tangency::Vec3;
+using namespace tangency::test;
+
+constexpr double kPressure = 50e6;
+
+/// Spheres of two sizes compacted at random to kPressure, then `stage`, with friction.
+std::string compacted_then(const std::string& stage) {
+  return "schema = 1\n[particles.grain]\ncount = 25\nmean_radius = 10.0\nelongation = 1.2\n"
+         "[particles.stone]\ncount = 25\nmean_radius = 7.0\n[contact]\n"
+         "normal_stiffness = 1.5e10\nfriction_coefficient = 0.5\n"
+         "[[stage]]\nkind = \"place\"\narrangement = \"random\"\nbounding_fraction = 0.3\n"
+         "[[stage]]\nkind = \"compress\"\nfriction_coefficient = 0.0\nmean_stress = 50e6\n"
+         "max_strain_rate = 0.1\ntime_step_factor = 0.3\ndamping = 0.3\n"
+         "[[stage]]\nkind = \"relax\"\nmean_stress = 50e6\nmax_unbalanced_ratio = 0.02\n"
+         "max_strain_rate = 0.1\ntime_step_factor = 0.3\n" +
+         stage;
+}
+
+/// The state at the start of the stage added last, which all tests begin with.
+const State& compacted() {
+  static const State state = [] {
+    Simulation simulation(parse_scene(compacted_then(""), "scene.toml"));
+    while (!simulation.finished()) {
+      const StageStatus status = simulation.status();
+      if (status == StageStatus::out_of_cycles) throw std::runtime_error("it does not compact");
+      if (status == StageStatus::done)
+        simulation.next_stage();
+      else
+        simulation.step();
+    }
+    return simulation.state();
+  }();
+  return state;
+}
+
+/// Runs a stage of kind servo; stresses after every cycle.
+std::vector<Stress> stresses_in(const std::string& keys) {
+  const std::string stage = "[[stage]]\nkind = \"servo\"\ntime_step_factor = 0.3\n" + keys;
+  Simulation simulation(parse_scene(compacted_then(stage), "scene.toml"), compacted());
+  std::vector<Stress> seen;
+  while (simulation.status() == StageStatus::running) {
+    simulation.step();
+    seen.push_back(simulation.observe().stress);
+  }
+  return seen;
+}
+
+/// The mean over the last tenth, and how far single cycles are from it at most.
+struct Held {
+  double mean = 0.0, spread = 0.0;
+
+  template <class F>
+  Held(const std::vector<Stress>& seen, F&& value) {
+    const std::size_t first = seen.size() - seen.size() / 10;
+    for (std::size_t k = first; k < seen.size(); ++k)
+      mean += value(seen[k]) / static_cast<double>(seen.size() - first);
+    for (std::size_t k = first; k < seen.size(); ++k)
+      spread = std::max(spread, std::abs(value(seen[k]) - mean));
+  }
+};
+
+void expect_held(const Held& held, double wanted) {
+  EXPECT_NEAR(held.mean, wanted, 0.01 * kPressure);
+  EXPECT_LT(held.spread, 0.01 * kPressure);
+}
+
+auto component(int axis) {
+  return [axis](const Stress& stress) { return stress.tensor(axis, axis); };
+}
+double mean_of(const Stress& stress) { return stress.mean(); }
+
+const std::string kRate = "duration = 3000\nmax_strain_rate = 0.05\n";
+
+TEST(ServoStage, HoldsTheMeanStressOfASlowShear) {
+  expect_held(
+      Held(stresses_in(kRate + "mean_stress = 60e6\nstrain_rate = [-0.001, -0.001, 0.002]\n"),
+           mean_of),
+      60e6);
+}
+
+TEST(ServoStage, HoldsThreeComponentsEachAtItsOwn) {
+  const auto seen = stresses_in(kRate + "stress_xx = 45e6\nstress_yy = 50e6\nstress_zz = 60e6\n");
+  expect_held(Held(seen, component(0)), 45e6);
+  expect_held(Held(seen, component(1)), 50e6);
+  expect_held(Held(seen, component(2)), 60e6);
+}
+
+TEST(ServoStage, HoldsTheMeanOfAPlaneAndTheStressAcrossIt) {
+  const auto seen = stresses_in(kRate + "plane_mean_stress = 45e6\nstress_zz = 60e6\n");
+  expect_held(Held(seen, [](const Stress& s) { return 0.5 * (s.tensor(0, 0) + s.tensor(1, 1)); }),
+              45e6);
+  expect_held(Held(seen, component(2)), 60e6);
+}
+
+/// From z towards x, of the larger principal stress in their plane.
+double major_angle_deg(const Stress& stress) {
+  const Mat3& s = stress.tensor;
+  return 0.5 * std::atan2(2.0 * s(2, 0), s(2, 2) - s(0, 0)) * 180.0 / std::numbers::pi;
+}
+
+TEST(ServoStage, HoldsTheDirectionOfTheMajorStressAndTheMean) {
+  for (const double angle : {20.0, -35.0}) {
+    // Compressed along the direction, so that its stress is the major one.
+    const double turn = angle * std::numbers::pi / 180.0, rate = 0.004;
+    const double along = rate * std::cos(2.0 * turn), across = rate * std::sin(2.0 * turn);
+    const auto seen = stresses_in(
+        kRate + "mean_stress = 50e6\nmajor_direction = " + std::to_string(angle) +
+        "\nstrain_rate = [" + std::to_string(-along) + ", 0.0, " + std::to_string(along) +
+        "]\nshear_rate = [0.0, 0.0, " + std::to_string(0.5 * across) + "]\n");
+    expect_held(Held(seen, mean_of), 50e6);
+    const Held held(seen, major_angle_deg);
+    EXPECT_NEAR(held.mean, angle, 0.5);
+    EXPECT_LT(held.spread, 2.0);
+    const Mat3& s = seen.back().tensor;
+    EXPECT_GT(std::abs(s(2, 2) - s(0, 0)) + std::abs(s(2, 0)), 0.1 * kPressure)
+        << "there is a direction to hold";
+  }
+}
+
+/// How often the mean stress swings from 1 % above the wanted to 1 % below or back, from its first
+/// arrival on.
+int swings(const std::vector<Stress>& seen, double wanted) {
+  int count = 0, side = 0;
+  bool arrived = false;
+  for (const Stress& stress : seen) {
+    const double off = stress.mean() / wanted - 1.0;
+    arrived = arrived || std::abs(off) < 0.01;
+    if (!arrived || std::abs(off) < 0.01) continue;
+    const int now = off > 0.0 ? 1 : -1;
+    if (side != 0 && now != side) ++count;
+    side = now;
+  }
+  return count;
+}
+
+TEST(ServoStage, OfProportionAndIntegralDoesNotRingWhereThePublishedOneDoes) {
+  const std::string step = "duration = 3000\nmax_strain_rate = 0.1\nmean_stress = 60e6\n";
+  const auto quiet = stresses_in(step);
+  EXPECT_LE(swings(quiet, 60e6), 1);
+  expect_held(Held(quiet, mean_of), 60e6);
+  EXPECT_GE(swings(stresses_in(step + "published_gain = 1e-11\n"), 60e6), 5);
+  EXPECT_GE(swings(stresses_in(step + "published_gain = 1e-10\n"), 60e6), 10);
+}
+
+}  // namespace

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tangency/dem/simulation.hpp>
+
+#include "moving.hpp"
+
+namespace {
+
+using namespace tangency::dem;
+using tangency::Vec3;
+using namespace tangency::test;
+
+/// Every particle and wall whose distance is below the particle's largest semi-axis.
+std::vector<Pair> meeting_walls(const Particles& particles, const Cell& cell) {
+  std::vector<Pair> pairs;
+  const Vec3 far = cell.edges.diagonal();
+  const auto count = static_cast<std::int32_t>(particles.size());
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Vec3& x = particles.position[static_cast<std::size_t>(i)];
+    const double radius = particles.semi_axes[static_cast<std::size_t>(i)].maxCoeff();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!cell.walled[static_cast<std::size_t>(axis)]) continue;
+      if (x[axis] < radius) pairs.push_back({i, count + 2 * axis, Image{}});
+      if (far[axis] - x[axis] < radius) pairs.push_back({i, count + 2 * axis + 1, Image{}});
+    }
+  }
+  return pairs;
+}
+
+class Walls : public testing::TestWithParam<std::array<bool, 3>> {};
+
+TEST_P(Walls, AreListedWithEveryParticleThatMeetsThemWhileTheListIsCurrent) {
+  Cell cell = Cell::box({7.0, 8.0, 6.0}, 3, GetParam());
+  Particles particles = crowd(150, cell, 61);
+  for (Vec3& x : particles.position)  // inside along walled axes, with some behind the walls
+    for (int k = 0; k < 3; ++k)
+      if (cell.walled[static_cast<std::size_t>(k)])
+        x[k] = (x[k] + cell.edges(k, k)) / 3.0 * 1.1 - 0.05 * cell.edges(k, k);
+  cell.rate = Vec3(-0.6, 0.2, -0.4).asDiagonal();
+  NeighbourList list;
+  list.build(particles, cell, 0.25);
+  int steps = 0;
+  for (; list.is_current(particles, cell); ++steps) {
+    ASSERT_LT(steps, 1000);
+    const auto meeting = meeting_walls(particles, cell);
+    ASSERT_GT(meeting.size(), 20u);
+    ASSERT_TRUE(
+        std::includes(list.pairs().begin(), list.pairs().end(), meeting.begin(), meeting.end()));
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      particles.position[i] +=
+          0.002 * (0.5 * particles.velocity[i] + cell.rate * particles.position[i]);
+    cell.strain(0.002);
+  }
+  EXPECT_GT(steps, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Along, Walls,
+                         testing::Values(std::array{true, false, false},
+                                         std::array{false, true, true},
+                                         std::array{true, true, true}),
+                         [](const auto& one) {
+                           std::string name;
+                           for (std::size_t k = 0; k < 3; ++k)
+                             if (one.param[k]) name += "XYZ"[k];
+                           return name;
+                         });
+
+/// One body in a box of walls on all sides, under gravity along -z, damped for long.
+State fallen(const std::string& shape, const std::string& contact, const std::string& body) {
+  const std::string text =
+      "schema = 1\n[cell]\nsize = [4, 4, 4]\nwalls = \"xyz\"\n[motion]\n"
+      "gravity = [0.0, 0.0, -9.81]\n[particles.stone]\ncount = 1\ndensity = 2500.0\n" +
+      shape + "[contact]\nfriction_coefficient = 0.5\n" + contact + "[contact.stone-wall]\n" +
+      "[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\n[[body]]\ntype = \"stone\"\n" +
+      body +
+      "[[stage]]\nkind = \"servo\"\nduration = 60000\ndamping = 0.02\ntime_step_factor = 0.2\n";
+  Simulation simulation(parse_scene(text, "scene.toml"));
+  while (simulation.status() == StageStatus::running) simulation.step();
+  return simulation.state();
+}
+
+/// The only touch of a body that has come to rest: with the floor.
+Contact floor_of(const State& state) {
+  std::vector<Contact> touching;
+  for (std::size_t k = 0; k < state.list.pairs().size(); ++k)
+    if (state.contacts.records()[k].touches()) {
+      EXPECT_EQ(state.list.pairs()[k].b, 1 + 4) << "wall 4 is that at z = 0";
+      touching.push_back(state.contacts.records()[k]);
+    }
+  EXPECT_EQ(touching.size(), 1u);
+  return touching.at(0);
+}
+
+TEST(Walls, BearASphereAtTheOverlapOfItsWeight) {
+  const State state =
+      fallen("mean_radius = 0.5\n", "normal_stiffness = 1e6\n", "position = [1.5, 2.5, 0.6]\n");
+  const double weight = state.particles.mass[0] * 9.81;
+  const Contact floor = floor_of(state);
+  EXPECT_NEAR(floor.overlap, weight / 1e6, 1e-9 * floor.overlap);
+  EXPECT_NEAR(state.particles.position[0][2], 0.5 - weight / 1e6, 1e-12);
+  EXPECT_NEAR(floor.force[2], -weight, 1e-9 * weight) << "of the particle on the wall";
+  EXPECT_LT(state.particles.velocity[0].norm(), 1e-9);
+}
+
+TEST(Walls, BearAHertzSphereAtTheOverlapOfItsWeight) {
+  const State state =
+      fallen("mean_radius = 0.5\n", "law = \"hertz\"\nyoung_modulus = 1e8\npoisson_ratio = 0.25\n",
+             "position = [1.5, 2.5, 0.5]\n");
+  const double weight = state.particles.mass[0] * 9.81;
+  const double modulus = 1e8 / (2.0 * (1.0 - 0.25 * 0.25));
+  const double overlap = std::pow(weight / (4.0 / 3.0 * modulus * std::sqrt(0.5)), 2.0 / 3.0);
+  EXPECT_NEAR(floor_of(state).overlap, overlap, 1e-9 * overlap);
+}
+
+TEST(Walls, BearATiltedEllipsoidOnItsFlatSideInTheEnd) {
+  const State state =
+      fallen("mean_radius = 0.5\nelongation = 1.3\nflatness = 1.6\n", "normal_stiffness = 1e6\n",
+             "position = [2.0, 2.0, 0.8]\norientation = [1.0, 0.2, 0.15, 0.1]\n");
+  const double weight = state.particles.mass[0] * 9.81;
+  const double c = state.particles.semi_axes[0][2];
+  EXPECT_NEAR(state.particles.position[0][2], c - weight / 1e6, 1e-6 * c);
+  const Vec3 flat = state.particles.orientation[0] * Vec3::UnitZ();
+  EXPECT_GT(std::abs(flat[2]), 1.0 - 1e-6);
+  EXPECT_NEAR(floor_of(state).overlap, weight / 1e6, 1e-6 * weight / 1e6);
+}
+
+}  // namespace
