@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Frames as other programs read them, by a reader of their own: sizes and orientations are those
+/// of the particles that were put down. `frames_check.py` reads them with VTK and ASE.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <tangency/geometry/ellipsoid.hpp>
+
+#include "../tool/process.hpp"
+
+namespace tangency::test {
+namespace {
+
+constexpr double kAxes[] = {3.0, 2.0, 1.5};  // of mean radius cbrt(9), a/b 3/2, b/c 4/3
+
+/// Two triaxial bodies at rest, far apart, in a cell that a servo stage shears a little.
+std::string scene() {
+  return "schema = 1\n[cell]\nsize = [40, 50, 60]\n[particles.stone]\ncount = 2\n"
+         "mean_radius = 2.080083823051904\nelongation = 1.5\nflatness = 1.3333333333333333\n"
+         "[contact]\nnormal_stiffness = 1e6\n[[stage]]\nkind = \"place\"\n"
+         "arrangement = \"explicit\"\n[[body]]\ntype = \"stone\"\nposition = [10.0, 20.0, 30.0]\n"
+         "orientation = [0.8, 0.1, -0.5, 0.3]\n[[body]]\ntype = \"stone\"\n"
+         "position = [30.0, 30.0, 30.0]\norientation = [1.0, 0.0, 0.0, 1.0]\n"
+         "[[stage]]\nkind = \"servo\"\nduration = 50\nshear_rate = [0.005, 0.0, 0.0]\n";
+}
+
+/// Half the extent along x, y, z of the body with that quaternion (w, x, y, z): sqrt of the
+/// diagonal of R diag(a^2) R'.
+Vec3 half_extent(double w, double x, double y, double z) {
+  const Mat3 rotation = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  const Vec3 axes(kAxes[0], kAxes[1], kAxes[2]);
+  return (rotation.cwiseAbs2() * axes.cwiseAbs2()).cwiseSqrt();
+}
+const Vec3 kExtents[] = {half_extent(0.8, 0.1, -0.5, 0.3), half_extent(1.0, 0.0, 0.0, 1.0)};
+
+std::vector<double> numbers(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<double> all;
+  for (double x; in >> x;) all.push_back(x);
+  return all;
+}
+
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t at = text.find(before);
+  EXPECT_NE(at, text.npos) << before;
+  const std::size_t start = at + before.size();
+  return text.substr(start, text.find(after, start) - start);
+}
+
+struct Made {
+  TemporaryFolder folder;
+  Made() {
+    const std::string path = folder.write("scene.toml", scene());
+    const Finished run = run_tool({"run", path, "--out", folder.path("out"), "--quiet"});
+    EXPECT_EQ(run.status, 0) << run.err;
+  }
+  std::string file(const std::string& name) const { return read_file(folder.path("out/" + name)); }
+};
+
+/// A DataArray of a .vtp file.
+std::vector<double> array_of(const std::string& vtp, const std::string& name) {
+  return numbers(between(between(vtp, "Name=\"" + name + "\"", "</DataArray>"), ">", "<"));
+}
+
+// A sphere of diameter 1 stretched by the tensor, as Tensor Glyph does, spans R diag(a^2) R'.
+TEST(Frames, ForParaViewHaveATensorThatStretchesASphereToTheBody) {
+  const Made made;
+  const std::string vtp = made.file("frames/0.vtp");
+  const auto tensors = array_of(vtp, "axes");
+  ASSERT_EQ(tensors.size(), 18u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Mat3 tensor = Eigen::Map<const Mat3>(tensors.data() + 9 * i);
+    const Vec3 extent = (0.25 * tensor * tensor.transpose()).diagonal().cwiseSqrt();
+    EXPECT_LT((extent - kExtents[i]).norm(), 1e-12);
+    EXPECT_GT(tensor.determinant(), 0.0) << "not turned inside out";
+  }
+  const auto points = numbers(between(between(vtp, "<Points>", "</DataArray>"), "ascii\">", "<"));
+  EXPECT_EQ(points, (std::vector<double>{10, 20, 30, 30, 30, 30}));
+  const auto orientation = array_of(vtp, "orientation");
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((half_extent(orientation[4 * i + 3], orientation[4 * i], orientation[4 * i + 1],
+                           orientation[4 * i + 2]) -
+               kExtents[i])
+                  .norm(),
+              1e-12)
+        << "x y z w";
+}
+
+TEST(Frames, ForParaViewAreAllInTheIndexAtTheirTimes) {
+  const Made made;
+  const std::string pvd = made.file("frames.pvd");
+  std::map<double, std::string> files;
+  for (std::size_t at = pvd.find("<DataSet"); at != pvd.npos; at = pvd.find("<DataSet", at + 1)) {
+    const std::string entry = pvd.substr(at, pvd.find("/>", at) - at);
+    files[std::stod(between(entry, "timestep=\"", "\""))] = between(entry, "file=\"", "\"");
+  }
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files.begin()->first, 0.0);
+  for (const auto& [time, file] : files)
+    EXPECT_NE(made.file(file).find("</VTKFile>"), std::string::npos);
+}
+
+TEST(Frames, ForOvitoHaveEdgesSemiAxesAndQuaternionsInItsOrder) {
+  const Made made;
+  std::istringstream in(made.file("frames.xyz"));
+  std::string line;
+  int frames = 0;
+  while (std::getline(in, line)) {
+    ASSERT_EQ(line, "2");
+    std::getline(in, line);
+    const auto edges = numbers(between(line, "Lattice=\"", "\""));
+    ASSERT_EQ(edges.size(), 9u);
+    // Edge by edge. Sheared by a shear rate that is one of compression: towards negative angles.
+    EXPECT_NEAR(edges[0] * edges[4] * edges[8], 120000.0, 120.0);
+    EXPECT_EQ(edges[1] < 0.0 && edges[3] < 0.0, frames == 1);
+    EXPECT_NEAR(edges[1] / edges[0], edges[3] / edges[4], 1e-12);
+    EXPECT_EQ(edges[8], 60.0);
+    EXPECT_NE(line.find("pbc=\"T T T\""), line.npos);
+    EXPECT_NE(
+        line.find("Properties=species:S:1:pos:R:3:orientation:R:4:aspherical_shape:R:3:velo:R:3"),
+        line.npos);
+    for (const Vec3& extent : kExtents) {
+      std::string species;
+      std::getline(in, line);
+      std::istringstream(line) >> species;
+      EXPECT_EQ(species, "stone");
+      const auto row = numbers(line.substr(species.size()));
+      ASSERT_EQ(row.size(), 13u);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(row[7 + k], kAxes[k], 1e-12);
+      EXPECT_LT((half_extent(row[6], row[3], row[4], row[5]) - extent).norm(), 1e-12);
+    }
+    ++frames;
+  }
+  EXPECT_EQ(frames, 2);
+}
+
+}  // namespace
+}  // namespace tangency::test
