@@ -31,6 +31,7 @@ TEST(ShearPeaks, OfFrictionAreTheHighestRow) {
   EXPECT_NEAR(peaks.strain_at_friction, 0.05, 1e-12);
 }
 
+// dem/peaks.hpp (1)
 TEST(ShearPeaks, OfALineHaveItsSlope) {
   const auto made = rows(
       0.0005, 300, [](double e) { return 0.7 * e; }, none);
@@ -60,6 +61,17 @@ TEST(ShearPeaks, OfRowsFarApartAreThoseOfThreeNeighbours) {
   const auto made = rows(
       0.02, 10, [](double e) { return e < 0.11 ? 0.0 : 0.3 * (e - 0.1); }, none);
   EXPECT_NEAR(shear_peaks(made)->dilation_rate, 0.3, 1e-12);
+}
+
+// dem/peaks.hpp (2)
+TEST(ShearPeaks, AreTakenOverTheFullWidthOrAllThereIs) {
+  // Flat, but for the last two of 50 rows, which rise with slope 1: in the last full window, of 11
+  // rows, offsets -5 to 5 of which the last two weigh 4 and 5 times 1 and 2, over 110.
+  const auto late = [](double e) { return e > 0.0485 ? e - 0.048 : 0.0; };
+  EXPECT_NEAR(shear_peaks(rows(0.001, 50, late, none))->dilation_rate, 14.0 / 110.0, 1e-9);
+  // Six rows and the start, a kink: one window of them all, offsets -3 to 3, over 28.
+  const auto kink = [](double e) { return e > 0.0035 ? e - 0.003 : 0.0; };
+  EXPECT_NEAR(shear_peaks(rows(0.001, 6, kink, none))->dilation_rate, 14.0 / 28.0, 1e-9);
 }
 
 TEST(ShearPeaks, OfOneRowCountTheUnstrainedStart) {

@@ -33,6 +33,7 @@ std::vector<Pair> meeting_walls(const Particles& particles, const Cell& cell) {
 
 class Walls : public testing::TestWithParam<std::array<bool, 3>> {};
 
+// dem/neighbours.hpp (5)
 TEST_P(Walls, AreListedWithEveryParticleThatMeetsThemWhileTheListIsCurrent) {
   Cell cell = Cell::box({7.0, 8.0, 6.0}, 3, GetParam());
   Particles particles = crowd(150, cell, 61);
