@@ -19,9 +19,8 @@ constexpr std::string_view wall = "wall";
 
 bool is_contact_key(std::string_view name) {
   const auto keys = scene_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
-    return key.section == "contact" && key.name == name;
-  });
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const Key& key) { return key.section == "contact" && key.name == name; });
 }
 
 /// The largest stiffness of a Hertz contact of two bodies of these shapes: flat on flat.

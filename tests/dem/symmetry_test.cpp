@@ -53,8 +53,8 @@ class Seen : public testing::TestWithParam<ContactLaw> {
  protected:
   static constexpr int kSteps = 30;
   static constexpr double kTimeStep = 0.002;
-  /// Normals' errors of up to 1e-8, which gaps feel in second order alone, and rounding, grown by 30
-  /// steps of a crowd that flies apart: seen up to 5e-9.
+  /// Normals' errors of up to 1e-8, which gaps feel in second order alone, and rounding, grown by
+  /// 30 steps of a crowd that flies apart: seen up to 5e-9.
   static constexpr double kTolerance = 2e-8;
 
   Moving crowd_in_a_cell() const {
