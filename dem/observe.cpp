@@ -19,10 +19,6 @@ std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& 
   return counts;
 }
 
-double largest_eigenvalue(const Mat3& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[2];
-}
-
 double standard_deviation(const std::vector<std::int64_t>& counts, double mean) {
   double sum = 0.0;
   for (const std::int64_t count : counts) {
@@ -93,9 +89,15 @@ Balance balance_of(const Particles& particles, const Contacts& contacts,
 
 double critical_time_step(const Particles& particles, const Contacts& contacts,
                           const NeighbourList& list) {
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
   double largest = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    Mat3 shift = Mat3::Zero(), turn = Mat3::Zero();
+    const Vec3 inertia =
+        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
+    // Shifts and turns about the body axes, each times the root of its inertia.
+    const Mat3 turns = particles.orientation[i].toRotationMatrix() *
+                       inertia.cwiseSqrt().cwiseInverse().asDiagonal();
+    Mat6 sum = Mat6::Zero();
     for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
       const Contact& contact = contacts.records()[at->index];
       if (!contact.touches()) continue;
@@ -104,18 +106,14 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
       const Mat3 stiffness =
           shear * Mat3::Identity() + (contact.normal_stiffness - shear) * n * n.transpose();
       const Vec3 arm = at->as_b ? Vec3(contact.arm - contact.branch) : contact.arm;
-      Mat3 lever;  // lever v = v x arm
-      lever << 0.0, arm[2], -arm[1], -arm[2], 0.0, arm[0], arm[1], -arm[0], 0.0;
-      shift += stiffness;
-      turn += lever.transpose() * stiffness * lever;
+      Eigen::Matrix<double, 3, 6> motion;  // of the contact point
+      motion.leftCols<3>() = Mat3::Identity() / std::sqrt(particles.mass[i]);
+      for (int k = 0; k < 3; ++k) motion.col(3 + k) = turns.col(k).cross(arm);
+      if (particles.dimensions == 2) motion.middleCols<3>(2).setZero();
+      sum += motion.transpose() * stiffness * motion;
     }
-    const Mat3 axes = particles.orientation[i].toRotationMatrix();
-    const Vec3 inertia =
-        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
-    const auto scale = inertia.cwiseSqrt().cwiseInverse().asDiagonal();
-    const Mat3 turn_in_body = scale * (axes.transpose() * turn * axes) * scale;
-    largest = std::max(
-        {largest, largest_eigenvalue(shift) / particles.mass[i], largest_eigenvalue(turn_in_body)});
+    const Eigen::SelfAdjointEigenSolver<Mat6> modes(sum, Eigen::EigenvaluesOnly);
+    largest = std::max(largest, modes.eigenvalues()[5]);
   }
   return std::sqrt(2.0 / largest);
 }

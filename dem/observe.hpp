@@ -50,9 +50,11 @@ struct Balance {
 };
 Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list);
 
-/// The longest step that is stable, estimated from the contacts as they are: 2 / sqrt(2 s), s the
-/// largest stiffness over inertia of any particle, shifts and turns each by themselves, against
-/// neighbours that swing the other way. Infinite without contacts.
+/// A step that is stable for the contacts as they are: 2 / sqrt(2 s), s the largest stiffness over
+/// inertia of any particle, shifts and turns together. No assembly's frequency is above sqrt(2 s),
+/// since a spring stores k |u_b - u_a|^2 / 2 <= k |u_a|^2 + k |u_b|^2; it is reached where neighbours
+/// swing the other way, by two equal spheres or a lattice of them. Normals and arms count as fixed.
+/// Infinite without contacts.
 double critical_time_step(const Particles& particles, const Contacts& contacts,
                           const NeighbourList& list);
 
@@ -63,7 +65,7 @@ struct EnergyAccount {
   double boundary = 0.0;  ///< work of the straining cell and its walls on the contacts
   double gravity = 0.0;   ///< work of gravity
   double growth = 0.0;    ///< stored by particles that changed their shape
-  double branch = 0.0;    ///< gained where contacts went over to another branch
+  double branch = 0.0;    ///< gained by contacts that changed branch or curvature (ContactWork)
   double sliding = 0.0;   ///< lost to friction
   double damping = 0.0;   ///< lost to damping
 
