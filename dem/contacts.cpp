@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tangency/dem/contacts.hpp>
 
 namespace tangency::dem {
@@ -17,15 +18,24 @@ std::size_t type_of(const Particles& particles, std::int32_t body, std::size_t w
 
 /// Velocity of b relative to a at the contact point less the cell's strain [Ouadfel1998, eq. 3.1].
 /// A wall moves with the strain alone.
-Vec3 relative_velocity(const Particles& particles, const Pair& pair, const Contact& contact) {
+Vec3 relative_velocity(const Particles& particles, const Pair& pair, const Vec3& arm,
+                       const Vec3& branch) {
   const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-  const Vec3 of_a = particles.velocity[a] + particles.angular_velocity[a].cross(contact.arm);
+  const Vec3 of_a = particles.velocity[a] + particles.angular_velocity[a].cross(arm);
   if (b >= particles.size()) return -of_a;
-  const Vec3 arm_b = contact.arm - contact.branch;
+  const Vec3 arm_b = arm - branch;
   return particles.velocity[b] + particles.angular_velocity[b].cross(arm_b) - of_a;
 }
 
 double stored(const Contact& contact) { return contact.normal_energy + contact.shear.energy; }
+
+/// A Hertz contact stores c overlap^(5/2), where c goes with the curvatures: the mean over the step
+/// of dc overlap^(5/2).
+double gained_by_curvature(const Contact& before, const Contact& after) {
+  const double ratio = after.overlap / before.overlap, power = ratio * ratio * std::sqrt(ratio);
+  return 0.5 * (after.normal_energy - before.normal_energy * power +
+                after.normal_energy / power - before.normal_energy);
+}
 
 }  // namespace
 
@@ -84,12 +94,12 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
                      ContactWork& work) const {
   const bool touched = contact.touches();
   const bool touches = touch.gap < 0.0;
+  const Contact before = contact;
   contact.branch = touch.branch;
   if (!touches && !touched) {
     contact.normal = touch.normal;
     return;
   }
-  const Contact before = contact;
   const std::size_t walls = step.laws.types - 1;
   const ContactLaw& law = step.laws.between(type_of(step.particles, pair.a, walls),
                                             type_of(step.particles, pair.b, walls));
@@ -97,8 +107,12 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
   contact.normal = touch.normal;
   contact.branch = touch.branch;
   contact.arm = touches ? touch.arm : before.arm;
-  const Vec3 strained = step.dt * (step.cell.rate * contact.branch);
-  const Vec3 moved = step.dt * relative_velocity(step.particles, pair, contact) + strained;
+  // Half way through the step, but for the strain, which move() takes from where it began.
+  const Contact& from = touched ? before : contact;
+  const Vec3 strained = step.dt * (step.cell.rate * from.branch);
+  const Vec3 moved = strained + step.dt * relative_velocity(step.particles, pair,
+                                                            0.5 * (from.arm + contact.arm),
+                                                            0.5 * (from.branch + contact.branch));
   double sliding = before.shear.energy;  // of a spring that is let go
   if (touches) {
     contact.overlap = -touch.gap;
@@ -111,16 +125,20 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
     contact.force = contact.normal_force * contact.normal;
     if (law.bears_shear()) {
       contact.shear = before.shear;
-      const Vec3& previous = touched ? before.normal : contact.normal;
-      sliding = law.shear(contact.shear, {previous, contact.normal, moved}, response);
+      // Half of it before the normal turns, half after.
+      const Vec3 turning = 0.5 * (moved + turned_with(moved, from.normal, contact.normal));
+      sliding = law.shear(contact.shear, {from.normal, contact.normal, turning}, response);
       contact.force += contact.shear.force;
     }
   }
   const Vec3 mean_force = 0.5 * (before.force + contact.force);
   work.sliding += sliding;
   work.boundary -= mean_force.dot(strained);
-  if (touches && touched && before.normal.dot(contact.normal) < same_branch)
+  if (!touches || !touched) return;
+  if (before.normal.dot(contact.normal) < same_branch)
     work.branch += stored(contact) - stored(before) + sliding + mean_force.dot(moved);
+  else if (law.hertz)
+    work.branch += gained_by_curvature(before, contact);
 }
 
 void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now) {

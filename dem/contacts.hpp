@@ -22,7 +22,9 @@ inline constexpr std::size_t worth_sharing = 400;
 /// One listed pair (a, image of b, or a wall) at the current positions.
 struct Contact {
   Vec3 normal = Vec3::Zero();  ///< unit, from a to b; of a pair apart: as last known; 0: not known
-  Vec3 branch = Vec3::Zero();  ///< c_b - c_a; to a wall: to the contact point
+  /// c_b - c_a. To a wall: to where it is touched, so that force times branch is the work that the
+  /// wall's motion does per strain.
+  Vec3 branch = Vec3::Zero();
   Vec3 arm = Vec3::Zero();     ///< contact point - c_a; of touching pairs only
   Vec3 force = Vec3::Zero();   ///< of a on b; 0 for pairs apart
   ShearState shear;            ///< stays 0 without friction
@@ -51,7 +53,8 @@ struct ContactWork {
   double sliding = 0.0;   ///< lost to friction, and with shear springs that were let go
   double boundary = 0.0;  ///< done on the assembly by the straining cell
   /// Gained where a pair went over to another branch, whose force and overlap are not the
-  /// neighbours of those before.
+  /// neighbours of those before, and where a Hertz contact rolled to other curvatures: its force
+  /// does not feel that its energy changes with them.
   double branch = 0.0;
 
   ContactWork& operator+=(const ContactWork& other);

@@ -99,7 +99,7 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
     velocity = keep * velocity + (push / mass) * resultants.force[i] + push * motion.gravity;
     const Vec3 mean = 0.5 * (before + velocity);
     work[i] = {dt * motion.damping * mass * mean.squaredNorm(),
-               dt * mass * motion.gravity.dot(mean)};
+               dt * mass * motion.gravity.dot(velocity)};
     Vec3& x = particles.position[i];
     x += dt * (velocity + cell.rate * x);
     if (motion.rotation != Rotation::none)
@@ -122,14 +122,9 @@ double kinetic_energy_at(const Particles& particles, const Resultants& resultant
   double power = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3& velocity = particles.velocity[i];
-    const double mass = particles.mass[i];
-    power += (resultants.force[i] + mass * motion.gravity).dot(velocity) -
-             motion.damping * mass * velocity.squaredNorm();
+    power += (resultants.force[i] + particles.mass[i] * motion.gravity).dot(velocity);
     if (motion.rotation == Rotation::none) continue;
-    const Vec3& spin = particles.angular_velocity[i];
-    const Vec3 in_body = particles.orientation[i].conjugate() * spin;
-    const Vec3 inertia = principal_inertia(mass, particles.semi_axes[i], particles.dimensions);
-    power += resultants.moment[i].dot(spin) - motion.damping * inertia.dot(in_body.cwiseAbs2());
+    power += resultants.moment[i].dot(particles.angular_velocity[i]);
   }
   return kinetic_energy(particles) + 0.5 * dt * power;
 }

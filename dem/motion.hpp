@@ -40,8 +40,8 @@ struct Motion {
 
 /// What acted on the fluctuating velocities besides contacts, energy.
 struct MotionWork {
-  double damping = 0.0;  ///< taken away
-  double gravity = 0.0;  ///< given
+  double damping = 0.0;  ///< taken away, up to the half step of the new velocities
+  double gravity = 0.0;  ///< given, on the way to the new positions
 };
 
 /// Takes velocities from half a step before to half a step after the resultants' time,
@@ -52,8 +52,9 @@ struct MotionWork {
 MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
                 const Motion& motion, double dt);
 
-/// Kinetic energy at the resultants' time, half a step after that of the velocities: to first order
-/// in dt, which is what makes an account of leapfrog's energies add up.
+/// Kinetic energy of the velocities, half a step before the resultants' time, and half a step's work
+/// of contacts and gravity: with it, and damping as MotionWork has it, an account of leapfrog's
+/// energies adds up but for how far works by mean forces are from stored energies, of second order.
 double kinetic_energy_at(const Particles& particles, const Resultants& resultants,
                          const Motion& motion, double dt);
 

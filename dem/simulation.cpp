@@ -73,9 +73,9 @@ Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
   renew_list();
   update_contacts(0.0);
-  state_.energy = {};
-  state_.energy.start = kinetic_energy(state_.particles) + elastic_energy(state_.contacts);
   next_stage();
+  state_.energy = {};
+  state_.energy.start = kinetic_energy_now() + elastic_energy(state_.contacts);
 }
 
 Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(std::move(state)) {
@@ -144,6 +144,12 @@ double Simulation::time_step_ratio() const {
 Motion Simulation::motion() const {
   const double time = characteristic_time(state_.particles, laws_.largest_stiffness());
   return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity, stage().drive->damping / time};
+}
+
+/// At the time of the positions: what goes with the elastic energy in the account.
+double Simulation::kinetic_energy_now() const {
+  if (!stage().drive) return kinetic_energy(state_.particles);  // nothing moves after the placing
+  return kinetic_energy_at(state_.particles, state_.contacts.resultants(), motion(), time_step());
 }
 
 void Simulation::step() {
@@ -217,7 +223,7 @@ void Simulation::grow() {
     axes.push_back(
         scene_.shape_in(type, state_.stage, state_.increments).semi_axes(state_.cell.dimensions));
   Particles& particles = state_.particles;
-  const auto energy = [&] { return elastic_energy(state_.contacts) + kinetic_energy(particles); };
+  const auto energy = [&] { return elastic_energy(state_.contacts) + kinetic_energy_now(); };
   const double before = energy();
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.semi_axes[i] = axes[static_cast<std::size_t>(particles.type[i])];
@@ -262,12 +268,8 @@ double Simulation::stage_fraction() const {
 
 Observation Simulation::observe() const {
   Observation seen = dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
-  const double kinetic =
-      state_.cycle > 0
-          ? kinetic_energy_at(state_.particles, state_.contacts.resultants(), motion(), time_step())
-          : seen.kinetic_energy;
   seen.account = state_.energy;
-  seen.energy_error = kinetic + seen.elastic_energy - state_.energy.sum();
+  seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
   return seen;
 }
 

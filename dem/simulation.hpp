@@ -80,6 +80,7 @@ class Simulation {
   void renew_list();
   void update_contacts(double dt);
   Motion motion() const;
+  double kinetic_energy_now() const;
 
   Scene scene_;
   State state_;

@@ -167,7 +167,8 @@ Touch Bodies::touch_wall(std::size_t i, const Wall& wall, const Particles& parti
   const WallGap found = signed_gap(body, Plane{wall.normal(), -height});
   touch.gap = found.gap;
   touch.normal = found.normal;
-  touch.arm = touch.branch = 0.5 * (found.arm_body + found.arm_wall);
+  touch.arm = 0.5 * (found.arm_body + found.arm_wall);
+  touch.branch = found.arm_wall;
   return touch;
 }
 

@@ -22,7 +22,7 @@ enum class Branch {
 
 /// A pair at the current positions.
 struct Touch {
-  Vec3 branch;  ///< c_b - c_a; to a wall: to the contact point
+  Vec3 branch;  ///< c_b - c_a; to a wall: to where the wall is touched
   double gap;   ///< signed; of pairs that are known to be apart without it: infinite
   Vec3 normal;  ///< unit, from a to b; 0: not known
   Vec3 arm;     ///< contact point - c_a, midpoint of the witness points

@@ -56,8 +56,7 @@ struct FewBodies {
   /// Tensor of inertia in space.
   Mat3 inertia(std::size_t i) const {
     const Mat3 axes = particles.orientation[i].toRotationMatrix();
-    return axes *
-           dem::principal_inertia(particles.mass[i], particles.semi_axes[i]).asDiagonal() *
+    return axes * dem::principal_inertia(particles.mass[i], particles.semi_axes[i]).asDiagonal() *
            axes.transpose();
   }
 };

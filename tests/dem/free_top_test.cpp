@@ -54,8 +54,8 @@ struct Theory {
 
   Theory(const Vec3& inertia, const Vec3& spin) {
     const auto [i1, i2, i3] = std::tuple(inertia[0], inertia[1], inertia[2]);
-    const double twice = inertia.dot(spin.cwiseAbs2());                    // 2 E
-    const double square = inertia.cwiseProduct(spin).squaredNorm();        // L^2
+    const double twice = inertia.dot(spin.cwiseAbs2());              // 2 E
+    const double square = inertia.cwiseProduct(spin).squaredNorm();  // L^2
     const double to_i1 = square - twice * i1, to_i3 = twice * i3 - square;
     amplitude = Vec3(to_i3 / (i1 * (i3 - i1)), to_i3 / (i2 * (i3 - i2)), to_i1 / (i3 * (i3 - i1)))
                     .cwiseSqrt();
@@ -187,7 +187,8 @@ TEST(FreeTop, OfASphereOrASpheroidIsTheSameByBothEquationsWhereTheyAgree) {
   EXPECT_LT((full.axes().coeffs() - simplified.axes().coeffs()).norm(), 1000 * 40.0 * kUnit);
 }
 
-/// A field that turns the longest axis u towards z: moment k (u . z) u x z, energy -k (u . z)^2 / 2.
+/// A field that turns the longest axis u towards z: moment k (u . z) u x z, energy -k (u . z)^2
+/// / 2.
 struct Compass : Top {
   double strength = 3.0;
 
@@ -215,12 +216,11 @@ struct Compass : Top {
 
 /// Its second body axis along y, the longest at `angle` from z.
 Eigen::Quaterniond tilted(double angle) {
-  return Eigen::Quaterniond(
-      Eigen::AngleAxisd(angle - 0.5 * std::numbers::pi, Vec3::UnitY()));
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle - 0.5 * std::numbers::pi, Vec3::UnitY()));
 }
 
-// About one axis, twice the angle from z is that of a pendulum: sin(angle) = sin(start) cd(w t), w^2
-// = k / I, with the parameter sin(start)^2.
+// About one axis, twice the angle from z is that of a pendulum: sin(angle) = sin(start) cd(w t),
+// w^2 = k / I, with the parameter sin(start)^2.
 TEST(RotationUnderAMoment, IsThePendulumsWithAnErrorOfSecondOrder) {
   const double start = 1.2, time = 30.0;
   const auto off = [&](int steps) {

@@ -32,8 +32,8 @@ TEST(Hertz, OfEqualCurvaturesIsASpheres) {  // (1), (3)
   for (const double radius : {0.003, 1.0, 47.0}) {
     const double curvature[2] = {1.0 / radius, 1.0 / radius}, overlap = 0.01 * radius;
     const HertzContact contact = hertz_contact(curvature, overlap, kGlass);
-    const double force = 4.0 / 3.0 * kGlass.contact_modulus() * std::sqrt(radius) *
-                         std::pow(overlap, 1.5);
+    const double force =
+        4.0 / 3.0 * kGlass.contact_modulus() * std::sqrt(radius) * std::pow(overlap, 1.5);
     const double a = std::sqrt(radius * overlap);
     // Some ten roundings on each side.
     EXPECT_LT(relative(contact.force, force), 16 * kUnit);
@@ -81,9 +81,8 @@ TEST(Hertz, EllipticContactsSolveJohnsonsEquations) {
     const HertzContact contact = hertz_contact(curvature, overlap, kGlass);
     // K - E loses 1 / m of the oracle's 1e-15.
     const double tight = 2e-14 / m;
-    for (const double off :
-         {relative(contact.semi_axes[0], a), relative(contact.semi_axes[1], b),
-          relative(contact.force, 2.0 * pi / 3.0 * a * b * p0)}) {
+    for (const double off : {relative(contact.semi_axes[0], a), relative(contact.semi_axes[1], b),
+                             relative(contact.force, 2.0 * pi / 3.0 * a * b * p0)}) {
       EXPECT_LT(off, tight) << m;
       worst = std::max(worst, off);
     }
@@ -163,12 +162,12 @@ TEST(Mindlin, ShearStiffnessIsThatOfTheStampsTractionByQuadrature) {
       const auto [a, b] = contact.semi_axes;
       // The same all over the ellipse, both bodies give way, and the two axes differ.
       for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(0.5 * a, -0.3 * b)}) {
-        EXPECT_LT(relative(2.0 * give_way(a, b, nu, 1.0, 0.0, x, y),
-                           1.0 / contact.shear_stiffness[0]),
-                  1e-7);
-        EXPECT_LT(relative(2.0 * give_way(a, b, nu, 0.0, 1.0, x, y),
-                           1.0 / contact.shear_stiffness[1]),
-                  1e-7);
+        EXPECT_LT(
+            relative(2.0 * give_way(a, b, nu, 1.0, 0.0, x, y), 1.0 / contact.shear_stiffness[0]),
+            1e-7);
+        EXPECT_LT(
+            relative(2.0 * give_way(a, b, nu, 0.0, 1.0, x, y), 1.0 / contact.shear_stiffness[1]),
+            1e-7);
       }
     }
 }

@@ -57,8 +57,8 @@ struct Impact : FewBodies {
   }
   /// Lets them part; `parts` steps a radian of the normal oscillation.
   void run(double parts = 100.0) {
-    const double dt = 1.0 / (parts * std::sqrt(laws.law[0].normal_stiffness *
-                                               normal.dot(inverse_mass * normal)));
+    const double dt =
+        1.0 / (parts * std::sqrt(laws.law[0].normal_stiffness * normal.dot(inverse_mass * normal)));
     bool touched = false;
     for (int k = 0; !touched || touching() > 0; ++k) {
       ASSERT_LT(k, 20.0 * parts);
@@ -100,8 +100,8 @@ TEST(Impact, WithoutFrictionReversesTheNormalVelocityOfTheCommonNormal) {
     const double expected = -2.0 * n.dot(impact.start) / n.dot(impact.inverse_mass * n);
     const double energy = kinetic_energy(impact.particles);
     impact.run();
-    // Leapfrog with 1 / 100 of a radian: (1/100)^2 / 24 of the impulse, twice that of the energy, and
-    // as much where the force sets in and where it ends.
+    // Leapfrog with 1 / 100 of a radian: (1/100)^2 / 24 of the impulse, twice that of the energy,
+    // and as much where the force sets in and where it ends.
     EXPECT_NEAR(kinetic_energy(impact.particles), energy, 2e-5 * energy);
     return (impact.impulse() - expected * n).norm() / expected;
   };

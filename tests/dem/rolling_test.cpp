@@ -52,9 +52,9 @@ double speed_in_the_end(double speed, double mu, double depth) {
   return mean;
 }
 
-// Friction mu m g slows the centre and turns the sphere, I = (2/5) m r^2, until v = w r: v = (5/7) v_0,
-// whatever mu. The arm of friction is r less half the overlap: v / v_0 is off by depth (10/49), and
-// by a swing of the shear spring that the mean has not averaged out.
+// Friction mu m g slows the centre and turns the sphere, I = (2/5) m r^2, until v = w r: v = (5/7)
+// v_0, whatever mu. The arm of friction is r less half the overlap: v / v_0 is off by depth
+// (10/49), and by a swing of the shear spring that the mean has not averaged out.
 TEST(Rolling, EndsAtFiveSeventhsOfTheSpeedOfTheThrow) {
   for (const double mu : {0.1, 0.4}) {
     const double soft = speed_in_the_end(2.0, mu, 4e-5) / 2.0 - 5.0 / 7.0;
@@ -97,21 +97,21 @@ double rocking_period(const Vec3& radii, double tilt, double depth) {
   return (crossings.back() - crossings.front()) / 2.0;
 }
 
-// Rolling without slip on the plane, h the height of the centre and R the radius of curvature at the
-// bottom: kinetic energy (I + m h^2) w^2 / 2, potential m g (R - h) angle^2 / 2, since the height
-// of the centre over the floor is the support function, h'' + h = R.
+// Rolling without slip on the plane, h the height of the centre and R the radius of curvature at
+// the bottom: kinetic energy (I + m h^2) w^2 / 2, potential m g (R - h) angle^2 / 2, since the
+// height of the centre over the floor is the support function, h'' + h = R.
 //
-// For a tilt A that is not small: with e = a^2 / c^2 - 1 the height is c (1 + e A^2 / 2 - (e / 6 + e^2
-// / 8) A^4) and the arm squared is c^2 (1 + (e + e^2) A^2), which slow an oscillator by A^2 times 3/8
-// (2/3 + e/2) and 1/4 c^2 (e + e^2) / (I/m + c^2).
+// For a tilt A that is not small: with e = a^2 / c^2 - 1 the height is c (1 + e A^2 / 2 - (e / 6 +
+// e^2 / 8) A^4) and the arm squared is c^2 (1 + (e + e^2) A^2), which slow an oscillator by A^2
+// times 3/8 (2/3 + e/2) and 1/4 c^2 (e + e^2) / (I/m + c^2).
 TEST(Rocking, HasThePeriodOfAPendulumOfLengthRLessH) {
   for (const Vec3& radii : {Vec3(1.4, 1.0, 0.7), Vec3(1.0, 1.0, 0.6)}) {
     const double h = radii[2], curvature_radius = radii[0] * radii[0] / h;
     const double over_mass = (radii[0] * radii[0] + h * h) / 5.0 + h * h;
     const double theory = 2.0 * pi * std::sqrt(over_mass / (kGravity * (curvature_radius - h)));
     const double tilt = 0.005, e = curvature_radius / h - 1.0;
-    const double slower = tilt * tilt * (3.0 / 8.0 * (2.0 / 3.0 + e / 2.0) +
-                                         0.25 * h * h * (e + e * e) / over_mass);
+    const double slower =
+        tilt * tilt * (3.0 / 8.0 * (2.0 / 3.0 + e / 2.0) + 0.25 * h * h * (e + e * e) / over_mass);
     const double soft_depth = 4e-4, depth = 1e-4;
     const double soft = rocking_period(radii, tilt, soft_depth) / theory - 1.0;
     const double stiff = rocking_period(radii, tilt, depth) / theory - 1.0;
