@@ -288,6 +288,24 @@ TEST(GapBatch, FollowingAgreesWithTheSingleCallAndMayWriteOverItsNormals) {
   }
 }
 
+TEST(GapBatch, FollowingStaysOnItsBranchWhereAnotherWayOutIsShorter) {
+  // Along z, the shortest axis: up is the shorter way out, down the one that was followed.
+  const Ellipsoid a({0, 0, 0}, {4, 2, 1}), b({0, 0, 0.125}, {4, 2, 1});
+  const std::vector<Ellipsoid> two{a, b};
+  const BodyArray bodies(two);
+  const std::vector<IndexedPair> pairs(20, IndexedPair{0, 1});
+  const std::vector<Vec3> previous(pairs.size(), Vec3(0.01, 0, -1));
+  ASSERT_EQ(signed_gap(a, b).gap, -1.875);
+  at_every_level([&] {
+    std::vector<Gap> followed(pairs.size());
+    follow_gaps(bodies, {pairs, {}}, previous, followed);
+    for (const Gap& gap : followed) {
+      EXPECT_NEAR(gap.gap, -2.125, 1e-14);
+      EXPECT_EQ(gap.status, GapStatus::local);
+    }
+  });
+}
+
 TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
   const Family f = contacts(families::contact_classes()[1], 200);
   const Indexed in(f);

@@ -30,6 +30,15 @@ TEST(SphereGap, OfConcentricSpheresIsMinusTheSumOfRadiiAlongX) {
   EXPECT_EQ(gap.normal, Vec3(1, 0, 0));
 }
 
+TEST(SphereGap, ErrorIsTwoRoundingsOfTheGapInEveryUnit) {
+  for (const double unit : {0x1p-400, 1.0, 0x1p400}) {
+    const Gap gap = signed_gap(Sphere{{0, 0, 0}, unit}, Sphere{{4 * unit, 0, 0}, 2 * unit});
+    EXPECT_EQ(gap.gap, unit);
+    EXPECT_GE(gap.gap_error, 2 * kU * unit);
+    EXPECT_LE(gap.gap_error, 2.001 * kU * unit);
+  }
+}
+
 TEST(SphereGap, HasADirectionHoweverCloseTheCentres) {
   const Gap gap = signed_gap(Sphere{{0, 0, 0}, 1}, Sphere{{3e-310, 4e-310, 0}, 1});
   EXPECT_EQ(gap.gap, -2);
