@@ -32,7 +32,7 @@ END {
 }
 
 function write_scene(file,   c, i) {
-  print "#declare Cell = <" commas(item[k, "cell", 0]) ">;" > file
+  print "#declare Cell = <" diagonal(item[k, "cell", 0]) ">;" > file
   for (c = least; c <= most; ++c) {
     find_colour(c)
     printf "#declare C%d = pigment { color srgb <%.3f,%.3f,%.3f> }\n", c, red, green, blue > file
@@ -42,6 +42,9 @@ function write_scene(file,   c, i) {
       "> pigment { C" item[k, "contacts", i] + 0 " } finish { Surface } }" > file
   close(file)
 }
+
+# Of the three edge vectors of a box its three edges.
+function diagonal(edges,   e) { split(edges, e, / +/); return e[1] "," e[5] "," e[9] }
 
 function commas(text) { gsub(/ +/, ",", text); return text }
 
