@@ -56,12 +56,12 @@ TEST(Pencil, EveryCoefficientCountsHoweverSmall) {
   const Quadric unit({1, 1, 1, 0, 0, 0, 0, 0, 0, -1});
   for (const double tiny : {-0x1p-700, 0x1p-700}) {
     const Members members = pencil_members(Quadric({1, 1, 1, 0, 0, 0, 0, 0, 0, tiny}), unit);
-    EXPECT_EQ(root_at(members, -1).type, no_points);
+    EXPECT_EQ(root_at(members, -1).classification.type, no_points);
     const auto at_zero = std::find_if(members.begin(), members.end(), [](const PencilMember& m) {
       return m.low <= 0 && m.high >= 0;
     });
     ASSERT_NE(at_zero, members.end());
-    EXPECT_EQ(at_zero->type, tiny < 0 ? real_ellipsoid : imaginary_ellipsoid);
+    EXPECT_EQ(at_zero->classification.type, tiny < 0 ? real_ellipsoid : imaginary_ellipsoid);
   }
 }
 
