@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes tests/data/plane_samples again, byte for byte on a machine with the same libm:
-//     make_plane_samples dem/scenes/plane-1000.toml tests/data/plane_samples
+// Makes samples such as those in tests/data/plane_samples, which the simulator of state version 2
+// made:
+//     make_plane_samples dem/scenes/plane-1000.toml DIR
 // Runs the scene, and where a stage ends whose name starts with "depth" writes DIR/STAGE.csv, a row
 // an ellipse: centre x, y wrapped into the cell, semi-axes a >= b, direction ux, uy of the first.
 // DIR/samples.csv has a row a sample: the periodic cell's edges, and what to expect of it.
