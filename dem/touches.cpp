@@ -163,8 +163,11 @@ Touch Bodies::touch_wall(std::size_t i, const Wall& wall, const Particles& parti
   Touch touch{Vec3::Zero(), apart, Vec3::Zero(), Vec3::Zero()};
   if (height >= axes.maxCoeff()) return touch;
   // Seen from the particle's centre the wall is the half-space normal . x <= -height.
-  const Ellipsoid body(Vec3::Zero(), axes, particles.orientation[i]);
-  const WallGap found = signed_gap(body, Plane{wall.normal(), -height});
+  const Plane seen{wall.normal(), -height};
+  const WallGap found =
+      kind_ == Kind::ellipsoids
+          ? signed_gap(ellipsoids_[i], seen)
+          : signed_gap(Ellipsoid(Vec3::Zero(), axes, particles.orientation[i]), seen);
   touch.gap = found.gap;
   touch.normal = found.normal;
   touch.arm = 0.5 * (found.arm_body + found.arm_wall);

@@ -15,20 +15,9 @@
 namespace {
 
 using namespace tangency::dem;
+using tangency::test::refusal;
 using tangency::test::small_scene;
 using tangency::test::with;
-
-/// The message for a scene, or "" where it is accepted.
-std::string refusal(const std::string& text) {
-  try {
-    parse_scene(text, "scene.toml");
-  } catch (const SceneError& error) {
-    return error.what();
-  } catch (const std::exception& error) {
-    return std::string("not refused but failed: ") + error.what();
-  }
-  return "";
-}
 
 /// A stage with all that its kind requires.
 std::string stage_of(const std::string& kind) {

@@ -2,7 +2,6 @@
 /// `tangency-dem run` from explicit arrangements, and what is left to go on from after a kill or a
 /// full disk.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <csignal>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "../tool/process.hpp"
+#include "file_size_limit.hpp"
 #include "scenes.hpp"
 
 namespace tangency::test {
@@ -77,26 +77,6 @@ TEST(RunAgain, AfterKillsAtAnyMomentEndsWithTheSameFiles) {
   ASSERT_EQ(run_quietly(scene, parts, {"--resume", state}).status, 0);
   expect_same_results(whole, parts);
 }
-
-/// As on a disk that fills up: no file grows beyond `bytes` while this lives, in tools started too.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, action_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  void (*action_)(int);
-  rlimit before_{};
-};
 
 // Two bodies have a small state and, with a row a cycle, a long history, which is what the disk has
 // no room for: a state must not be ahead of the history that belongs to it.

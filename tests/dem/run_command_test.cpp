@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem` from outside: refusals, results, interruption, resumption.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include <thread>
 
 #include "../tool/process.hpp"
+#include "file_size_limit.hpp"
 #include "scenes.hpp"
 
 namespace tangency::test {
@@ -145,26 +145,6 @@ TEST(RunCommand, VersionAndHelpThatCannotBeWrittenAreNoSuccess) {
   for (const char* argument : {"--version", "--help", "schema"})
     EXPECT_EQ(run_tool({argument}, "", full).status, 2) << argument;
 }
-
-/// As on a full disk: no file grows beyond `bytes` while this lives, in tools started here too.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, action_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  void (*action_)(int);
-  rlimit before_{};
-};
 
 std::map<std::string, std::string> files_below(const std::string& folder) {
   std::map<std::string, std::string> files;

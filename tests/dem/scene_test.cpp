@@ -11,18 +11,9 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
+using tangency::test::refusal;
 using tangency::test::small_scene;
 using tangency::test::with;
-
-/// The message for a scene, or "" where it is accepted.
-std::string refusal(const std::string& text) {
-  try {
-    parse_scene(text, "scene.toml");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string refusal_with(const std::string& before, const std::string& after) {
   return refusal(with(small_scene(), before, after));

@@ -3,7 +3,9 @@
 /// A small scene as text, and ways to change one line of it.
 #pragma once
 
+#include <exception>
 #include <string>
+#include <tangency/dem/scene.hpp>
 
 namespace tangency::test {
 
@@ -78,6 +80,18 @@ inline std::string growing_scene(int dimensions) {
 /// `text` with the first `before` replaced.
 inline std::string with(std::string text, const std::string& before, const std::string& after) {
   return text.replace(text.find(before), before.size(), after);
+}
+
+/// The message for a scene, or "" where it is accepted.
+inline std::string refusal(const std::string& text) {
+  try {
+    dem::parse_scene(text, "scene.toml");
+  } catch (const dem::SceneError& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    return std::string("not refused but failed: ") + error.what();
+  }
+  return "";
 }
 
 }  // namespace tangency::test
