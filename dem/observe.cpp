@@ -45,9 +45,10 @@ Stress stress_of(const Contacts& contacts, const Cell& cell) {
 }
 
 double friction_angle_deg(const Mat3& stress, int dimensions) {
-  const Eigen::MatrixXd block = stress.topLeftCorner(dimensions, dimensions);
-  const Eigen::VectorXd principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block, Eigen::EigenvaluesOnly).eigenvalues();
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+  const Block block = stress.topLeftCorner(dimensions, dimensions);
+  const auto principal =
+      Eigen::SelfAdjointEigenSolver<Block>(block, Eigen::EigenvaluesOnly).eigenvalues().eval();
   const double least = principal[0], most = principal[dimensions - 1];
   if (!(least + most > 0.0)) return 0.0;
   const double sine = std::min(1.0, (most - least) / (least + most));

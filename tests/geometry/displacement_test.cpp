@@ -134,7 +134,7 @@ struct Golden {
 };
 
 std::vector<Golden> golden_rows() {
-  std::ifstream file(std::string(TANGENCY_TEST_DATA) + "/profiles/displacement.csv");
+  std::ifstream file(TANGENCY_TEST_DATA "/profiles/displacement.csv");
   std::vector<Golden> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with('#') || line.starts_with("a.x")) continue;

@@ -11,6 +11,7 @@
 
 #include <tangency/geometry/exact/cosine_sine.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
+#include <tangency/tests/support/generators.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency {
