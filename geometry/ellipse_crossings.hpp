@@ -33,7 +33,8 @@ struct Crossing {
 struct Crossings {
   int count;  ///< distinct points; 0 where the boundaries are equal
   bool equal;
-  /// In the order of (x, y) from the centre of A, and from the centre of B alike.
+  /// In the order of (x, y) from the centre of A, and from the centre of B alike; those that are
+  /// no crossings, from `count` on, have multiplicity 0.
   std::array<Crossing, 4> at;
 };
 

@@ -41,8 +41,11 @@ bool settle_plane_gap(const PlanePair& pair, Vec2& normal, PlaneProof& proof) no
 /// The local maximum that the ascent from `start` leads to, in double-double.
 PlaneProof climb_plane_gap(const PlanePair& pair, const Vec2& start) noexcept;
 
+inline constexpr int kPlaneBudget = 4000;  // arcs; chosen: pairs of aspect 1e8 take up to 300
+
 /// The global maximum, in double-double; `first` is where the first ascent starts. `global` unless
-/// the budget of arcs is spent.
-PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first) noexcept;
+/// `budget` arcs were not enough.
+PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first,
+                            int budget = kPlaneBudget) noexcept;
 
 }  // namespace tangency::methods

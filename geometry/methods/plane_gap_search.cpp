@@ -18,10 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoise = 0x1p-92;
 constexpr double kSlack = 1.0 + 0x1p-20;  // covers what bounds in double round
 constexpr double kTie = 0x1p-80;          // of L: chosen; answers no further apart are one
-constexpr double kFine = 0x1p-60;    // of L: chosen; an arc with no more above the best is done
-constexpr double kEnough = 0x1p-52;  // of L: what a search that is slow settles for
-constexpr int kBudget = 4000,
-              kFineBudget = 400;        // arcs; chosen: pairs of aspect 1e8 take up to 300
+constexpr double kFine = 0x1p-60;       // of L: chosen; an arc with no more above the best is done
+constexpr double kEnough = 0x1p-52;     // of L: what a search that is slow settles for
+constexpr int kFineBudget = 400;        // arcs; chosen: pairs of aspect 1e8 take up to 300
 constexpr double kShortest = 0x1p-200;  // of L; far below the noise
 constexpr int kDeepest = 256;           // halvings
 
@@ -241,7 +240,8 @@ struct Arc {
 /// Depth first over the arcs of the half circle n.d >= 0, on the rest of which f is no better.
 class Search {
  public:
-  Search(const Circle& circle, const Sample& best) noexcept : circle_(circle), best_(best) {}
+  Search(const Circle& circle, const Sample& best, int budget) noexcept
+      : circle_(circle), best_(best), budget_(budget) {}
 
   void run(const DoubleDouble2& from) noexcept {
     const DoubleDouble root(0.5);
@@ -273,7 +273,7 @@ class Search {
       above_ = std::max(above_, excess);
       return;
     }
-    if (arc.depth >= kDeepest || arcs_ > kBudget) {
+    if (arc.depth >= kDeepest || arcs_ > budget_) {
       finished_ = false;
       return;
     }
@@ -283,6 +283,7 @@ class Search {
 
   const Circle& circle_;
   Sample best_;
+  int budget_;  ///< arcs
   double above_ = 0.0;
   int arcs_ = 0;
   bool finished_ = true;
@@ -300,7 +301,7 @@ PlaneProof climb_plane_gap(const PlanePair& pair, const Vec2& start) noexcept {
   return circle.proof(circle.climb(exact::normalised(exact::exactly(start))));
 }
 
-PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first) noexcept {
+PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first, int budget) noexcept {
   const Circle circle(pair);
   const DoubleDouble2 u_a = exact::double_double_direction(pair.a.direction());
   const DoubleDouble2 u_b = exact::double_double_direction(pair.b.direction());
@@ -313,7 +314,7 @@ PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first) noexcept {
     const Sample top = circle.climb(towards(circle.d(), axis));
     if ((top.f - best.f).high > kTie * circle.size()) best = top;
   }
-  Search search(circle, best);
+  Search search(circle, best, budget);
   // A d so short that its square underflows makes no difference: any half circle will do.
   const double reach = std::max(std::abs(circle.d().x.high), std::abs(circle.d().y.high));
   const DoubleDouble2 ahead =

@@ -189,10 +189,11 @@ void add_between(ProjectiveRoots<Real>& roots, const Circle<Real>& circle, std::
            std::max(reach(a, x, start, here.sign), reach(a, x, end, next.sign)), true);
 }
 
-/// Times a power of two that makes the largest coefficient about 1.
+/// Times a power of two that brings the largest coefficient, if it is not 0, into [1/2, 1).
 template <class Real>
 QuarticCoefficients<Real> scaled(QuarticCoefficients<Real> a, Real largest) {
-  const int exponent = std::ilogb(largest);
+  int exponent = 0;
+  std::frexp(largest, &exponent);
   for (Real& c : a) c = std::scalbn(c, -exponent);
   return a;
 }
@@ -205,7 +206,6 @@ ProjectiveRoots<Real> projective_roots(const QuarticCoefficients<Real>& a) noexc
   Real largest = 0;
   for (const Real c : a) largest = std::max(largest, std::abs(c));
   assert(std::isfinite(largest));
-  if (largest == 0) return roots;
   const Circle<Real> circle(scaled(a, largest));
   const auto known = [&](std::size_t i) { return circle.at(i).sign != 0; };
   std::size_t start = 0;

@@ -55,6 +55,15 @@ TEST(Crossings, KnowTheirMultiplicity) {
   EXPECT_EQ(osculating.at[first ? 1 : 0].multiplicity, 1);
 }
 
+TEST(Crossings, ThatAreNoneHaveNoMultiplicity) {
+  for (const Vec2& centre : {Vec2(9, 0), Vec2(3, 0), Vec2(2.5, 0)}) {
+    const Crossings found = crossings(kWide, Ellipse(centre, {1, 1}));
+    for (int i = found.count; i < 4; ++i) {
+      EXPECT_EQ(found.at[static_cast<std::size_t>(i)].multiplicity, 0) << centre.x();
+    }
+  }
+}
+
 TEST(Crossings, OfEqualEllipsesAreNotPoints) {
   const Crossings found = crossings(kWide, Ellipse(kOrigin, {1, 2}, {0, 1}));
   EXPECT_TRUE(found.equal);

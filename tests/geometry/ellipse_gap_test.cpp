@@ -9,6 +9,7 @@
 #include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/methods/plane_gap.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
+#include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
 namespace {
@@ -62,6 +63,13 @@ TEST(PlaneGap, IsProvenForThinDeepPairs) {
     EXPECT_EQ(gap.status, GapStatus::ok) << x;
     EXPECT_LE(gap.gap_error, 16 * 0x1p-53 * 4) << x;
   }
+}
+
+TEST(PlaneGap, OfASearchThatSpentItsBudgetIsNotGlobal) {
+  const EllipsePair p{Ellipse(kOrigin, {1, 1e-8}, {1, 2}), Ellipse({0.3, 0.1}, {1e-7, 2}, {3, 1})};
+  const methods::PlanePair pair{p.a, p.b, p.b.centre(), kOrigin, size(p)};
+  EXPECT_TRUE(methods::search_plane_gap(pair, Vec2(1, 0)).global);
+  EXPECT_FALSE(methods::search_plane_gap(pair, Vec2(1, 0), 3).global);
 }
 
 TEST(PlaneGap, HoldsAtEveryScaleAndFarFromTheOrigin) {

@@ -13,6 +13,7 @@
 #include <tangency/bench/families/extreme.hpp>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -163,6 +164,67 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   }
 }
 
+// An ascent from near an axis of a needle can end where the curvatures prove nothing, and the
+// rolling ball has to bound the gap.
+TEST(GapProof, OfBodiesApartHoldsFromAPoorNormalToo) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> exponent(-60, 0);
+  std::normal_distribution<double> any;
+  int without_cap = 0;
+  for (const auto& family : families::extreme_families()) {
+    if (family.aspect != 1e4 || family.scale != 1) continue;
+    families::ExtremePairs pairs(family, kSeed);
+    for (int i = 0; i < 40; ++i) {
+      const auto raw = pairs.next();
+      const Ellipsoid a = to_ellipsoid(raw.a), b = to_ellipsoid(raw.b);
+      const Vec3 d = b.centre() - a.centre();
+      const Gap truth = signed_gap(a, b, d);
+      const methods::Pair pair{a, b, d, Vec3::Zero()};
+      for (int k = 0; k < 10; ++k) {
+        const Vec3 off(any(random), any(random), any(random)), axis = a.rotation().col(k % 3);
+        const Vec3 near = (axis + std::exp2(exponent(random)) * off).normalized();
+        const auto proof =
+            methods::prove_gap_in_double_double(pair, near.dot(pair.d) < 0 ? Vec3(-near) : near);
+        if (!proof.global) continue;
+        without_cap += proof.cap.proven ? 0 : 1;
+        ASSERT_LT(proof.high, std::numeric_limits<double>::infinity()) << family.name << ' ' << i;
+        ASSERT_LE(proof.low, truth.gap + truth.gap_error) << family.name << ' ' << i;
+        ASSERT_GE(proof.high, truth.gap - truth.gap_error) << family.name << ' ' << i;
+      }
+    }
+  }
+  EXPECT_GT(without_cap, 0);
+}
+
+/// What the exact relation says of a pair whose proof leaves the sign open.
+struct Told {
+  Relation answer;
+  bool overlaps(GapTier&) const { return answer == Relation::overlap; }
+  Relation relation() const { return answer; }
+};
+
+TEST(GapSign, ThatTheProofLeavesOpenPutsTheGapInTheMiddleOfWhatIsLeft) {
+  const auto settled = [](double gap, Relation answer) {
+    methods::GapProof proof{gap, -3e-17, 2e-17, true, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+    GapTier tier = GapTier::fast;
+    methods::settle_sign(proof, tier, Told{answer}, 1.0);
+    EXPECT_EQ(tier, GapTier::exact);
+    return proof;
+  };
+  const auto overlap = settled(1e-17, Relation::overlap);
+  EXPECT_EQ(overlap.low, -3e-17);
+  EXPECT_EQ(overlap.gap, -1.5e-17);
+  EXPECT_EQ(overlap.high, 0.0);
+  const auto touch = settled(1e-17, Relation::external_touch);
+  EXPECT_EQ(touch.low, 0.0);
+  EXPECT_EQ(touch.gap, 0.0);
+  EXPECT_EQ(touch.high, 0.0);
+  const auto apart = settled(-1e-17, Relation::separate);
+  EXPECT_EQ(apart.low, 0.0);
+  EXPECT_EQ(apart.gap, 1e-17);
+  EXPECT_EQ(apart.high, 2e-17);
+}
+
 TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
   // Crossed discs about one centre: four maxima, two of them best.
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
@@ -189,6 +251,20 @@ TEST(GapSearch, SaysSoWhereItsBudgetIsSpent) {
       methods::search_sphere(pair, methods::FactoredPair(a, b, pair.d), Vec3::UnitX(), 3);
   ASSERT_TRUE(proof);
   EXPECT_FALSE(proof->global);
+}
+
+// Two axes tie exactly, at a value half-way between two doubles, so that each may round either way.
+TEST(GapSearch, OfAConcentricTieTakesTheFirstAxisOfA) {
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> any;
+  const double s = 1.25 + 0x1p-52;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Quaterniond q(any(random), any(random), any(random), any(random));
+    const Ellipsoid a({0, 0, 0}, {1, s, 1.2}, q), b({0, 0, 0}, {s, 1, 1.2}, q);
+    const Gap gap = signed_gap(a, b);
+    EXPECT_EQ(gap.status, GapStatus::ok);
+    EXPECT_LT((gap.normal - a.rotation().col(0)).norm(), 1e-12) << i;
+  }
 }
 
 TEST(GapSearch, ProvesATieAlongACircleOfCoaxialBodies) {
