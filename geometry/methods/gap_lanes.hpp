@@ -21,7 +21,7 @@ struct alignas(64) LaneBody {
   double factor[9];     ///< the columns a_k R e_k, one after the other, each product rounded once
   double unused[2];
 };
-static_assert(sizeof(LaneBody) == 16 * sizeof(double));
+static_assert(sizeof(LaneBody) == 16 * sizeof(double) && alignof(LaneBody) == 64);
 
 /// A body as the lanes read it for the yes/no question.
 struct alignas(64) LaneShape {
@@ -30,7 +30,7 @@ struct alignas(64) LaneShape {
   double shape[6];  ///< xx yy zz yz zx xy of M, each as Ellipsoid::shape()
   double unused[6];
 };
-static_assert(sizeof(LaneShape) == 16 * sizeof(double));
+static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 64);
 
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;

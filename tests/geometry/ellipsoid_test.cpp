@@ -76,6 +76,13 @@ TEST(Ellipsoid, SphereHasItsRadiusAsSupport) {
   EXPECT_LE((e.support_point({0, 3, 4}) - Vec3(0, 1.2, 1.6)).norm(), 16 * kU);
 }
 
+TEST(Ellipsoid, IsClosed) {
+  const Ellipsoid e({1, 2, 3}, {4, 2, 8});
+  EXPECT_TRUE(e.contains({5, 2, 3}));
+  EXPECT_TRUE(e.contains({1, 2, -5}));
+  EXPECT_FALSE(e.contains({1, std::nextafter(4, 5), 3}));
+}
+
 // geometry/ellipsoid.hpp (1)
 RC_GTEST_PROP(EllipsoidProperty, ContainsItsCentre, ()) {
   const Ellipsoid e = *testing::ellipsoid(1e6);

@@ -182,6 +182,17 @@ TEST(TimeOfContact, AbsurdSpeedsEndInAStatus) {
   }
 }
 
+TEST(TimeOfContact, FlightBeyondTheSquaresOfDoublesIsFollowedAlongEveryAxis) {
+  const Ellipsoid a({0, 0, 0}, {1, 1.5, 1.2});
+  for (int k = 0; k < 3; ++k) {
+    const Ellipsoid b(4 * Vec3::Unit(k), {1, 1, 1});
+    const TimeOfContact away = time_of_contact(a, {}, b, flight(1e200 * Vec3::Unit(k)), 10, 1e-5);
+    EXPECT_EQ(away.status, Status::none) << k;
+    EXPECT_EQ(away.time, 10) << k;
+    EXPECT_DOUBLE_EQ(away.gap.gap, 1e201) << k;
+  }
+}
+
 TEST(TimeOfContact, TumblingThinDisksAreFollowedToTheirTouch) {
   const Ellipsoid a({0, 0, 0}, {1, 1, 1e-4}), b({0, 0.1, 0.5}, {1, 1, 1e-4});
   const TimeOfContact found = time_of_contact(a, flight({0, 0, 0}, {0.02, 0, 0}), b,

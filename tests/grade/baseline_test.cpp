@@ -2,6 +2,7 @@
 // `tangency-verify grade --baseline`: what is worse fails, what is better is named.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,28 @@ TEST(GradeBaseline, AnotherCorpusFails) {
   EXPECT_TRUE(report.says("FAILED worse than the baseline: near/all/pairs: 360, was 361\n"));
 }
 
+TEST(GradeBaseline, OneThatKnowsNothingOfTheCorpusFails) {
+  const Baseline baseline(kKernel);
+  const Report report =
+      grade({"--tool", kKernel, "--corpus", "near", "deep", "--baseline", baseline.file()});
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("FAILED worse than the baseline: deep: nothing of it is there\n"))
+      << report.run.out;
+  EXPECT_FALSE(report.says("near: nothing"));
+}
+
+TEST(GradeBaseline, AnErrorBeyondDoublesIsTheLargestOfThem) {
+  const std::string tool = changed("NR > 1 { $3 = \"1e308\" } { print }");
+  const TemporaryFolder folder;
+  const std::string file = folder.path("baseline.json");
+  const Report report = grade_tool(tool, "touching");
+  EXPECT_EQ(report.value("touching/extreme_scale/gap error, largest"),
+            std::numeric_limits<double>::max());
+  folder.write("baseline.json", report.values.dump());
+  const Report again = grade_tool(tool, "touching", {"--baseline", file});
+  EXPECT_FALSE(again.says("worse than the baseline")) << again.run.out;
+}
+
 TEST(GradeBaseline, AnImprovementPassesAndSaysHowToKeepIt) {
   Baseline baseline(kKernel);
   baseline.set("near/all/gap error, median", 1e-3);
@@ -128,10 +151,15 @@ TEST(GradeBaseline, RefusesWhatIsNoGrade) {
   EXPECT_EQ(refusal("{}"), ":1" + rule);
   EXPECT_EQ(refusal("[\n{\"name\":\"a\",\"value\":1},\n{\"name\":\"b\",\"value\":\"2\"}\n]\n"),
             ":3" + rule);
+  EXPECT_EQ(refusal("[{\"name\":\"a\",\"value\":1e999}]"), rule);
+  EXPECT_EQ(refusal("[{\"name\":\"a\",\"value\":null}]"), ":2" + rule);
   EXPECT_EQ(refusal("[\n{\"name\":\"a\",\"value\":1},\n{\"name\":\n"), ":4" + rule);
   const Report none = grade_tool(kKernel, "near", {"--baseline", folder.path("none.json")});
   EXPECT_EQ(none.run.status, 2);
   EXPECT_NE(none.run.err.find("none.json: cannot be read: "), std::string::npos);
+  const Report place = grade_tool(kKernel, "near", {"--baseline", folder.path("")});
+  EXPECT_EQ(place.run.status, 2);
+  EXPECT_NE(place.run.err.find(": cannot be read: Is a directory"), std::string::npos);
 }
 
 }  // namespace

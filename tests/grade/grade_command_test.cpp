@@ -2,8 +2,12 @@
 // `tangency-verify grade` on tools that are good, bad, and worse: each is reported for what it is.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <chrono>
+#include <csignal>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <tangency/tests/grade/report.hpp>
@@ -105,6 +109,54 @@ TEST(GradeCommand, RubbishWithoutEndIsCutOff) {
   EXPECT_TRUE(report.says("row: this column is missing"));
 }
 
+TEST(GradeCommand, WhatAnEndedToolLeavesBehindIsUnderItsLimits) {
+  const Report endless = grade_tool("yes 0,1 & true", "near");
+  EXPECT_EQ(endless.run.status, 1);
+  EXPECT_TRUE(endless.says("near: the tool printed more than 1540096 bytes")) << endless.run.out;
+  const Report busy = grade_tool("yes >&2 & true", "near", {"--time-limit", "0.4"});
+  EXPECT_EQ(busy.run.status, 1);
+  EXPECT_TRUE(busy.says("near: the tool had not ended after 0.4 s")) << busy.run.out;
+}
+
+TEST(GradeCommand, AShellsWordThatItsProgramWasKilledIsASignal) {
+  const Report report = grade_tool(kKernel + "; sh -c 'kill -SEGV $$'; exit $?", "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("near: the tool was ended by signal 11")) << report.run.out;
+  EXPECT_EQ(report.value("near/all/missing answers"), 0);
+  EXPECT_EQ(grade_tool(kKernel + "; exit 3", "near").run.status, 0);
+}
+
+/// Is it running still, and not only waiting to be collected?
+bool is_alive(const std::string& process) {
+  const std::string state = read_file("/proc/" + process + "/stat");
+  return !state.empty() && state.find(") Z") == std::string::npos;
+}
+
+TEST(GradeCommand, AnInterruptEndsTheToolAndAllThatItStarted) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    const std::string note = folder.path("note");
+    Process process(
+        {"grade", "--corpus", "near", "--json", folder.path("grade.json"), "--tool",
+         "sleep 1000 & echo $! > " + note + ".new; mv " + note + ".new " + note + "; wait"});
+    const auto begin = std::chrono::steady_clock::now();
+    while (read_file(note).empty()) {
+      ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
+      ::usleep(1000);
+    }
+    std::string child = read_file(note);
+    child.pop_back();
+    EXPECT_TRUE(is_alive(child));
+    process.send(signal);
+    EXPECT_EQ(process.wait().signal, signal);
+    while (is_alive(child)) {  // until the kernel has done what it was told
+      ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
+      ::usleep(1000);
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"note"});
+  }
+}
+
 TEST(GradeCommand, SilenceIsAllMissing) {
   const Report report = grade_tool("cat > /dev/null", "near");
   EXPECT_EQ(report.run.status, 1);
@@ -131,6 +183,23 @@ TEST(GradeCommand, RubbishAmongAnswersIsNamedByRowAndTheRestGraded) {
   EXPECT_EQ(report.value("near/faulty lines or cells"), 7);
   EXPECT_EQ(report.value("near/all/missing answers"), 8);
   EXPECT_EQ(report.value("near/all/wrong relations"), 0);
+}
+
+TEST(GradeCommand, ALineBeyondAllLinesEndsTheReading) {
+  const Report report = grade_tool(
+      "printf 'row,overlaps\\n0,1\\n5,0\\n'; head -c 1400000 /dev/zero | tr '\\0' 1; printf "
+      "'\\n6,1\\n'",
+      "near");
+  EXPECT_TRUE(report.says("\n  line 4: a line must be shorter than")) << report.run.out;
+  EXPECT_TRUE(report.says("; what follows is not read\n"));
+  EXPECT_EQ(report.value("near/all/missing answers"), 358);
+}
+
+TEST(GradeCommand, APartOfANormalIsAFault) {
+  const Report report = grade_tool(changed("{ print $1, $2, $4, $5 }"), "near");
+  EXPECT_EQ(report.run.status, 1);
+  EXPECT_TRUE(report.says("the header names a part of a normal")) << report.run.out;
+  EXPECT_EQ(report.value("near/faulty lines or cells"), 1);
 }
 
 TEST(GradeCommand, SkippedRowsAreCountedAndTheFirstNamed) {
@@ -290,13 +359,70 @@ TEST(GradeCommand, RefusesWhatItCannotGrade) {
       std::string::npos);
   EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"}).find("chord is not a definition"),
             std::string::npos);
-  EXPECT_NE(refusal({"--tool", "true", "--max-gap-error", "-1"}).find("--max-gap-error"),
+  for (const auto& [option, values, allowed] :
+       std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
+           {"--max-wrong", {"-1", "010", "1.5", "99999999999999999999"}, "a whole number from 0"},
+           {"--max-gap-error", {"-1", "nan", "inf", "abc", "1e999"}, "a finite number >= 0"},
+           {"--max-normal-error", {"nan"}, "a finite number >= 0"},
+           {"--baseline-slack", {"nan", "-0.1"}, "a finite number >= 0"},
+           {"--time-limit", {"nan", "0", "inf"}, "a finite number > 0"}}) {
+    for (const std::string& value : values) {
+      EXPECT_NE(refusal({"--tool", "true", option, value})
+                    .find(option + ": " + value + " is not " + allowed),
+                std::string::npos);
+    }
+  }
+  for (const char* option : {"--baseline", "--corpora", "--html"}) {
+    EXPECT_NE(refusal({"--tool", "true", option, ""}).find(option), std::string::npos);
+  }
+  EXPECT_NE(refusal({"--tool", "true", "--corpus", "near", "deep", "near"})
+                .find("near is named more than once"),
             std::string::npos);
+  EXPECT_NE(
+      refusal({"--answers", "/", "--corpus", "near"}).find("/: cannot be read: Is a directory"),
+      std::string::npos);
   const TemporaryFolder folder;
   folder.write("bad.truth.csv", "row,family,type\n1,f,plane\n");
   EXPECT_NE(refusal({"--tool", "true", "--corpus", "bad", "--corpora", folder.path("")})
                 .find("bad.truth.csv:2: row = 1: rows must be numbered from 0 in order"),
             std::string::npos);
+}
+
+TEST(GradeCommand, RefusesTruthThatIsNone) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& truth, const std::string& inputs = "x\n1\n") {
+    folder.write("own.csv", inputs);
+    folder.write("own.truth.csv", truth);
+    const Report report =
+        grade({"--tool", "true", "--corpus", "own", "--corpora", folder.path("")});
+    EXPECT_EQ(report.run.status, 2);
+    return report.run.err;
+  };
+  const std::string types = "row,family,type\n0,f,";
+  EXPECT_NE(refusal(types + "plain\n").find("own.truth.csv:2: type = plain: this is not a type"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(types + "plane\n", "x\n1\n2\n").find("own.csv: 2 rows: the truth beside it is of 1"),
+      std::string::npos);
+  const std::string pairs =
+      "row,family,relation,size,gap,normals,nx,ny,nz,ax,ay,az\n0,f,separate,4,1,point,";
+  EXPECT_NE(
+      refusal(pairs + "0,0,0,,,\n").find("own.truth.csv:2: nx = 0: the vector that begins here"),
+      std::string::npos);
+  for (const char* second :
+       {"0,f,overlap,4,1,point,0,1,0,,,\n", "0,f,separate,4,2,point,0,1,0,,,\n"}) {
+    EXPECT_NE(refusal(pairs + "1,0,0,,,\n" + second).find("own.truth.csv:3: "), std::string::npos);
+  }
+}
+
+TEST(GradeCommand, AnOutputThatCannotBeWrittenIsRefusedBeforeTheToolIsStarted) {
+  const TemporaryFolder folder;
+  const Finished run =
+      run_tool({"grade", "--tool", "touch " + folder.path("started"), "--corpus", "near", "--html",
+                folder.path("page.html"), "--json", "/none/grade.json"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("/none/grade.json: "), std::string::npos);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{});
 }
 
 TEST(GenerateCommand, NamesEveryCorpusAndRefusesOthers) {

@@ -57,7 +57,7 @@ def rows_of(path):
 def share_killed(rows):
     counts = collections.Counter(row["status"] for row in rows)
     known = counts["killed"] + counts["survived"]
-    return counts["killed"] / known if known else 1.0
+    return counts["killed"] / known if known else 0.0
 
 
 def table(rows, column, order=None):

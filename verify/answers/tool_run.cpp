@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -56,7 +57,8 @@ csv::Descriptor without_comments(const std::string& path) {
   csv::Descriptor table = memory_file("inputs");
   std::string line, text;
   while (std::getline(from, line)) {
-    if (!line.starts_with('#')) text += line + '\n';
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string::npos || line[first] != '#') text += line + '\n';
     if (text.size() > (std::size_t{1} << 20)) write_all(table.get(), std::exchange(text, {}));
   }
   write_all(table.get(), text);
@@ -74,7 +76,37 @@ struct Pipe {
   }
 };
 
-pid_t start(const std::string& command, int input, int output, int error) {
+// Those that end this program and are not ignored, held back while it lives: a tool in a group of
+// its own is ended before they are obeyed.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t held;
+    ::sigemptyset(&held);
+    for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+      struct sigaction action {};
+      if (::sigaction(signal, nullptr, &action) != 0) fail("signals cannot be asked about");
+      if (action.sa_handler != SIG_IGN) ::sigaddset(&held, signal);
+    }
+    arrivals_ = csv::Descriptor(::signalfd(-1, &held, SFD_CLOEXEC));
+    if (!arrivals_.is_open() || ::sigprocmask(SIG_BLOCK, &held, &before_) != 0) {
+      fail("signals cannot be held back");
+    }
+  }
+  ~HeldSignals() { restore(); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  void restore() const { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  int arrivals() const { return arrivals_.get(); }  // readable once one has come
+
+ private:
+  csv::Descriptor arrivals_;
+  sigset_t before_{};
+};
+
+pid_t start(const std::string& command, int input, int output, int error,
+            const HeldSignals& signals) {
   const pid_t child = ::fork();
   if (child < 0) fail("no process for the tool");
   if (child > 0) {
@@ -82,8 +114,9 @@ pid_t start(const std::string& command, int input, int output, int error) {
     return child;
   }
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no tool outlives an interrupted grade
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a grade that is killed outright takes the shell along
   for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  signals.restore();
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
@@ -93,21 +126,23 @@ pid_t start(const std::string& command, int input, int output, int error) {
 
 class Watch {
  public:
-  Watch(pid_t tool, Pipe& output, Pipe& error, ToolRun& run, const ToolLimits& limits)
+  Watch(pid_t tool, Pipe& output, Pipe& error, const HeldSignals& signals, ToolRun& run,
+        const ToolLimits& limits)
       : tool_(tool), limits_(limits), run_(run) {
     output.theirs.close();
     error.theirs.close();
     events_[0] = {output.ours.get(), POLLIN, 0};
     events_[1] = {error.ours.get(), POLLIN, 0};
+    events_[kSignals] = {signals.arrivals(), POLLIN, 0};
   }
 
   void until_it_ends() {
     bool quiet = false;
-    while (!stopped_ && !(ended_ && quiet)) {
-      // An ended tool may leave a child that holds the pipes; what it left in them is read.
+    while (!stopped_ && !(ended_ && (quiet || are_closed()))) {
+      // An ended tool may leave a child that holds the pipes; what it left in them is read, and
+      // what it goes on to write is under the same limits.
       quiet = !read_what_is_there();
       if (!ended_) ended_ = ::waitpid(tool_, &status_, WNOHANG) == tool_;
-      if (ended_) continue;
       if (elapsed() > limits_.seconds) stop("had not ended after " + shown(limits_.seconds) + " s");
       if (bytes_ > limits_.most_bytes) {
         stop("printed more than " + std::to_string(limits_.most_bytes) + " bytes");
@@ -134,26 +169,30 @@ class Watch {
     run_.ending = std::move(why);
   }
   void describe_end() {
-    run_.sound = WIFEXITED(status_);
-    run_.ending = run_.sound ? "ended with status " + std::to_string(WEXITSTATUS(status_))
-                             : "was ended by signal " + std::to_string(WTERMSIG(status_)) + " (" +
-                                   ::strsignal(WTERMSIG(status_)) + ")";
+    const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 0;
+    // A shell tells of a signal that ended its program by 128 and the signal's number.
+    const int signal = WIFEXITED(status_) ? std::max(0, code - 128) : WTERMSIG(status_);
+    run_.sound = signal == 0;
+    run_.ending = run_.sound ? "ended with status " + std::to_string(code)
+                             : "was ended by signal " + std::to_string(signal) + " (" +
+                                   ::strsignal(signal) + ")";
   }
+  bool are_closed() const { return events_[0].fd < 0 && events_[1].fd < 0; }
+  // False where nothing has come for a while.
   bool read_what_is_there() {
     // A closed end is asked no more: poll skips negative descriptors.
     if (::poll(events_.data(), events_.size(), kLookMilliseconds) <= 0) return false;
-    bool any = false;
-    for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (events_[kSignals].revents != 0) stop("was interrupted");
+    for (std::size_t i = 0; i < kSignals; ++i) {
       if (events_[i].fd < 0 || events_[i].revents == 0) continue;
       const ssize_t got = ::read(events_[i].fd, buffer_.data(), buffer_.size());
       if (got <= 0) {
         events_[i].fd = -1;
         continue;
       }
-      any = true;
       keep(i == 0, {buffer_.data(), static_cast<std::size_t>(got)});
     }
-    return any;
+    return true;
   }
   void keep(bool is_output, std::string_view text) {
     if (is_output) {
@@ -177,7 +216,8 @@ class Watch {
   ToolLimits limits_;
   ToolRun& run_;
   Clock::time_point begin_ = Clock::now();
-  std::array<pollfd, 2> events_{};
+  static constexpr std::size_t kSignals = 2;  // after both pipes
+  std::array<pollfd, 3> events_{};
   std::array<char, 1 << 16> buffer_{};
   std::size_t bytes_ = 0;
   std::string words_;
@@ -192,9 +232,9 @@ ToolRun run_tool(const std::string& command, const std::string& inputs, const To
   ToolRun run{memory_file("answers"), {}, false, {}, {}, 0};
   run.output_path = "/proc/self/fd/" + std::to_string(run.output.get());
   Pipe output, error;
-  Watch(start(command, table.get(), output.theirs.get(), error.theirs.get()), output, error, run,
-        limits)
-      .until_it_ends();
+  const HeldSignals signals;
+  const pid_t tool = start(command, table.get(), output.theirs.get(), error.theirs.get(), signals);
+  Watch(tool, output, error, signals, run, limits).until_it_ends();
   return run;
 }
 

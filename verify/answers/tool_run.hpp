@@ -17,7 +17,7 @@ struct ToolLimits {
 struct ToolRun {
   csv::Descriptor output;   // a file in memory with what came on standard output; never closed yet
   std::string output_path;  // by which this process opens it again
-  bool sound;               // ended by itself, not by a signal or a limit
+  bool sound;               // ended by itself, not by a signal, a limit or an interrupt
   std::string ending;       // "ended with status 0", "was ended by signal 11 (Segmentation fault)",
                             // "had not ended after 300 s", "printed more than 2097152 bytes"
   std::string last_words;   // last line on standard error
@@ -25,7 +25,9 @@ struct ToolRun {
 };
 
 // `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
-// comment lines left out. The group is killed at a limit; what was printed until then is kept.
+// comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
+// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then is kept.
+// A process that leaves the group is left alone. A shell's status above 128 is a signal.
 // Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
 

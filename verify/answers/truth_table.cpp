@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <tangency/geometry/tool/csv.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
+#include <tangency/verify/oracles/classification.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::verify {
@@ -23,8 +25,23 @@ TwoDoubles two_doubles(const RowCursor& row, Column column) {
   return {high, Real(Real(text) - high).convert_to<double>()};
 }
 
-std::array<double, 3> numbers(const RowCursor& row, const Columns3& columns) {
-  return {row.number(columns[0]), row.number(columns[1]), row.number(columns[2])};
+std::array<double, 3> unit_vector(const RowCursor& row, Column first,
+                                  const std::array<double, 3>& v) {
+  constexpr double kRounding = 1e-12;  // chosen: far above what 40 digits read as doubles lose
+  if (!(std::abs(std::hypot(v[0], v[1], v[2]) - 1) <= kRounding)) {
+    throw row.error(first, "the vector that begins here must have length 1");
+  }
+  return v;
+}
+
+std::array<double, 3> unit_vector(const RowCursor& row, const Columns3& columns) {
+  return unit_vector(row, columns[0],
+                     {row.number(columns[0]), row.number(columns[1]), row.number(columns[2])});
+}
+
+// Of the lines about one row, each with a maximiser.
+void require_same(const RowCursor& line, Column column, bool same) {
+  if (!same) throw line.error(column, "another line about this row says otherwise");
 }
 
 Columns3 require3(const csv::Header& header, const std::array<const char*, 3>& names) {
@@ -72,6 +89,14 @@ class TableReader {
   TruthTable table_;
 };
 
+std::string read_type(const RowCursor& line, Column column) {
+  const std::string_view text = line.text(column);
+  for (int k = 0; k <= static_cast<int>(QuadricType::all_space); ++k) {
+    if (text == name(static_cast<QuadricType>(k))) return std::string(text);
+  }
+  throw line.error(column, "this is not a type");
+}
+
 Relation read_relation(const RowCursor& line, Column column) {
   if (const auto relation = relation_named(line.text(column))) return *relation;
   throw line.error(column, "this is not a relation");
@@ -100,6 +125,10 @@ class PairReader {
       if (!(row.size > 0)) throw line.error(size_, "a size must be > 0");
       if (!line.text(gap_).empty()) row.gap = two_doubles(line, gap_);
       row.first_normal = table.maximisers.size();
+    } else {
+      require_same(line, relation_, read_relation(line, relation_) == row.relation);
+      require_same(line, gap_,
+                   line.text(gap_).empty() ? !row.gap : two_doubles(line, gap_) == row.gap);
     }
     if (!row.gap || !table.has_normals || (again && !common)) return;
     const std::string_view set = common ? line.text(set_) : "point";
@@ -108,8 +137,8 @@ class PairReader {
       return;
     }
     if (set != "point" && set != "circle") throw line.error(set_, "this is not a set of normals");
-    Maximiser one{numbers(line, normal_), std::nullopt};
-    if (set == "circle") one.axis = numbers(line, axis_);
+    Maximiser one{unit_vector(line, normal_), std::nullopt};
+    if (set == "circle") one.axis = unit_vector(line, axis_);
     table.maximisers.push_back(one);
     ++row.normals;
   }
@@ -153,6 +182,8 @@ class EllipseReader {
   void read(const RowCursor& line, bool again, TruthTable& table) const {
     TruthRow& row = table.rows.back();
     if (!again) read_row(line, row, table.maximisers.size());
+    require_same(line, relation_, read_relation(line, relation_) == row.relation);
+    require_same(line, gap_, two_doubles(line, gap_) == row.gap);
     if (!set_) return;
     const std::string_view set = line.text(*set_);
     if (set == "all") {
@@ -160,8 +191,8 @@ class EllipseReader {
       return;
     }
     if (set != "point") throw line.error(*set_, "this is not a set of normals");
-    table.maximisers.push_back(
-        {{line.number(normal_[0]), line.number(normal_[1]), 0}, std::nullopt});
+    const double x = line.number(normal_[0]), y = line.number(normal_[1]);
+    table.maximisers.push_back({unit_vector(line, normal_[0], {x, y, 0}), std::nullopt});
     ++row.normals;
   }
 
@@ -224,7 +255,7 @@ TruthTable read_truth(const std::string& path, Definition definition) {
     case CorpusKind::quadrics: {
       const Column type = header.require("type");
       csv::for_each_row(file, [&](const RowCursor& line) {
-        reader.enter(line, again).type = std::string(line.text(type));
+        reader.enter(line, again).type = read_type(line, type);
       });
       break;
     }

@@ -17,6 +17,7 @@ namespace tangency::verify {
 // A number of 40 digits as the sum of two doubles, to 2^-106 of itself.
 struct TwoDoubles {
   double high = 0, low = 0;
+  bool operator==(const TwoDoubles&) const = default;
 };
 
 // Which gap and normal are meant; centre_line has no normal.

@@ -3,10 +3,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tangency/geometry/tool/csv.hpp>
@@ -44,14 +46,11 @@ Baseline by_name(const std::string& path, const nlohmann::json& values) {
   Baseline baseline;
   if (!values.is_array() || values.empty()) refuse(path, 1);
   for (const auto& one : values) {
-    // JSON has no infinity: the library writes null.
     const bool sound = one.is_object() && one.contains("name") && one["name"].is_string() &&
-                       one.contains("value") &&
-                       (one["value"].is_number() || one["value"].is_null());
+                       one.contains("value") && one["value"].is_number();
     // As written: a bracket, then a line a value.
     if (!sound) refuse(path, baseline.size() + 2);
-    const auto& value = one["value"];
-    baseline[one["name"].get<std::string>()] = value.is_null() ? kInfinity : value.get<double>();
+    baseline[one["name"].get<std::string>()] = one["value"].get<double>();
   }
   return baseline;
 }
@@ -100,8 +99,10 @@ void compare_one(const NamedValue& now, double before, double slack, Changes& re
 
 Baseline read_baseline(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
+  std::error_code none;
+  if (!file || std::filesystem::is_directory(path, none)) {
+    const int problem = file ? EISDIR : errno;
+    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(problem))});
   }
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   try {
@@ -109,6 +110,8 @@ Baseline read_baseline(const std::string& path) {
   } catch (const nlohmann::json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     refuse(path, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')));
+  } catch (const nlohmann::json::exception&) {  // a number beyond doubles, without its place
+    refuse(path, 0);
   }
 }
 
@@ -116,14 +119,20 @@ Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& basel
   Comparison result;
   Changes changes;
   std::set<std::string> seen;
+  std::map<std::string, bool> known;  // of each corpus: does the baseline have anything?
   for (const NamedValue& now : values_of(grades)) {
     seen.insert(now.name);
+    bool& compared = known[now.name.substr(0, now.name.find('/'))];
     const auto before = baseline.find(now.name);
     if (before == baseline.end()) {
       result.unknown.push_back(now.name);
     } else {
+      compared = true;
       compare_one(now, before->second, slack, changes);
     }
+  }
+  for (const auto& [corpus, compared] : known) {
+    if (!compared) changes.worse.push_back({kInfinity, corpus + ": nothing of it is there"});
   }
   for (const auto& [name, value] : baseline) {
     const std::string corpus = name.substr(0, name.find('/'));

@@ -34,6 +34,7 @@ double excess(double gap, const TwoDoubles& truth) {
 struct Columns {
   std::optional<Column> relation, overlaps, gap, gap_error, status, crossings, area, type;
   std::optional<Column> normal_x, normal_y, normal_z;  // all, or x and y of ellipses, or none
+  bool part_of_a_normal = false;
 
   Columns(const csv::Header& header, const TruthTable& truth) {
     const CorpusKind kind = truth.kind;
@@ -51,7 +52,9 @@ struct Columns {
     }
     const bool plane = kind == CorpusKind::ellipses;
     const auto x = header.find("nx"), y = header.find("ny"), z = header.find("nz");
-    if (!truth.has_normals || !x || !y || !(z || plane)) return;
+    if (!truth.has_normals || !(x || y || (z && !plane))) return;
+    part_of_a_normal = !x || !y || !(z || plane);
+    if (part_of_a_normal) return;
     normal_x = x, normal_y = y;
     if (!plane) normal_z = z;
   }
@@ -74,20 +77,27 @@ class Grader {
     const Column number = reader.header().require("row");
     offered_ = columns.words() || columns.gap || columns.normal() || columns.area;
     if (!offered_) fault("the header names no column that is graded");
+    if (columns.part_of_a_normal) fault("the header names a part of a normal; all of it is graded");
     csv::Block block;
     RowCursor line(reader.header());
     while (reader.read(block)) {
       line.enter(block);
       while (next(line)) take(line, number, columns);
+      row_ = kNoRow;
     }
   }
 
+  // What ends the reading: no header, or a line beyond all lines.
+  void end_by(const csv::Error& error) {
+    fault(error, error.fault().line > 1 ? "; what follows is not read" : "");
+  }
+
   // By row and line, without the name of the file, which may be no more than a number.
-  void fault(const csv::Error& error) {
+  void fault(const csv::Error& error, const std::string& consequence = "") {
     const csv::Fault& where = error.fault();
     std::string text = std::string(error.what()).substr(where.file.size());
     text = where.line > 0 ? "line " + text.substr(1) : text.substr(2);
-    fault((row_ == kNoRow ? "" : "row " + std::to_string(row_) + ", ") + text);
+    fault((row_ == kNoRow ? "" : "row " + std::to_string(row_) + ", ") + text + consequence);
   }
 
   Grade result() {
@@ -314,7 +324,7 @@ Grade grade(const TruthTable& truth, const std::string& answers, const Demands& 
   try {
     grader.read(answers);
   } catch (const csv::Error& error) {
-    grader.fault(error);
+    grader.end_by(error);
   }
   return grader.result();
 }

@@ -19,7 +19,8 @@
 //  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
 //      without gap_error claims none.
 //  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
-//      twice the first answer counts.
+//      twice the first answer counts. A header without `row`, and a line of a mebibyte, end the
+//      reading, which is named too.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <tangency/verify/grade/report.hpp>
 
@@ -140,7 +141,9 @@ std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades) {
   std::vector<NamedValue> values;
   const auto add = [&](const std::string& name, const char* unit, NamedValue::Kind kind,
                        auto value) {
-    values.push_back({name, unit, kind, static_cast<double>(value)});
+    // JSON has no infinity, and a reader takes the null in its place for the best of all.
+    constexpr double kMost = std::numeric_limits<double>::max();
+    values.push_back({name, unit, kind, std::min(static_cast<double>(value), kMost)});
   };
   for (const CorpusGrade& grade : grades) {
     const Grade& g = grade.grade;

@@ -46,7 +46,7 @@ struct NamedValue {
   };
   std::string name, unit;
   Kind kind;
-  double value;
+  double value;  // finite: an error beyond doubles is the largest of them
 };
 std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades);
 

@@ -41,7 +41,8 @@ std::string check_name(const std::string& name) {
   return name + " is not a corpus; `tangency-verify generate --list` names all";
 }
 
-void write(const std::filesystem::path& folder, const std::string& name, const CorpusText& text) {
+// What cannot be written is refused before anything is computed.
+void write(const std::filesystem::path& folder, const std::string& name) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) {
@@ -49,6 +50,7 @@ void write(const std::filesystem::path& folder, const std::string& name, const C
   }
   csv::OutputFile inputs((folder / (name + ".csv")).string());
   csv::OutputFile truth((folder / (name + ".truth.csv")).string());
+  const CorpusText text = generate(name);
   inputs.write(text.inputs);
   truth.write(text.truth);
   inputs.commit();
@@ -81,7 +83,7 @@ Subcommand add_generate(CLI::App& program) {
             if (options->name.empty() || options->folder.empty()) {
               throw CLI::RequiredError(options->name.empty() ? "NAME or --list" : "--out");
             }
-            write(options->folder, options->name, generate(options->name));
+            write(options->folder, options->name);
             return passed;
           }};
 }

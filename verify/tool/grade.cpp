@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -53,8 +56,9 @@ The grade, family by family:
   that the corpus does not have, or that cannot be read.
 
 Exit status: 0 every row answered, every threshold kept; 1 answers are missing, faulty or
-beyond a threshold, worse than the baseline, a claimed bound is broken, a normal is reversed, or the tool died, hung or
-printed without end; 2 refused command line or corpus, or a failed write.
+beyond a threshold, worse than the baseline, a claimed bound is broken, a normal is reversed,
+or the tool was ended by a signal, hung or printed without end (its own exit status up to 128
+is shown and decides nothing); 2 refused command line or corpus, or a failed write.
 
 Example:
   $ tangency-verify grade --tool 'tangency contact' --max-wrong 0 --max-gap-error 1e-15
@@ -103,6 +107,9 @@ std::string truth_of(const fs::path& folder, const std::string& name) {
 std::vector<std::string> chosen_corpora(const Options& options, const fs::path& folder) {
   const std::vector<std::string> all = names_in(folder);
   for (const std::string& name : options.names) {
+    if (std::ranges::count(options.names, name) > 1) {
+      refuse("--corpus", name + " is named more than once");
+    }
     if (std::ranges::find(all, name) != all.end()) continue;
     std::string rule = "there is no corpus " + name + " here; there are:";
     for (const std::string& known : all) rule += ' ' + known;
@@ -129,8 +136,22 @@ Definition definition_named(std::string_view name) {
 }
 
 void require_readable(const std::string& path) {
-  if (path != "-" && ::access(path.c_str(), R_OK) != 0) {
-    refuse(path, "cannot be read: " + std::generic_category().message(errno));
+  if (path == "-") return;
+  std::error_code none;
+  const int problem = ::access(path.c_str(), R_OK) != 0 ? errno
+                      : fs::is_directory(path, none)    ? EISDIR
+                                                        : 0;
+  if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
+}
+
+// The inputs must be those that the truth is about.
+void require_rows(const std::string& inputs, std::size_t rows) {
+  csv::Reader reader(inputs);
+  std::size_t found = 0;
+  csv::for_each_row(reader, [&](const csv::RowCursor&) { ++found; });
+  if (found != rows) {
+    refuse(inputs,
+           std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
   }
 }
 
@@ -146,17 +167,21 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
   }
   // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const ToolRun run =
-      run_tool(options.tool, (folder / (name + ".csv")).string(), {options.seconds, most_bytes});
+  const std::string inputs = (folder / (name + ".csv")).string();
+  require_rows(inputs, truth.rows.size());
+  const ToolRun run = run_tool(options.tool, inputs, {options.seconds, most_bytes});
   return {name, truth.kind, grade(truth, run.output_path, demands),
           RunNote{run.sound, run.ending, run.last_words, run.seconds}};
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  csv::OutputFile file(path);
-  file.write(text);
-  file.commit();
+std::unique_ptr<csv::OutputFile> opened(const std::string& path) {
+  return path.empty() ? nullptr : std::make_unique<csv::OutputFile>(path);
+}
+
+void write(const std::unique_ptr<csv::OutputFile>& file, const std::string& text) {
+  if (!file) return;
+  file->write(text);
+  file->commit();
 }
 
 // The first of them; of the others how many there are.
@@ -189,6 +214,8 @@ std::string differences(const Comparison& beside, const std::string& file) {
 ExitStatus run(const Options& options) {
   const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
+  // What cannot be written is refused before the first tool is started.
+  const auto json = opened(options.json), html = opened(options.html);
   csv::OutputFile screen("-");
   std::vector<CorpusGrade> grades;
   for (const std::string& name : chosen_corpora(options, folder)) {
@@ -202,9 +229,8 @@ ExitStatus run(const Options& options) {
     append_named(failed_by, "worse than the baseline: ", beside.worse);
   }
   for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
-  write_file(options.json, as_json(grades));
-  write_file(options.html,
-             as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by));
+  write(json, as_json(grades));
+  write(html, as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by));
   return failed_by.empty() ? passed : failed;
 }
 
@@ -215,6 +241,34 @@ std::string check_definition(const std::string& name) {
   return name +
          " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
          "are";
+}
+
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "");
+}
+
+CLI::Validator whole_number() {
+  const auto check = [](const std::string& text) -> std::string {
+    std::size_t value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem == std::errc() && end == text.data() + text.size() &&
+        (text == "0" || !text.starts_with('0')))
+      return {};
+    return text + " is not a whole number from 0";
+  };
+  return CLI::Validator(check, "");
+}
+
+// A finite number from 0; 0 itself only if asked for.
+CLI::Validator number(bool or_zero) {
+  const auto check = [or_zero](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool whole = !text.empty() && end == text.c_str() + text.size() && text[0] != ' ';
+    if (whole && std::isfinite(value) && (or_zero ? value >= 0 : value > 0)) return {};
+    return text + " is not a finite number " + (or_zero ? ">= 0" : "> 0");
+  };
+  return CLI::Validator(check, "");
 }
 
 void require_fitting(const Options& options) {
@@ -233,18 +287,19 @@ Subcommand add_grade(CLI::App& program) {
   CLI::App& app = *program.add_subcommand("grade", "Grades answers, or a tool that gives them");
   app.add_option("--answers", options->answers,
                  "A table of answers to one corpus; - is standard input")
+      ->check(not_empty())
       ->type_name("FILE");
   app.add_option("--tool", options->tool,
                  "A shell command, started once a corpus: inputs come on its standard input, "
                  "answers are read from its standard output")
+      ->check(not_empty())
       ->type_name("COMMAND");
   app.add_option("--corpus", options->names,
-                 "Which; may be given several times for a tool (default: all corpora of pairs of "
-                 "ellipsoids)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+                 "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
+      ->type_name("NAME");
   app.add_option("--corpora", options->corpora,
                  "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
+      ->check(not_empty())
       ->type_name("DIR");
   app.add_option("--definition", options->definition,
                  "What gap and normal mean: common-normal (default), perram-wertheim, "
@@ -254,28 +309,33 @@ Subcommand add_grade(CLI::App& program) {
       ->type_name("D");
   Thresholds& limits = options->thresholds;
   app.add_option("--max-wrong", limits.wrong, "Most wrong answers, over all corpora")
+      ->check(whole_number())
       ->type_name("N");
   app.add_option("--max-gap-error", limits.gap_error, "Largest gap error")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number(true))
       ->type_name("X");
   app.add_option("--max-normal-error", limits.normal_error, "Largest normal error")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number(true))
       ->type_name("X");
   app.add_option("--time-limit", options->seconds,
                  "Seconds a tool has for a corpus before it is killed (default: 300)")
-      ->check(CLI::PositiveNumber)
+      ->check(number(false))
       ->type_name("SECONDS");
   app.add_option("--baseline", options->baseline,
                  "An earlier grade, written by --json: anything worse fails, what is better is "
                  "named, times are shown beside each other")
+      ->check(not_empty())
       ->type_name("FILE");
   app.add_option("--baseline-slack", options->slack,
                  "Share of the baseline's errors by which they may differ (default: 0)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number(true))
       ->type_name("X");
   app.add_option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
+      ->check(not_empty())
       ->type_name("FILE");
-  app.add_option("--html", options->html, "Also write it as a page with plots")->type_name("FILE");
+  app.add_option("--html", options->html, "Also write it as a page with plots")
+      ->check(not_empty())
+      ->type_name("FILE");
   app.footer(kHelp);
   return {&app, [options] {
             require_fitting(*options);
