@@ -24,7 +24,7 @@ grade() {
     function count(what) { return what in v ? v[what] : "-" }
     function error(what) {
       if (!(what in v)) return "-"
-      return v[what] == "null" ? "inf" : v[what] == 0 ? "0" : sprintf("%.1e", v[what])
+      return v[what] > 1.79e308 ? "inf" : v[what] == 0 ? "0" : sprintf("%.1e", v[what])
     }
     function row() {
       if (corpus == "") return
