@@ -171,7 +171,8 @@ class Watch {
   void describe_end() {
     const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 0;
     // A shell tells of a signal that ended its program by 128 and the signal's number.
-    const int signal = WIFEXITED(status_) ? std::max(0, code - 128) : WTERMSIG(status_);
+    const bool is_told = code > 128 && code <= 128 + SIGSYS;
+    const int signal = !WIFEXITED(status_) ? WTERMSIG(status_) : is_told ? code - 128 : 0;
     run_.sound = signal == 0;
     run_.ending = run_.sound ? "ended with status " + std::to_string(code)
                              : "was ended by signal " + std::to_string(signal) + " (" +

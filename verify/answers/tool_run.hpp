@@ -27,7 +27,8 @@ struct ToolRun {
 // `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
 // comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
 // SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then is kept.
-// A process that leaves the group is left alone. A shell's status above 128 is a signal.
+// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
+// by a shell.
 // Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
 

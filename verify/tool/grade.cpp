@@ -57,8 +57,8 @@ The grade, family by family:
 
 Exit status: 0 every row answered, every threshold kept; 1 answers are missing, faulty or
 beyond a threshold, worse than the baseline, a claimed bound is broken, a normal is reversed,
-or the tool was ended by a signal, hung or printed without end (its own exit status up to 128
-is shown and decides nothing); 2 refused command line or corpus, or a failed write.
+or the tool was ended by a signal, hung or printed without end (its own exit status is shown
+and decides nothing); 2 refused command line or corpus, or a failed write.
 
 Example:
   $ tangency-verify grade --tool 'tangency contact' --max-wrong 0 --max-gap-error 1e-15
