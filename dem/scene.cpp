@@ -44,8 +44,7 @@ class Reader {
     read_stages();
     const Section output(source_, table("output"), "output", "output");
     scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
-                     output.integer("checkpoint_interval"),
-                     output.real("checkpoint_seconds")};
+                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds")};
     return std::move(scene_);
   }
 
@@ -247,7 +246,9 @@ class Reader {
                                             (first ? "the first stage must be of kind place"
                                                    : "only the first stage may be of kind place"));
     const Section section(source_, stage, path, "stage", kind);
-    Stage& added = scene_.stages.emplace_back(Stage{section.text("name", kind), {}, {}, {}});
+    const std::string name = section.text("name", kind);
+    refuse_shear_namesake(section, name, kind == "shear");
+    Stage& added = scene_.stages.emplace_back(Stage{name, {}, {}, {}});
     if (kind == "place") {
       added.place = read_place(section);
       read_bodies(section);
@@ -256,6 +257,16 @@ class Reader {
     }
     added.drive = read_drive(section, kind, scene_);
     if (kind == "grow") added.growth = read_growth(section);
+  }
+
+  /// The rows of a shear stage, of which summary.json has the peaks, are found by its name.
+  void refuse_shear_namesake(const Section& section, const std::string& name, bool shears) const {
+    for (const Stage& other : scene_.stages) {
+      const bool other_shears = other.drive && other.drive->axial_strain;
+      if (other.name == name && shears != other_shears)
+        section.fail(section.has("name") ? "name" : "kind",
+                     "a name of its own: a shear stage and another have the same");
+    }
   }
 
   Place read_place(const Section& section) const {

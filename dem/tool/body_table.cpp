@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <algorithm>
+#include <initializer_list>
+#include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/geometry/tool/csv.hpp>
 
@@ -18,12 +20,20 @@ Columns group(const csv::Header& header, const std::vector<std::string>& names) 
   return columns;
 }
 
+/// @param name  of the key of [[body]] that the columns stand for, whose values are theirs
 template <class Vector>
-Vector numbers(const csv::RowCursor& row, const Columns& columns, const Vector& otherwise) {
+Vector numbers(const csv::RowCursor& row, const Columns& columns, std::string_view name,
+               const Vector& otherwise) {
   if (columns.empty()) return otherwise;
+  const auto key = std::find_if(scene_keys().begin(), scene_keys().end(), [&](const Key& one) {
+    return one.section == "body" && one.name == name;
+  });
   Vector v = otherwise;
-  for (Eigen::Index k = 0; k < v.size(); ++k)
-    v[k] = row.number(columns[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < v.size(); ++k) {
+    const csv::Column column = columns[static_cast<std::size_t>(k)];
+    v[k] = row.number(column);
+    if (!key->range.holds(v[k])) throw row.error(column, "one of " + allowed_values(*key));
+  }
   return v;
 }
 
@@ -39,22 +49,32 @@ class BodyTable {
 
   Body read(const csv::RowCursor& row) const {
     const Vec3 none = Vec3::Zero();
-    const Eigen::Vector4d q = numbers(row, orientation_, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
+    const Eigen::Vector4d q =
+        numbers(row, orientation_, "orientation", Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
     if (q.isZero(0.0)) throw row.error(orientation_[0], "4 finite numbers, not all 0");
     const Body body{type_of(row),
-                    numbers(row, position_, none),
+                    numbers(row, position_, "position", none),
                     {q[0], q[1], q[2], q[3]},
-                    numbers(row, velocity_, none),
-                    numbers(row, angular_velocity_, none)};
-    const bool in_plane = body.position[2] == 0.0 && q[1] == 0.0 && q[2] == 0.0 &&
-                          body.velocity[2] == 0.0 &&
-                          body.angular_velocity.head<2>() == Vec2::Zero();
-    if (scene_.dimensions == 2 && !in_plane)
-      throw row.error(position_[2], "with dimensions = 2 a body lies, moves and turns in z = 0");
+                    numbers(row, velocity_, "velocity", none),
+                    numbers(row, angular_velocity_, "angular_velocity", none)};
+    if (scene_.dimensions == 2) {
+      require_zero(row, position_, {2});
+      require_zero(row, orientation_, {1, 2});
+      require_zero(row, velocity_, {2});
+      require_zero(row, angular_velocity_, {0, 1});
+    }
     return body;
   }
 
  private:
+  static void require_zero(const csv::RowCursor& row, const Columns& columns,
+                           std::initializer_list<std::size_t> which) {
+    if (columns.empty()) return;
+    for (const std::size_t k : which)
+      if (row.number(columns[k]) != 0.0)
+        throw row.error(columns[k], "0: with dimensions = 2 a body lies, moves and turns in z = 0");
+  }
+
   std::size_t type_of(const csv::RowCursor& row) const {
     const auto& types = scene_.particle_types;
     for (std::size_t k = 0; k < types.size(); ++k)

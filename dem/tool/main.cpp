@@ -164,10 +164,14 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "Run a scene");
   run_command->add_option("SCENE", scene, "Scene in TOML; its keys: tangency-dem schema")
       ->required();
-  run_command->add_option("--out", out, "Directory for the results [SCENE's name + -out]");
+  const CLI::Validator not_empty(
+      [](const std::string& name) { return name.empty() ? "is empty" : ""; }, "");
+  run_command->add_option("--out", out, "Directory for the results [SCENE's name + -out]")
+      ->check(not_empty);
   run_command->add_option("--threads", options.threads, "Number of threads [all]")
       ->check(CLI::Range(1, 1024));
-  run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state");
+  run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state")
+      ->check(not_empty);
   run_command->footer(run_help);
   run_command->add_flag("--quiet", options.quiet, "No progress");
   CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,9 +21,9 @@ namespace fs = std::filesystem;
 /// Makes the directory and sees that files can be made in it. Leaves nothing when not.
 fs::path usable(const fs::path& directory) {
   std::error_code error;
-  fs::path made;  // the uppermost directory that was not there
-  for (fs::path at = fs::absolute(directory).lexically_normal(); !fs::exists(at, error);
-       at = at.parent_path())
+  fs::path made;  // the uppermost directory that was not there; a link that leads nowhere was
+  for (fs::path at = fs::absolute(directory).lexically_normal();
+       !fs::exists(fs::symlink_status(at, error)); at = at.parent_path())
     made = at;
   fs::create_directories(directory, error);
   const fs::path probe = directory / ".writable";
@@ -31,6 +33,15 @@ fs::path usable(const fs::path& directory) {
   if (!made.empty()) fs::remove_all(made, error);
   throw OutputError("--out " + directory.string() +
                     ": cannot be written: a directory, or a place for one");
+}
+
+/// Held until it is closed, and by no second run meanwhile. No file is made for it.
+csv::Descriptor locked(const fs::path& directory) {
+  csv::Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw OutputError("--out " + directory.string() +
+                      ": another run is writing there: another directory, or wait for its end");
+  return lock;
 }
 
 std::string header_line() {
@@ -76,12 +87,17 @@ void add_peaks(nlohmann::ordered_json& summary, const fs::path& history, const S
   summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
-/// Rows of the history in a directory up to those of `cycle`.
+/// Rows of the history in a directory up to those of `cycle`; none where there is no history.
 std::string earlier_rows(const fs::path& directory, std::int64_t cycle) {
-  std::ifstream in(directory / "history.csv");
+  const fs::path file = directory / "history.csv";
+  std::ifstream in(file);
+  if (!in) return {};
   std::string rows, line;
   std::getline(in, line);
-  if (line + "\n" != header_line()) return {};
+  if (line + "\n" != header_line())
+    throw OutputError(file.string() +
+                      ": not as this program wrote it, so that it cannot be carried on: that "
+                      "file, none, or another --out");
   while (std::getline(in, line) && std::atoll(line.c_str()) <= cycle) rows += line + "\n";
   return rows;
 }
@@ -90,6 +106,7 @@ std::string earlier_rows(const fs::path& directory, std::int64_t cycle) {
 
 Results::Results(const fs::path& directory, const Simulation& simulation, bool resumed)
     : directory_(usable(directory)),
+      lock_(locked(directory_)),
       history_(resumed ? earlier_rows(directory_, simulation.state().cycle) : std::string()),
       last_cycle_(resumed ? simulation.state().cycle : -1),
       frames_(directory_, last_cycle_) {
@@ -118,6 +135,11 @@ void Results::write_history() const {
 
 void Results::finish_incomplete(const Simulation& simulation) {
   checkpoint(simulation);
+  frames_.finish();
+}
+
+void Results::finish_without_state() {
+  write_history();
   frames_.finish();
 }
 

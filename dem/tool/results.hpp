@@ -8,6 +8,7 @@
 #include <string>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
+#include <tangency/geometry/tool/descriptor.hpp>
 
 namespace tangency::dem {
 
@@ -20,7 +21,7 @@ struct RunCost {
   int threads = 1;
 };
 
-/// --out DIR that cannot be used; what() is one line.
+/// --out DIR that cannot be used, or is being written to; what() is one line.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,6 +45,9 @@ class Results {
   /// Ends a run that is not complete: history, frames and checkpoint.
   void finish_incomplete(const Simulation& simulation);
 
+  /// Ends a run whose state is of no use: history and frames. An earlier checkpoint stays.
+  void finish_without_state();
+
   /// Ends a complete run: history, frames, checkpoint, final.state and summary.json.
   void finish(const Simulation& simulation, const RunCost& cost);
 
@@ -52,6 +56,7 @@ class Results {
   void write_summary(const Simulation& simulation, const RunCost& cost) const;
 
   std::filesystem::path directory_;
+  csv::Descriptor lock_;
   std::string history_;      ///< rows after the header
   std::int64_t last_cycle_;  ///< of the last row; -1: none yet
   Frames frames_;

@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
+#include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/progress.hpp>
@@ -39,8 +40,10 @@ volatile std::sig_atomic_t caught_signal = 0;
 
 extern "C" void catch_signal(int number) { caught_signal = number; }
 
-/// A signal that the parent had ignored, as nohup does, stays so.
+/// A signal that the parent had ignored, as nohup does, stays so. A reader of the progress that has
+/// gone ends no run, and a file that may not grow is a failed write.
 void catch_interrupts() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
   for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
     struct sigaction action {};
     sigaction(number, nullptr, &action);
@@ -73,6 +76,7 @@ class Run {
  public:
   Run(Simulation simulation, const RunOptions& options)
       : simulation_(std::move(simulation)),
+        out_(options.out),
         results_(options.out, simulation_, options.resume.has_value()),
         progress_(options.quiet) {
     cost_.threads = omp_get_max_threads();
@@ -95,7 +99,12 @@ class Run {
         cycle();
       }
     } catch (const Diverged& error) {
-      return give_up(error.what());
+      warn(error.what());
+      results_.finish_without_state();
+      return not_reached;
+    } catch (const WriteError&) {
+      save_what_can_be();
+      throw;
     }
     progress_.show(1.0, where());
     progress_.finish();
@@ -199,10 +208,18 @@ class Run {
     return not_reached;
   }
 
+  /// A frame may have found the disk full, and a state still have room.
+  void save_what_can_be() {
+    try {
+      results_.checkpoint(simulation_);
+    } catch (const WriteError&) {  // the first failure is the one to tell of
+    }
+  }
+
   int interrupt() {
     results_.finish_incomplete(simulation_);
     warn("interrupted in cycle " + std::to_string(simulation_.state().cycle) +
-         "; continue with --resume checkpoint.state");
+         "; continue with --resume " + (out_ / "checkpoint.state").string());
     return 128 + caught_signal;
   }
 
@@ -214,6 +231,7 @@ class Run {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
   Simulation simulation_;
+  std::filesystem::path out_;
   Results results_;
   Progress progress_;
   RunCost cost_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem run` from explicit arrangements, and what is left to go on from after a kill or a
 /// full disk.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -111,6 +114,64 @@ std::string with_version(std::string state, char version) {
   return state;
 }
 
+TEST(RunAgain, AfterABlowUpTheLastSoundCheckpointIsThereStill) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.toml",
+      "schema = 1\n[particles.s]\ncount = 8\nmean_radius = 10.0\nelongation = 1.2\n"
+      "[contact]\nnormal_stiffness = 1.5e10\n[[stage]]\nkind = \"place\"\n"
+      "[[stage]]\nkind = \"servo\"\nstrain_rate = [-29, 0, 0]\nduration = 30000\n"
+      "[output]\nhistory_interval = 50\ncheckpoint_interval = 500\nframe_interval = 0\n");
+  const std::string out = folder.path("out"), state = out + "/checkpoint.state";
+  for (const std::vector<std::string>& from : {{}, std::vector<std::string>{"--resume", state}}) {
+    const Finished run = run_quietly(scene, out, from);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.err.find("tangency-dem: the run blew up: "), 0u) << run.err;
+    EXPECT_EQ(read_file(out + "/history.csv").find("inf"), std::string::npos);
+  }
+}
+
+TEST(RunAgain, RefusesAHistoryThatItDidNotWriteAndLeavesIt) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture()), out = folder.path("out");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  const std::string edited = "# a note\n" + read_file(out + "/history.csv"),
+                    summary = read_file(out + "/summary.json");
+  folder.write("out/history.csv", edited);
+  const Finished again = run_quietly(scene, out, {"--resume", out + "/final.state"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_EQ(again.err.find(out + "/history.csv: not as this program wrote it"), 0u) << again.err;
+  EXPECT_EQ(read_file(out + "/history.csv"), edited);
+  EXPECT_EQ(read_file(out + "/summary.json"), summary);
+}
+
+TEST(RunAgain, RefusesAPlaceWhereAnotherRunIsWriting) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture()), out = folder.path("out");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  const int other = ::open(out.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+  const Finished second = run_quietly(scene, out);
+  EXPECT_EQ(second.status, 2);
+  EXPECT_EQ(second.err.find("--out " + out + ": another run is writing there"), 0u) << second.err;
+  EXPECT_TRUE(std::filesystem::exists(out + "/summary.json"));
+  ::close(other);
+  EXPECT_EQ(run_quietly(scene, out).status, 0);
+}
+
+TEST(RunAgain, RefusesNamesThatAreEmptyAndLinksThatLeadNowhereAndTakesNothingAway) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture()), out = folder.path("out");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  EXPECT_EQ(run_quietly(scene, out, {"--resume", ""}).status, 2);
+  EXPECT_EQ(run_tool({"run", scene, "--out", ""}).status, 2);
+  EXPECT_TRUE(std::filesystem::exists(out + "/summary.json"));
+  const std::filesystem::path link = folder.path("link");
+  std::filesystem::create_symlink("/nonexistent/disk", link);
+  EXPECT_EQ(run_quietly(scene, link.string()).status, 2);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
 TEST(RunAgain, RefusesStatesItCannotReadAndLeavesEarlierResults) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", mixture());
@@ -190,6 +251,8 @@ TEST(ExplicitBodies, OfABadTableAreRefusedWithTheirLine) {
             file + ":2: type = c: a name of one of the scene's particle types");
   EXPECT_EQ(message("0,0,0,2", "0,0,0,0"), file + ":3: qw = 0: 4 finite numbers, not all 0");
   EXPECT_EQ(message("50,", "nan,").find(file + ":3: y = nan: "), 0u);
+  EXPECT_EQ(message("50,", "1e300,").find(file + ":3: y = 1e300: one of 3 "), 0u);
+  EXPECT_EQ(message("0.5,0,-1", "0.5,-1e31,0").find(file + ":2: vy = -1e31: one of 3 "), 0u);
   EXPECT_EQ(message("type", "kind").find(file + ":1: "), 0u);
   EXPECT_EQ(message("qz", "q").find(file + ":1: "), 0u);
   EXPECT_EQ(message("5,b", "5,a"), file + ": 3 bodies of type a: as many as particles.a.count, 2");

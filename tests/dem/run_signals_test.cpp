@@ -96,6 +96,8 @@ TEST(RunSignals, ThatTheParentIgnoredStayIgnored) {
   Started run(scene_of(folder, "1000"), folder.path("out"), SIG_IGN);
   EXPECT_TRUE(run.is_in("SigCgt:", SIGTERM));
   EXPECT_TRUE(run.is_in("SigIgn:", SIGHUP));
+  EXPECT_TRUE(run.is_in("SigIgn:", SIGPIPE));  // a reader of the progress that has gone
+  EXPECT_TRUE(run.is_in("SigIgn:", SIGXFSZ));
   EXPECT_EQ(run.end_by(SIGTERM), 128 + SIGTERM);
 }
 
