@@ -228,8 +228,8 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        "scene.toml:16: stage[1].plane_mean_stress = 1e+06: not together with stresses that it "
        "is the mean of"},
       {"shear and another of one name",
-       servo("[[stage]]\nkind = \"shear\"\nname = \"servo\"\n"),
-       "scene.toml:18: stage[2].name = 'servo': a name of its own: a shear stage and another have "
+       scene_with("shear") + "[[stage]]\nkind = \"servo\"\nname = \"shear\"\nduration = 1\n",
+       "scene.toml:19: stage[2].name = 'shear': a name of its own: a shear stage and another have "
        "the same"},
       {"holding without a bound", servo("mean_stress = 1e6\n"),
        "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
