@@ -20,19 +20,21 @@ Columns group(const csv::Header& header, const std::vector<std::string>& names) 
   return columns;
 }
 
-/// @param name  of the key of [[body]] that the columns stand for, whose values are theirs
+/// The key of [[body]] that columns stand for, whose values are theirs.
+const Key& body_key(std::string_view name) {
+  return *std::find_if(scene_keys().begin(), scene_keys().end(),
+                       [&](const Key& one) { return one.section == "body" && one.name == name; });
+}
+
 template <class Vector>
-Vector numbers(const csv::RowCursor& row, const Columns& columns, std::string_view name,
+Vector numbers(const csv::RowCursor& row, const Columns& columns, const Key& key,
                const Vector& otherwise) {
   if (columns.empty()) return otherwise;
-  const auto key = std::find_if(scene_keys().begin(), scene_keys().end(), [&](const Key& one) {
-    return one.section == "body" && one.name == name;
-  });
   Vector v = otherwise;
   for (Eigen::Index k = 0; k < v.size(); ++k) {
     const csv::Column column = columns[static_cast<std::size_t>(k)];
     v[k] = row.number(column);
-    if (!key->range.holds(v[k])) throw row.error(column, "one of " + allowed_values(*key));
+    if (!key.range.holds(v[k])) throw row.error(column, "one of " + allowed_values(key));
   }
   return v;
 }
@@ -50,13 +52,13 @@ class BodyTable {
   Body read(const csv::RowCursor& row) const {
     const Vec3 none = Vec3::Zero();
     const Eigen::Vector4d q =
-        numbers(row, orientation_, "orientation", Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
+        numbers(row, orientation_, orientation_key_, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
     if (q.isZero(0.0)) throw row.error(orientation_[0], "4 finite numbers, not all 0");
     const Body body{type_of(row),
-                    numbers(row, position_, "position", none),
+                    numbers(row, position_, position_key_, none),
                     {q[0], q[1], q[2], q[3]},
-                    numbers(row, velocity_, "velocity", none),
-                    numbers(row, angular_velocity_, "angular_velocity", none)};
+                    numbers(row, velocity_, velocity_key_, none),
+                    numbers(row, angular_velocity_, angular_velocity_key_, none)};
     if (scene_.dimensions == 2) {
       require_zero(row, position_, {2});
       require_zero(row, orientation_, {1, 2});
@@ -83,6 +85,10 @@ class BodyTable {
   }
 
   const Scene& scene_;
+  const Key& position_key_ = body_key("position");
+  const Key& orientation_key_ = body_key("orientation");
+  const Key& velocity_key_ = body_key("velocity");
+  const Key& angular_velocity_key_ = body_key("angular_velocity");
   csv::Column type_;
   Columns position_, orientation_, velocity_, angular_velocity_;
 };

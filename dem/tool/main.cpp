@@ -13,6 +13,7 @@
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tool/not_empty.hpp>
 
 namespace {
 
@@ -164,14 +165,12 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "Run a scene");
   run_command->add_option("SCENE", scene, "Scene in TOML; its keys: tangency-dem schema")
       ->required();
-  const CLI::Validator not_empty(
-      [](const std::string& name) { return name.empty() ? "is empty" : ""; }, "");
   run_command->add_option("--out", out, "Directory for the results [SCENE's name + -out]")
-      ->check(not_empty);
+      ->check(tangency::tool::not_empty());
   run_command->add_option("--threads", options.threads, "Number of threads [all]")
       ->check(CLI::Range(1, 1024));
   run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state")
-      ->check(not_empty);
+      ->check(tangency::tool::not_empty());
   run_command->footer(run_help);
   run_command->add_flag("--quiet", options.quiet, "No progress");
   CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");

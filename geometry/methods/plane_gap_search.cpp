@@ -20,7 +20,7 @@ constexpr double kSlack = 1.0 + 0x1p-20;  // covers what bounds in double round
 constexpr double kTie = 0x1p-80;          // of L: chosen; answers no further apart are one
 constexpr double kFine = 0x1p-60;       // of L: chosen; an arc with no more above the best is done
 constexpr double kEnough = 0x1p-52;     // of L: what a search that is slow settles for
-constexpr int kFineBudget = 400;        // arcs; chosen: pairs of aspect 1e8 take up to 300
+constexpr int kFineBudget = 400;        // arcs; chosen: above what kPlaneBudget says of extremes
 constexpr double kShortest = 0x1p-200;  // of L; far below the noise
 constexpr int kDeepest = 256;           // halvings
 

@@ -5,17 +5,13 @@
 #include <string>
 #include <thread>
 
+#include <tangency/geometry/tool/not_empty.hpp>
+
 namespace tangency::tool {
 namespace {
 
 // Chosen: beyond any machine this was tried on, and far below what a slip of the keyboard asks for.
 constexpr unsigned kMostThreads = 1024;
-
-CLI::Validator not_empty() {
-  return CLI::Validator(
-      [](const std::string& name) { return name.empty() ? "a file name is empty" : std::string(); },
-      "");
-}
 
 }  // namespace
 

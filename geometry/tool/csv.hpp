@@ -3,7 +3,7 @@
 /// Comma-separated tables, read and written as a stream in constant memory.
 ///
 /// A table is UTF-8 text (a byte-order mark is tolerated): a header line that names the columns, in
-/// any order, then a line a row. Blank lines and lines whose first character is `#` are skipped;
+/// any order, then a line a row. Blank lines and lines that begin with `#`, blanks aside, are skipped;
 /// spaces and tabs around cells and CRLF line ends are allowed; cells are never quoted. A line is
 /// shorter than `kLongestLine` bytes.
 ///

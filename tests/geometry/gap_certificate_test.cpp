@@ -263,7 +263,8 @@ TEST(GapSearch, OfAConcentricTieTakesTheFirstAxisOfA) {
     const Ellipsoid a({0, 0, 0}, {1, s, 1.2}, q), b({0, 0, 0}, {s, 1, 1.2}, q);
     const Gap gap = signed_gap(a, b);
     EXPECT_EQ(gap.status, GapStatus::ok);
-    EXPECT_LT((gap.normal - a.rotation().col(0)).norm(), 1e-12) << i;
+    // Which of three axes at right angles: any bound far below 1 tells.
+    EXPECT_LE((gap.normal - a.rotation().col(0)).norm(), 1e-12) << i;
   }
 }
 

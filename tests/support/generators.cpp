@@ -73,6 +73,7 @@ rc::Gen<Eigen::Quaterniond> orientation() {
         q *= std::exp2(std::get<5>(t));
         return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
       });
+  // Not 0; chosen: far below the 2^-20 that the length of any other comes down to.
   return rc::gen::suchThat(some, [](const Eigen::Quaterniond& q) { return q.norm() > 1e-12; });
 }
 

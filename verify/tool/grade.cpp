@@ -5,8 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tool/not_empty.hpp>
 #include <tangency/geometry/tool/output_file.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
@@ -243,10 +242,6 @@ std::string check_definition(const std::string& name) {
          "are";
 }
 
-CLI::Validator not_empty() {
-  return CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "");
-}
-
 CLI::Validator whole_number() {
   const auto check = [](const std::string& text) -> std::string {
     std::size_t value = 0;
@@ -262,10 +257,8 @@ CLI::Validator whole_number() {
 // A finite number from 0; 0 itself only if asked for.
 CLI::Validator number(bool or_zero) {
   const auto check = [or_zero](const std::string& text) -> std::string {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const bool whole = !text.empty() && end == text.c_str() + text.size() && text[0] != ' ';
-    if (whole && std::isfinite(value) && (or_zero ? value >= 0 : value > 0)) return {};
+    double value = 0;
+    if (!csv::parse_number(text, value) && (or_zero ? value >= 0 : value > 0)) return {};
     return text + " is not a finite number " + (or_zero ? ">= 0" : "> 0");
   };
   return CLI::Validator(check, "");
@@ -287,19 +280,19 @@ Subcommand add_grade(CLI::App& program) {
   CLI::App& app = *program.add_subcommand("grade", "Grades answers, or a tool that gives them");
   app.add_option("--answers", options->answers,
                  "A table of answers to one corpus; - is standard input")
-      ->check(not_empty())
+      ->check(tool::not_empty())
       ->type_name("FILE");
   app.add_option("--tool", options->tool,
                  "A shell command, started once a corpus: inputs come on its standard input, "
                  "answers are read from its standard output")
-      ->check(not_empty())
+      ->check(tool::not_empty("command"))
       ->type_name("COMMAND");
   app.add_option("--corpus", options->names,
                  "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       ->type_name("NAME");
   app.add_option("--corpora", options->corpora,
                  "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
-      ->check(not_empty())
+      ->check(tool::not_empty())
       ->type_name("DIR");
   app.add_option("--definition", options->definition,
                  "What gap and normal mean: common-normal (default), perram-wertheim, "
@@ -324,17 +317,17 @@ Subcommand add_grade(CLI::App& program) {
   app.add_option("--baseline", options->baseline,
                  "An earlier grade, written by --json: anything worse fails, what is better is "
                  "named, times are shown beside each other")
-      ->check(not_empty())
+      ->check(tool::not_empty())
       ->type_name("FILE");
   app.add_option("--baseline-slack", options->slack,
                  "Share of the baseline's errors by which they may differ (default: 0)")
       ->check(number(true))
       ->type_name("X");
   app.add_option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
-      ->check(not_empty())
+      ->check(tool::not_empty())
       ->type_name("FILE");
   app.add_option("--html", options->html, "Also write it as a page with plots")
-      ->check(not_empty())
+      ->check(tool::not_empty())
       ->type_name("FILE");
   app.footer(kHelp);
   return {&app, [options] {
