@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <tangency/dem/contacts.hpp>
+#include <tangency/dem/parallel.hpp>
 
 namespace tangency::dem {
 namespace {

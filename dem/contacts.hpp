@@ -15,10 +15,6 @@
 
 namespace tangency::dem {
 
-/// Below so many pairs, or particles, a loop is over before a second thread has woken up. Chosen:
-/// some 50 us of work, a few times what waking takes.
-inline constexpr std::size_t worth_sharing = 400;
-
 /// One listed pair (a, image of b, or a wall) at the current positions.
 struct Contact {
   Vec3 normal = Vec3::Zero();  ///< unit, from a to b; of a pair apart: as last known; 0: not known

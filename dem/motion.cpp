@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <tangency/dem/contacts.hpp>
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/parallel.hpp>
 
 namespace tangency::dem {
 namespace {

@@ -6,23 +6,16 @@
 #include <array>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/growth.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
+#include <tangency/dem/scene_error.hpp>
 #include <vector>
 
 namespace tangency::dem {
-
-/// A scene that cannot be run; what() is one line, "scene.toml:12: particles.p.count = -1: an
-/// integer from 1 to 1000000".
-class SceneError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct ParticleType {
   std::string name;

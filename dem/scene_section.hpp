@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_keys.hpp>
 
 namespace tangency::dem {

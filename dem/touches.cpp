@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/touches.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/primitives.hpp>

@@ -52,7 +52,7 @@ std::optional<bool> is_definite(double a, int t3_sign, const Estimate& minor2) n
 
 }  // namespace
 
-std::optional<Quadric::Coefficients> in_range(const Quadric::Coefficients& coefficients) noexcept {
+std::optional<QuadricCoefficients> in_range(const QuadricCoefficients& coefficients) noexcept {
   int lowest = 2 * kBias + 1;
   int highest = 0;
   for (const double c : coefficients) {
@@ -66,7 +66,7 @@ std::optional<Quadric::Coefficients> in_range(const Quadric::Coefficients& coeff
   if (lowest >= kBias - kRange && highest <= kBias + kRange) return coefficients;
 
   const int shift = kBias - (lowest + highest) / 2;
-  Quadric::Coefficients scaled = coefficients;
+  QuadricCoefficients scaled = coefficients;
   for (double& c : scaled) {
     const auto bits = std::bit_cast<std::uint64_t>(c);
     if (bits << 1 == 0) continue;
@@ -76,7 +76,7 @@ std::optional<Quadric::Coefficients> in_range(const Quadric::Coefficients& coeff
 }
 
 // Laplace's expansion of Q by its rows 1, 2 and rows 3, 4; T3 shares the minors of rows 1, 2.
-Determinants determinants(const Quadric::Coefficients& coefficients) noexcept {
+Determinants determinants(const QuadricCoefficients& coefficients) noexcept {
   const auto& [a, b, c, d, e, f, g, h, j, k] = coefficients;
   const Estimate upper01 = difference_of_products(a, b, d, d);
   const Estimate upper02 = difference_of_products(a, e, d, f);
@@ -97,7 +97,7 @@ Determinants determinants(const Quadric::Coefficients& coefficients) noexcept {
   return {upper01, t3, plus - minus};
 }
 
-std::optional<QuadricType> regular_type(const Quadric::Coefficients& coefficients) noexcept {
+std::optional<QuadricType> regular_type(const QuadricCoefficients& coefficients) noexcept {
   const auto scaled = in_range(coefficients);
   if (!scaled) return std::nullopt;
   const Determinants computed = determinants(*scaled);

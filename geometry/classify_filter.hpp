@@ -11,7 +11,7 @@
 #include <array>
 #include <optional>
 
-#include <tangency/geometry/classify.hpp>
+#include <tangency/geometry/quadric_type.hpp>
 
 namespace tangency::filter {
 
@@ -36,13 +36,13 @@ struct Determinants {
 /// The coefficients multiplied by a power of two such that the magnitude of each one that is not
 /// zero lies in [2^-200, 2^201), read and scaled by their bits; nothing where a coefficient is
 /// subnormal or their exponents span more than 400.
-std::optional<Quadric::Coefficients> in_range(const Quadric::Coefficients& coefficients) noexcept;
+std::optional<QuadricCoefficients> in_range(const QuadricCoefficients& coefficients) noexcept;
 
 /// Requires coefficients in that range.
-Determinants determinants(const Quadric::Coefficients& coefficients) noexcept;
+Determinants determinants(const QuadricCoefficients& coefficients) noexcept;
 
 /// The type of a quadric whose Q and Q_s are both regular, that is rank4 = 4 and rank3 = 3; nothing
 /// where the estimates do not prove that.
-std::optional<QuadricType> regular_type(const Quadric::Coefficients& coefficients) noexcept;
+std::optional<QuadricType> regular_type(const QuadricCoefficients& coefficients) noexcept;
 
 }  // namespace tangency::filter

@@ -20,22 +20,9 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/gap_status.hpp>
 
 namespace tangency {
-
-enum class GapStatus {
-  ok,     ///< the global answer, proven, with a gap_error of at most 100 u L
-  local,  ///< a stationary answer; that no shorter penetration exists is not proven
-};
-
-/// Which method gave the answer, the cheapest first.
-enum class GapTier {
-  fast,         ///< Newton's method with shape matrices, proven in double
-  safeguarded,  ///< ascent with backtracking on factors, proven in double
-  factored,     ///< the same from a start by orthogonal factors, proven in double-double
-  search,       ///< several ascents and the branch and bound over all normals
-  exact,        ///< any of these, and the exact relation decided the sign
-};
 
 /// Gap, normal and witness points of an ordered pair (A, B).
 struct Gap {

@@ -13,35 +13,14 @@
 /// (3) The types on f > 0 of (A, B) are those of (B, A) in reverse order.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include <tangency/geometry/classify.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/pencil_member.hpp>
 #include <tangency/geometry/quadric.hpp>
 
 namespace tangency {
-
-enum class Invariant { t1, t2, t3, d1, d2, d3, d4 };
-
-/// One root of some invariant, or the open interval between two neighbouring ones.
-struct PencilMember {
-  bool is_root;
-  /// A root: the nearest finite double. An interval: a double in it, or where it holds none, the
-  /// largest (possibly -inf) below some point of it.
-  double f;
-  /// A root lies in [low, high]: equal, or neighbouring doubles. Distinct roots closer than that
-  /// share an enclosure and come in their order. An interval: the low of its left root and the high
-  /// of its right one, infinite at the two ends.
-  double low, high;
-  std::array<int, 7> signs;  ///< -1, 0 or 1, in the order of Invariant
-  Classification classification;
-
-  int sign(Invariant i) const noexcept { return signs[static_cast<std::size_t>(i)]; }
-  /// Does it lie in f > 0, an interval at least in part?
-  bool is_positive() const noexcept { return high > 0.0 && (!is_root || low >= 0.0); }
-};
 
 /// All members from f = -inf to +inf, at most 33: seven invariants have at most 16 roots.
 std::vector<PencilMember> pencil_members(const Quadric& a, const Quadric& b);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include <tangency/geometry/classify.hpp>
+#include <tangency/geometry/classify_coefficients.hpp>
 
 namespace tangency {
 namespace {
@@ -137,7 +137,7 @@ Quadric Quadric::scaled(double factor) const {
 }
 
 std::optional<Ellipsoid> Quadric::to_ellipsoid() const {
-  if (classify(*this).type != QuadricType::real_ellipsoid) return std::nullopt;
+  if (classify_coefficients(coefficients_).type != QuadricType::real_ellipsoid) return std::nullopt;
   auto [p, unit_exponent] = normalised(parts_of(*this));
   if (p.block.trace() < 0.0) p = {-p.block, -p.column, -p.constant};
 

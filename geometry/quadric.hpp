@@ -14,11 +14,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 #include <optional>
 #include <stdexcept>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/quadric_type.hpp>
 
 namespace tangency {
 
@@ -50,7 +50,7 @@ class InvalidQuadric : public std::invalid_argument {
 /// All up to rounding.
 class Quadric {
  public:
-  using Coefficients = std::array<double, 10>;
+  using Coefficients = QuadricCoefficients;
 
   /// @param coefficients  A B C D E F G H J K
   /// @throws InvalidQuadric  naming the first coefficient that is not finite

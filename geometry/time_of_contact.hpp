@@ -2,12 +2,7 @@
 /// @file
 /// When two ellipsoids in motion first touch.
 ///
-/// A moving body turns at a constant angular velocity w about an axis in space that itself moves at
-/// a constant velocity v. With E(t) = exp(t [w]x), r = centre - pivot at t = 0:
-///
-///     c(t) = c(0) + t v + (E(t) - 1) r,      R(t) = E(t) R(0).
-///
-/// r = 0 is a body that flies straight and spins about its centre; v along w is a screw motion.
+/// How a body moves: motion.hpp.
 ///
 /// (1) Exchanging the bodies leaves status and times, up to the tolerance.
 /// (2) A velocity common to both bodies changes nothing, up to the tolerance.
@@ -16,14 +11,9 @@
 #pragma once
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/motion.hpp>
 
 namespace tangency {
-
-struct Motion {
-  Vec3 velocity = Vec3::Zero();          ///< of the pivot, length per time
-  Vec3 angular_velocity = Vec3::Zero();  ///< in space, radians per time
-  Vec3 pivot_arm = Vec3::Zero();         ///< r: the body's centre at t = 0 less the pivot
-};
 
 /// Turning about a fixed axis through a point while moving along it.
 /// @param body              at t = 0

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/exact/integer_forms.hpp>
 #include <tangency/geometry/exact/integer_polynomial.hpp>
-#include <tangency/geometry/pencil.hpp>
+#include <tangency/geometry/pencil_member.hpp>
 
 namespace tangency::exact {
 

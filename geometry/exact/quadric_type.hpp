@@ -4,7 +4,7 @@
 /// Internal.
 #pragma once
 
-#include <tangency/geometry/classify.hpp>
+#include <tangency/geometry/quadric_type.hpp>
 #include <tangency/geometry/exact/integer_forms.hpp>
 
 namespace tangency::exact {

@@ -5,7 +5,7 @@
 /// ratio and not the square of it.
 #pragma once
 
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
 
 namespace tangency::methods {

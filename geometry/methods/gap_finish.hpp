@@ -9,7 +9,7 @@
 #include <limits>
 
 #include <tangency/geometry/floating_point.hpp>
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_status.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency::methods {

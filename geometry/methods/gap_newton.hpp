@@ -3,7 +3,7 @@
 /// The gap by Newton's method on the sphere of normals, without a tangent basis: the fast path.
 #pragma once
 
-#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::methods {
 

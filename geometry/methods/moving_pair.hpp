@@ -4,7 +4,7 @@
 /// so: docs/derivations/time-of-contact.md.
 #pragma once
 
-#include <tangency/geometry/time_of_contact.hpp>
+#include <tangency/geometry/motion.hpp>
 
 namespace tangency::methods {
 

@@ -14,7 +14,7 @@
 
 #include <hwy/highway.h>
 
-#include <tangency/geometry/methods/gap_lanes.hpp>
+#include <tangency/geometry/methods/lane_block.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace tangency::methods::HWY_NAMESPACE {

@@ -17,7 +17,7 @@
 #include <optional>
 #include <utility>
 
-#include <tangency/geometry/trace_contact.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::methods {
 

@@ -12,7 +12,7 @@
 #include <array>
 
 #include <tangency/geometry/methods/trace_frame.hpp>
-#include <tangency/geometry/trace_contact.hpp>
+#include <tangency/geometry/trace_status.hpp>
 
 namespace tangency::methods {
 

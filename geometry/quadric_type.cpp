@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/geometry/classify.hpp>
-
-#include <array>
-
-#include <tangency/geometry/classify_filter.hpp>
-#include <tangency/geometry/exact/integer_forms.hpp>
-#include <tangency/geometry/exact/quadric_type.hpp>
+#include <tangency/geometry/quadric_type.hpp>
 
 namespace tangency {
 
@@ -39,13 +33,6 @@ bool is_empty(QuadricType type) noexcept {
   return type == QuadricType::imaginary_ellipsoid ||
          type == QuadricType::imaginary_elliptic_cylinder ||
          type == QuadricType::imaginary_parallel_planes || type == QuadricType::no_points;
-}
-
-Classification classify(const Quadric& quadric) noexcept {
-  const Quadric::Coefficients& coefficients = quadric.coefficients();
-  if (const auto type = filter::regular_type(coefficients)) return {*type, 4, 3, Tier::filter};
-  return exact::classify_form(
-      exact::quadric_form(coefficients, exact::common_exponent(coefficients)));
 }
 
 }  // namespace tangency
