@@ -18,7 +18,7 @@ struct Step {
 /// Turns a free body for a time dt: q and the angular momentum in body axes, which stays fixed in
 /// space. About the axes 1, 2, 3, 2, 1 for dt/2, dt/2, dt, dt/2, dt/2, each turn exact
 /// [Dullweber1997].
-void turn_freely(Eigen::Quaterniond& q, Vec3& momentum, const Vec3& inertia, double dt) {
+void turn_freely(Quaternion& q, Vec3& momentum, const Vec3& inertia, double dt) {
   const Vec3 half_angle_per_momentum = 0.5 * dt * inertia.cwiseInverse();
   for (const int axis : {0, 1, 2, 1, 0}) {
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
@@ -49,7 +49,7 @@ bool is_free_of_quadratic_terms(const Particles& particles, std::size_t i) {
 double turn(Particles& particles, std::size_t i, const Vec3& moment_in_space, const Motion& motion,
             double dt) {
   const auto [keep, push] = Step(motion.damping, dt);
-  Eigen::Quaterniond& q = particles.orientation[i];
+  Quaternion& q = particles.orientation[i];
   Vec3& spin = particles.angular_velocity[i];
   const Vec3 inertia =
       principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
@@ -70,11 +70,11 @@ double turn(Particles& particles, std::size_t i, const Vec3& moment_in_space, co
 
 }  // namespace
 
-Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Vec3& rotation_vector) {
+Quaternion turned_by(const Quaternion& q, const Vec3& rotation_vector) {
   const double half = 0.5 * rotation_vector.norm();
   // sin(x)/x differs from 1 by less than half an ulp below 1e-8.
   const double sinc = half > 1e-8 ? std::sin(half) / half : 1.0;
-  Eigen::Quaterniond turn;
+  Quaternion turn;
   turn.w() = std::cos(half);
   turn.vec() = (0.5 * sinc) * rotation_vector;
   return (turn * q).normalized();

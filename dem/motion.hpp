@@ -59,7 +59,7 @@ double kinetic_energy_at(const Particles& particles, const Resultants& resultant
                          const Motion& motion, double dt);
 
 /// exp(v/2) q, normalised: q turned by the rotation vector v in space.
-Eigen::Quaterniond turned_by(const Eigen::Quaterniond& q, const Vec3& rotation_vector);
+Quaternion turned_by(const Quaternion& q, const Vec3& rotation_vector);
 
 /// sqrt(m_min / K_max): the time to which the step is compared. The critical step of one particle
 /// on one spring is twice this [Ouadfel1998, eq. 3.24].

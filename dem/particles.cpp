@@ -25,8 +25,8 @@ Vec3 principal_inertia(double mass, const Vec3& semi_axes, int dimensions) {
   return mass / 5.0 * (Vec3::Constant(squares.sum()) - squares);
 }
 
-void Particles::add(const Vec3& centre, const Eigen::Quaterniond& axes, const Vec3& radii,
-                    double density, std::int32_t type_index) {
+void Particles::add(const Vec3& centre, const Quaternion& axes, const Vec3& radii, double density,
+                    std::int32_t type_index) {
   position.push_back(centre);
   velocity.push_back(Vec3::Zero());
   angular_velocity.push_back(Vec3::Zero());

@@ -32,18 +32,18 @@ struct Shape {
 /// Arrays of one length, one entry a particle; a particle is its index for the whole run.
 /// Positions are not wrapped into the cell: an image is chosen where two particles meet.
 struct Particles {
-  int dimensions = 3;                           ///< 2 or 3, the cell's
-  std::vector<Vec3> position;                   ///< centre, length
-  std::vector<Vec3> velocity;                   ///< relative to the affine motion, length/time
-  std::vector<Vec3> angular_velocity;           ///< in space coordinates, 1/time
-  std::vector<Eigen::Quaterniond> orientation;  ///< unit; body to space
-  std::vector<Vec3> semi_axes;                  ///< length
+  int dimensions = 3;                   ///< 2 or 3, the cell's
+  std::vector<Vec3> position;           ///< centre, length
+  std::vector<Vec3> velocity;           ///< relative to the affine motion, length/time
+  std::vector<Vec3> angular_velocity;   ///< in space coordinates, 1/time
+  std::vector<Quaternion> orientation;  ///< unit; body to space
+  std::vector<Vec3> semi_axes;          ///< length
   std::vector<double> mass;
   std::vector<std::int32_t> type;  ///< index into the scene's particle types
 
   std::size_t size() const { return position.size(); }
   /// Appends a particle at rest.
-  void add(const Vec3& centre, const Eigen::Quaterniond& axes, const Vec3& radii, double density,
+  void add(const Vec3& centre, const Quaternion& axes, const Vec3& radii, double density,
            std::int32_t type_index);
 };
 

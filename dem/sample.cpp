@@ -181,7 +181,7 @@ Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, 
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-Eigen::Quaterniond uniform_rotation(std::mt19937_64& random, int dimensions) {
+Quaternion uniform_rotation(std::mt19937_64& random, int dimensions) {
   if (dimensions == 2) {
     const double half = std::numbers::pi * uniform(random);
     return {std::cos(half), 0.0, 0.0, std::sin(half)};

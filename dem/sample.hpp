@@ -24,9 +24,9 @@ struct Batch {
 struct Body {
   std::size_t type;  ///< index of its batch
   Vec3 position;
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< not 0, of any length
-  Vec3 velocity = Vec3::Zero();                                     ///< relative to the strain
-  Vec3 angular_velocity = Vec3::Zero();                             ///< in space axes
+  Quaternion orientation = Quaternion::Identity();  ///< not 0, of any length
+  Vec3 velocity = Vec3::Zero();                     ///< relative to the strain
+  Vec3 angular_velocity = Vec3::Zero();             ///< in space axes
 };
 
 enum class Arrangement { lattice, random, explicit_bodies };
@@ -82,6 +82,6 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
 double uniform(std::mt19937_64& random);
 
 /// A rotation drawn uniformly [Shoemake1992]; in the plane one about z.
-Eigen::Quaterniond uniform_rotation(std::mt19937_64& random, int dimensions = 3);
+Quaternion uniform_rotation(std::mt19937_64& random, int dimensions = 3);
 
 }  // namespace tangency::dem

@@ -64,9 +64,9 @@ void pass(Archive& archive, Vec& v) {
   for (int k = 0; k < 3; ++k) archive(v[k]);
 }
 
-template <class Archive, class Quaternion>
-requires std::is_same_v<std::remove_const_t<Quaternion>, Eigen::Quaterniond>
-void pass(Archive& archive, Quaternion& q) {
+template <class Archive, class Q>
+requires std::is_same_v<std::remove_const_t<Q>, Quaternion>
+void pass(Archive& archive, Q& q) {
   for (int k = 0; k < 4; ++k) archive(q.coeffs()[k]);
 }
 

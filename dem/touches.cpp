@@ -17,7 +17,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 Vec3 in_space(const Vec2& v) { return {v[0], v[1], 0.0}; }
 
 Ellipse ellipse_of(const Particles& particles, std::size_t i) {
-  const Eigen::Quaterniond& q = particles.orientation[i];  // (cos, 0, 0, sin) of half the angle
+  const Quaternion& q = particles.orientation[i];  // (cos, 0, 0, sin) of half the angle
   const Vec2 direction(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z());
   return Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
 }

@@ -13,15 +13,12 @@
 /// answer.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <stdexcept>
 
-#include <tangency/geometry/floating_point.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency {
-
-using Vec2 = Eigen::Vector2d;
 
 /// What is wrong with the numbers of a would-be ellipse: the first offending field by its name in
 /// the file formats ("x" "y" "r1" "r2" "ux" "uy" "angle"), its value, and the rule.

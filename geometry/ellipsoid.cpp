@@ -37,8 +37,8 @@ constexpr double kModerateSmallest = 0x1p-60;
 InvalidEllipsoid::InvalidEllipsoid(const EllipsoidFault& fault)
     : std::invalid_argument(describe(fault)), fault_(fault) {}
 
-std::optional<EllipsoidFault> Ellipsoid::find_fault(
-    const Vec3& centre, const Vec3& semi_axes, const Eigen::Quaterniond& orientation) noexcept {
+std::optional<EllipsoidFault> Ellipsoid::find_fault(const Vec3& centre, const Vec3& semi_axes,
+                                                    const Quaternion& orientation) noexcept {
   static constexpr const char* kCentre[] = {"x", "y", "z"};
   static constexpr const char* kAxes[] = {"r1", "r2", "r3"};
   static constexpr const char* kOrientation[] = {"qw", "qx", "qy", "qz"};
@@ -64,7 +64,7 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(
   return std::nullopt;
 }
 
-Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
+Mat3 rotation_of(const Quaternion& q) noexcept {
   const exact::DoubleDoubleMatrix r = exact::double_double_rotation(q);
   Mat3 rounded;
   for (int i = 0; i < 3; ++i) {
@@ -75,8 +75,7 @@ Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept {
   return rounded;
 }
 
-Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
-                     const Eigen::Quaterniond& orientation)
+Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes, const Quaternion& orientation)
     : centre_(centre), semi_axes_(semi_axes), orientation_(orientation) {
   if (const auto fault = find_fault(centre, semi_axes, orientation)) throw InvalidEllipsoid(*fault);
   rotation_ = rotation_of(orientation);

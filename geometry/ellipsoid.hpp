@@ -9,17 +9,13 @@
 /// R turns body coordinates into space coordinates.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 #include <stdexcept>
 
 #include <tangency/geometry/symmetric3.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency {
-
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
 
 /// What is wrong with the numbers of a would-be ellipsoid: the first offending field by its name
 /// in the file formats ("x" "y" "z" "r1" "r2" "r3" "qw" "qx" "qy" "qz"), its value, and the rule.
@@ -53,16 +49,16 @@ class Ellipsoid {
   /// @param orientation  finite, not zero, of any length
   /// @throws InvalidEllipsoid  naming the first field that breaks its rule
   Ellipsoid(const Vec3& centre, const Vec3& semi_axes,
-            const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
+            const Quaternion& orientation = Quaternion::Identity());
 
   /// The same checks as the constructor's, without an exception: nothing where it would succeed.
   static std::optional<EllipsoidFault> find_fault(const Vec3& centre, const Vec3& semi_axes,
-                                                  const Eigen::Quaterniond& orientation) noexcept;
+                                                  const Quaternion& orientation) noexcept;
 
   const Vec3& centre() const noexcept { return centre_; }
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
-  Eigen::Quaterniond orientation() const noexcept { return Eigen::Quaterniond(orientation_); }
+  Quaternion orientation() const noexcept { return orientation_; }
   /// R(q/|q|), each entry r within u |r| + 2^-96 of its true value (u = 2^-53; 2.2 u in a directed
   /// rounding mode): docs/derivations/relation-filter.md.
   const Mat3& rotation() const noexcept { return rotation_; }
@@ -105,9 +101,7 @@ class Ellipsoid {
  private:
   Vec3 centre_;
   Vec3 semi_axes_;
-  // Not aligned: the alignment of Quaterniond, and so the layout of this class, would depend on the
-  // instruction set that each of library and user is compiled for.
-  Eigen::Quaternion<double, Eigen::DontAlign> orientation_;
+  Quaternion orientation_;
   Mat3 rotation_;
   Symmetric3 shape_;
   Symmetric3 shape_adjugate_;
@@ -118,6 +112,6 @@ class Ellipsoid {
 };
 
 /// R(q/|q|) for a finite quaternion of any length but 0, each entry as Ellipsoid::rotation().
-Mat3 rotation_of(const Eigen::Quaterniond& q) noexcept;
+Mat3 rotation_of(const Quaternion& q) noexcept;
 
 }  // namespace tangency

@@ -95,9 +95,9 @@ Quadric Quadric::from_ellipsoid(const Ellipsoid& e) {
   return quadric_of({block, column, -column.dot(e.centre()) - scale});
 }
 
-Eigen::Matrix4d Quadric::discriminant() const noexcept {
+Mat4 Quadric::discriminant() const noexcept {
   const auto& [a, b, c, d, e, f, g, h, j, k] = coefficients_;
-  return (Eigen::Matrix4d() << a, d, f, g, d, b, e, h, f, e, c, j, g, h, j, k).finished();
+  return (Mat4() << a, d, f, g, d, b, e, h, f, e, c, j, g, h, j, k).finished();
 }
 
 Mat3 Quadric::sub_discriminant() const noexcept { return discriminant().topLeftCorner<3, 3>(); }
@@ -119,7 +119,7 @@ Quadric Quadric::negated() const noexcept {
 }
 
 // With x = R'(x' - t): Q_s' = R Q_s R', g' = R g - Q_s' t, K' = K - 2 t . R g + t . Q_s' t.
-Quadric Quadric::moved(const Eigen::Quaterniond& rotation, const Vec3& translation) const {
+Quadric Quadric::moved(const Quaternion& rotation, const Vec3& translation) const {
   const Mat3 r = rotation_of(rotation);
   const Parts p = parts_of(*this);
   const Mat3 block = turned(r, p.block);
@@ -155,7 +155,7 @@ std::optional<Ellipsoid> Quadric::to_ellipsoid() const {
   const auto rescaled = [unit = unit_exponent](double v) { return std::ldexp(v, unit); };
   const Vec3 true_centre = centre.unaryExpr(rescaled);
   const Vec3 true_axes = semi_axes.unaryExpr(rescaled);
-  const Eigen::Quaterniond orientation(axes);
+  const Quaternion orientation(axes);
   if (Ellipsoid::find_fault(true_centre, true_axes, orientation)) return std::nullopt;
   return Ellipsoid(true_centre, true_axes, orientation);
 }

@@ -12,8 +12,6 @@
 /// another type; each says where it is exact.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <optional>
 #include <stdexcept>
 
@@ -71,7 +69,7 @@ class Quadric {
   /// A B C D E F G H J K
   const Coefficients& coefficients() const noexcept { return coefficients_; }
   /// Q, symmetric.
-  Eigen::Matrix4d discriminant() const noexcept;
+  Mat4 discriminant() const noexcept;
   /// Q_s, symmetric.
   Mat3 sub_discriminant() const noexcept;
 
@@ -87,7 +85,7 @@ class Quadric {
   /// @param rotation     finite, not zero, of any length
   /// @param translation  finite
   /// @throws InvalidQuadric  where a coefficient overflows
-  Quadric moved(const Eigen::Quaterniond& rotation, const Vec3& translation) const;
+  Quadric moved(const Quaternion& rotation, const Vec3& translation) const;
 
   /// The surface after x -> factor x. Exact for a power of two, barring overflow and underflow.
   /// @param factor  finite and > 0 (asserted)

@@ -4,9 +4,7 @@
 /// need.
 #pragma once
 
-#include <Eigen/Core>
-
-#include <tangency/geometry/floating_point.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency {
 
@@ -14,7 +12,7 @@ namespace tangency {
 struct Symmetric3 {
   double xx, yy, zz, yz, zx, xy;
 
-  Eigen::Vector3d operator*(const Eigen::Vector3d& v) const noexcept {
+  Vec3 operator*(const Vec3& v) const noexcept {
     return {xx * v.x() + xy * v.y() + zx * v.z(),  //
             xy * v.x() + yy * v.y() + yz * v.z(),  //
             zx * v.x() + yz * v.y() + zz * v.z()};
@@ -27,14 +25,12 @@ struct Symmetric3 {
   }
   double trace() const noexcept { return xx + yy + zz; }
   /// v' S v
-  double form(const Eigen::Vector3d& v) const noexcept { return v.dot(*this * v); }
-  Eigen::Matrix3d matrix() const {
-    return (Eigen::Matrix3d() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished();
-  }
+  double form(const Vec3& v) const noexcept { return v.dot(*this * v); }
+  Mat3 matrix() const { return (Mat3() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished(); }
 };
 
 /// v v'
-inline Symmetric3 square(const Eigen::Vector3d& v) noexcept {
+inline Symmetric3 square(const Vec3& v) noexcept {
   const double x = v.x(), y = v.y(), z = v.z();
   return {x * x, y * y, z * z, y * z, z * x, x * y};
 }

@@ -8,7 +8,7 @@
 
 namespace tangency::exact {
 
-DoubleDoubleMatrix double_double_rotation(const Eigen::Quaterniond& q) noexcept {
+DoubleDoubleMatrix double_double_rotation(const Quaternion& q) noexcept {
   // A power of two brings the largest component to [1, 2), so that squares stay in range.
   const int exponent =
       std::max({exponent_of(q.w()), exponent_of(q.x()), exponent_of(q.y()), exponent_of(q.z())});

@@ -15,7 +15,7 @@ using DoubleDoubleVector = std::array<DoubleDouble, 3>;
 using DoubleDoubleMatrix = std::array<DoubleDoubleVector, 3>;  ///< by rows
 
 /// R(q/|q|), each entry within 20 units of kDoubleDoubleEpsilon.
-DoubleDoubleMatrix double_double_rotation(const Eigen::Quaterniond& q) noexcept;
+DoubleDoubleMatrix double_double_rotation(const Quaternion& q) noexcept;
 
 /// R' v
 DoubleDoubleVector turned_back(const DoubleDoubleMatrix& r, const DoubleDoubleVector& v) noexcept;

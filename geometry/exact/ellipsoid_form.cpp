@@ -13,7 +13,7 @@ struct ScaledRotation {
   mpz_class squared_length;  ///< |q|^2
 };
 
-ScaledRotation scaled_rotation(const Eigen::Quaterniond& q) {
+ScaledRotation scaled_rotation(const Quaternion& q) {
   const std::array<double, 4> stored{q.w(), q.x(), q.y(), q.z()};
   const int exponent = common_exponent(stored);
   const mpz_class w = to_integer(stored[0], exponent);

@@ -38,7 +38,7 @@ struct Body {
 };
 
 Body body(const Ellipsoid& e, int exponent) {
-  const Eigen::Quaterniond& orientation = e.orientation();
+  const Quaternion orientation = e.orientation();
   const std::array<double, 4> q = {orientation.w(), orientation.x(), orientation.y(),
                                    orientation.z()};
   const int unit = common_exponent(q);

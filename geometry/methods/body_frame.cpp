@@ -9,7 +9,7 @@ namespace tangency::methods {
 
 using exact::DoubleDouble;
 
-BodyFrame::BodyFrame(const Eigen::Quaterniond& orientation) noexcept
+BodyFrame::BodyFrame(const Quaternion& orientation) noexcept
     : rotation_(exact::double_double_rotation(orientation)) {}
 
 DoubleDoubleVector BodyFrame::to_body(const DoubleDoubleVector& v) const noexcept {

@@ -17,7 +17,7 @@ using exact::DoubleDoubleVector;
 /// relation-filter.md, section 4), and vectors turned by it within 25 of them times |v|_1.
 class BodyFrame {
  public:
-  explicit BodyFrame(const Eigen::Quaterniond& orientation) noexcept;
+  explicit BodyFrame(const Quaternion& orientation) noexcept;
 
   DoubleDoubleVector to_body(const DoubleDoubleVector& v) const noexcept;   ///< R' v
   DoubleDoubleVector to_space(const DoubleDoubleVector& v) const noexcept;  ///< R v

@@ -13,9 +13,9 @@ constexpr double kFarEnough = 0.95;  // chosen: of the longest step that the bou
 constexpr int kRefinements = 100;    // of its bracket, which is halved each time
 
 /// exp(t [w]x) as a unit quaternion.
-Eigen::Quaterniond turn(const Vec3& w, double t) {
+Quaternion turn(const Vec3& w, double t) {
   const double half = 0.5 * w.stableNorm() * t;
-  if (half == 0.0) return Eigen::Quaterniond::Identity();
+  if (half == 0.0) return Quaternion::Identity();
   const Vec3 axis = std::sin(half) * w.stableNormalized();
   return {std::cos(half), axis.x(), axis.y(), axis.z()};
 }
@@ -31,7 +31,7 @@ Vec3 displacement(const Vec3& w, double t, const Vec3& r) {
 
 Ellipsoid turned(const Ellipsoid& body, const Vec3& w, double t) {
   if (w == Vec3::Zero() || t == 0.0) return body;
-  Eigen::Quaterniond q = body.orientation();
+  Quaternion q = body.orientation();
   q.coeffs() /= q.coeffs().cwiseAbs().maxCoeff();
   return {Vec3::Zero(), body.semi_axes(), turn(w, t) * q};
 }
