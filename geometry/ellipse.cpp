@@ -32,16 +32,6 @@ Vec2 direction_of(double angle) {
 
 }  // namespace
 
-namespace exact {
-
-DoubleDouble2 double_double_direction(const Vec2& direction) noexcept {
-  const int exponent = std::max(exponent_of(direction[0]), exponent_of(direction[1]));
-  return normalised(
-      {scaled_by_power(direction[0], -exponent), scaled_by_power(direction[1], -exponent)});
-}
-
-}  // namespace exact
-
 InvalidEllipse::InvalidEllipse(const EllipseFault& fault)
     : std::invalid_argument(describe(fault)), fault_(fault) {}
 

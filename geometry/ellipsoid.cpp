@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include <tangency/geometry/exact/double_double_body.hpp>
+#include <tangency/geometry/exact/double_double_vector.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {

@@ -3,8 +3,11 @@
 /// Vectors of the plane in double-double. Requirements as for double_double.hpp. Internal.
 #pragma once
 
-#include <tangency/geometry/ellipse.hpp>
+#include <algorithm>
+
 #include <tangency/geometry/exact/double_double.hpp>
+#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::exact {
 
@@ -50,6 +53,10 @@ inline DoubleDouble2 normalised(const DoubleDouble2& v) noexcept {
 
 /// u/|u|, each component within 40 units of kDoubleDoubleEpsilon of itself (and 2^-1074).
 /// @param direction  finite, not zero, of any length
-DoubleDouble2 double_double_direction(const Vec2& direction) noexcept;
+inline DoubleDouble2 double_double_direction(const Vec2& direction) noexcept {
+  const int exponent = std::max(exponent_of(direction[0]), exponent_of(direction[1]));
+  return normalised(
+      {scaled_by_power(direction[0], -exponent), scaled_by_power(direction[1], -exponent)});
+}
 
 }  // namespace tangency::exact
