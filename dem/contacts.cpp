@@ -68,7 +68,7 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              Branch branch) {
   bodies_.refresh(particles);
   const Step step{particles, cell, list.pairs(), laws, dt, branch};
-  const std::size_t blocks = (step.pairs.size() + block - 1) / block;
+  const std::size_t blocks = (step.pairs.size() + Bodies::block - 1) / Bodies::block;
   work_.assign(blocks, {});
 #pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= worth_sharing)
   for (std::size_t k = 0; k < blocks; ++k) update_block(k, step);
@@ -79,11 +79,11 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
 }
 
 void Contacts::update_block(std::size_t index, const Step& step) {
-  const std::size_t first = index * block;
+  const std::size_t first = index * Bodies::block;
   const auto pairs = std::span(step.pairs).subspan(first);
-  const std::size_t count = std::min(block, pairs.size());
-  std::array<Vec3, block> normals;
-  std::array<Touch, block> touches;
+  const std::size_t count = std::min(Bodies::block, pairs.size());
+  std::array<Vec3, Bodies::block> normals;
+  std::array<Touch, Bodies::block> touches;
   for (std::size_t k = 0; k < count; ++k) normals[k] = records_[first + k].normal;
   bodies_.find(pairs.first(count), step.particles, step.cell, normals, step.branch, touches);
   for (std::size_t k = 0; k < count; ++k)

@@ -58,10 +58,6 @@ struct ContactWork {
 
 class Contacts {
  public:
-  /// Pairs that one call into geometry looks at. Measured on assembly-1000: from 32 to 256 the time
-  /// differs by less than a tenth.
-  static constexpr std::size_t block = 64;
-
   /// Brings every record to the current positions and velocities and renews the resultants.
   /// @param dt  time since the last update: the shear displacement is velocity times dt
   ContactWork update(const Particles& particles, const Cell& cell, const NeighbourList& list,

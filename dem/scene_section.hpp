@@ -11,6 +11,7 @@
 #include <string_view>
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_keys.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

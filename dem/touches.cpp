@@ -59,10 +59,10 @@ void find_ellipses(const Ellipse& a, const Ellipse& b, const Vec2& last_normal, 
 
 /// The pairs of a block that geometry is asked about, side by side as it wants them.
 struct Questions {
-  std::array<IndexedPair, Contacts::block> pairs;
-  std::array<Vec3, Contacts::block> separations, normals, arms_a, arms_b;
-  std::array<double, Contacts::block> gaps;
-  std::array<std::uint32_t, Contacts::block> place;  ///< in the block
+  std::array<IndexedPair, Bodies::block> pairs;
+  std::array<Vec3, Bodies::block> separations, normals, arms_a, arms_b;
+  std::array<double, Bodies::block> gaps;
+  std::array<std::uint32_t, Bodies::block> place;  ///< in the block
   std::size_t count = 0;
 
   void add(const Pair& pair, const Touch& touch, const Vec3& last_normal, std::size_t k) {
@@ -72,7 +72,7 @@ struct Questions {
     place[count++] = static_cast<std::uint32_t>(k);
   }
   template <class T>
-  std::span<T> first(std::array<T, Contacts::block>& column) {
+  std::span<T> first(std::array<T, Bodies::block>& column) {
     return {column.data(), count};
   }
   PairList list() { return {first(pairs), first(separations)}; }

@@ -31,6 +31,10 @@ struct Touch {
 /// The particles as bodies of geometry.
 class Bodies {
  public:
+  /// Pairs that one call into geometry looks at. Measured on assembly-1000: from 32 to 256 the time
+  /// differs by less than a tenth.
+  static constexpr std::size_t block = 64;
+
   Bodies() = default;
   // A copy is empty until its refresh(): the array looks at the ellipsoids where they lie.
   Bodies(const Bodies&) {}
@@ -41,7 +45,7 @@ class Bodies {
   /// Takes over shapes and orientations.
   void refresh(const Particles& particles);
 
-  /// Looks at pairs, side by side.
+  /// Looks at pairs, side by side; at most `block`.
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
   void find(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
             std::span<const Vec3> normals, Branch branch, std::span<Touch> touches) const;

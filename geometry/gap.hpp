@@ -38,10 +38,6 @@ struct Gap {
   GapTier tier;
 };
 
-/// An upper bound of gap_error over u L for bodies of aspect ratios to 100, u = 2^-53, L = |d| +
-/// largest semi-axis of A + that of B.
-inline constexpr double kOrdinaryGapErrorBound = 16.0;
-
 /// The global gap: for overlapping solids the shortest separating translation.
 ///
 /// Any pose, any semi-axes; coinciding centres and nested solids included. Where several normals

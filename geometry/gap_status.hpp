@@ -19,4 +19,8 @@ enum class GapTier {
   exact,        ///< any of these, and the exact relation decided the sign
 };
 
+/// An upper bound of gap_error over u L for bodies of aspect ratios to 100, u = 2^-53, L = |d| +
+/// largest semi-axis of A + that of B.
+inline constexpr double kOrdinaryGapErrorBound = 16.0;
+
 }  // namespace tangency

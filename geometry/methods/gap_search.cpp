@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/gap_status.hpp>
+
 namespace tangency::methods {
 namespace {
 

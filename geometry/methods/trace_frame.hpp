@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/trace_status.hpp>
 
 namespace tangency::methods {
 
