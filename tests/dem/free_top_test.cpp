@@ -34,7 +34,7 @@ struct Top {
     particles.add(Vec3::Ones(), Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2), {1.5, 1.0, 0.7}, 2.0, 0);
     particles.angular_velocity[0] = particles.orientation[0] * spin_in_body;
   }
-  const Eigen::Quaterniond& axes() const { return particles.orientation[0]; }
+  const tangency::Quaternion& axes() const { return particles.orientation[0]; }
   Vec3& spin() { return particles.angular_velocity[0]; }
   Vec3 spin_in_body() const { return axes().conjugate() * particles.angular_velocity[0]; }
   Vec3 inertia() const { return principal_inertia(particles.mass[0], particles.semi_axes[0]); }

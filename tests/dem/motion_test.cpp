@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/sample.hpp>
 
 namespace {
 
@@ -126,6 +127,24 @@ TEST(Motion, ThatBlowsUpIsReported) {
   One one;
   one.resultants.force[0][1] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(one.move(0.0, 0.1), Diverged);
+}
+
+// Users write Eigen's own quaternions; geometry/vectors.hpp says why these are not.
+TEST(Orientations, AreTakenFromAndGivenToEigensOwnType) {
+  const Eigen::Quaterniond turn(0.3, -0.5, 0.1, 0.8);
+  Particles particles;
+  particles.add(Vec3::Zero(), turn, Vec3::Ones(), 1.0, 0);
+  particles.add(Vec3::Ones(), Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vec3::UnitY())),
+                Vec3::Ones(), 1.0, 0);
+  particles.orientation[1] = particles.orientation[0] * Eigen::Quaterniond(0, 1, 0, 0);
+  particles.orientation.push_back(turn);
+  particles.orientation.resize(4, Eigen::Quaterniond::Identity());
+  for (auto& q : particles.orientation) q.normalize();
+  for (const Eigen::Quaterniond q : particles.orientation) EXPECT_NEAR(q.norm(), 1.0, 1e-15);
+  const Eigen::Quaterniond turned = turned_by(particles.orientation[0], Vec3::UnitZ());
+  EXPECT_NEAR(turned.angularDistance(particles.orientation[0]), 1.0, 1e-14);
+  const Body body{0, Vec3::Zero(), turn};
+  EXPECT_EQ(body.orientation.coeffs(), turn.coeffs());
 }
 
 }  // namespace
