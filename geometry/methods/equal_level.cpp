@@ -95,10 +95,12 @@ double log_ratio(const DoubleDouble& a, const DoubleDouble& b) {
   return x < -0.5 ? std::log((a / b).high) : std::log1p(x);
 }
 WideFloat log_ratio(const WideFloat& a, const WideFloat& b) {
-  constexpr long kFar = 100;           // of an exponent: only the bracket is halved
-  constexpr long kFirstOrderIs = -60;  // the square does not matter to a step of Newton's method
+  // Of exponents: below, the square of x does not matter to a step of Newton's method; beyond, only
+  // the bracket is halved.
+  constexpr long kTiny = -60, kSmall = -1, kFar = 100;
   const WideFloat x = (a - b) / b;
-  if (x.is_zero() || x.exponent() < kFirstOrderIs) return x;
+  if (x.is_zero() || x.exponent() < kTiny) return x;
+  if (x.exponent() < kSmall) return std::log1p(static_cast<double>(x));
   const WideFloat quotient = a / b;
   const double e = static_cast<double>(quotient.exponent());
   return std::abs(e) > kFar ? e : std::log(static_cast<double>(quotient));
