@@ -23,7 +23,7 @@ constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa' beta; thre
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // of a pair in the unit of its caller
 // A Gap's normal is off by sqrt(u kappa) at most, so that these mostly do; and where they do not.
 constexpr int kPolishingSteps = 2, kMostSteps = 8;
-// Of the step from a settled normal, in u (kappa' + sqrt(kappa' beta)): about what its rounding may
+// Of the step from a settled normal, in u deep (kappa + sqrt(kappa beta)): what its rounding may
 // come to, docs/derivations/derivatives-and-curvature.md.
 constexpr double kSettled = 16.0;
 
@@ -78,17 +78,16 @@ struct Expansion {
   }
 
   double beta() const { return std::max(a.sharpness, b.sharpness); }
-  /// kappa'. Requires W to be positive definite.
-  double condition(double size) const {
-    return (1.0 + size / least) * (1.0 + std::max(0.0, -gap / least));
-  }
+  double kappa(double size) const { return 1.0 + size / least; }
+  double deep() const { return 1.0 + std::max(0.0, -gap / least); }
   bool safe(double size) const {
-    return least > 0.0 && kUnitRoundoff * condition(size) * beta() <= kWorstConditioned;
+    return least > 0.0 && kUnitRoundoff * kappa(size) * deep() * beta() <= kWorstConditioned;
   }
   Eigen::Vector2d move() const { return inverse * slope; }  ///< Newton's step of the normal
   bool settled(double size) const {
-    const double kappa = condition(size);
-    return move().norm() <= kSettled * kUnitRoundoff * (kappa + std::sqrt(kappa * beta()));
+    const double rounding =
+        kUnitRoundoff * deep() * (kappa(size) + std::sqrt(kappa(size) * beta()));
+    return move().norm() <= kSettled * rounding;
   }
 
   Vec3 n;

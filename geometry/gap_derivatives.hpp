@@ -60,18 +60,17 @@ struct GapDerivatives {
 
 /// Derivatives at an answer of signed_gap() or follow_gap() for these bodies.
 ///
-/// Conditioning. With L = |d| + a_A + a_B (the largest semi-axes), kappa = 1 + L / least_radius and
-/// beta the larger a_max / h(n) of the bodies; kappa' = kappa (1 + |g| / least_radius) for g < 0,
-/// where W is a difference, and kappa otherwise. Scales: s = 1, L beta, beta and t = 1, L beta,
-/// beta for a centre, an angle and a semi-axis: a support point moves beta times as fast as the
-/// normal.
+/// Conditioning. With L = |d| + a_A + a_B (the largest semi-axes), kappa = 1 + L / least_radius,
+/// beta the larger a_max / h(n) of the bodies, and deep = 1 + |g| / least_radius for g < 0, where W
+/// is a difference, and 1 otherwise; kappa' = kappa deep. Scales s_i: 1 for a centre, L beta for an
+/// angle, beta for a semi-axis, for a support point moves beta times as fast as the normal.
 ///
-///     errors of the gradient  <= 128 u (kappa' + sqrt(kappa' beta)) s_i,
-///     errors of the Hessian   <= 16 u kappa' beta t_i t_j / least_radius,
+///     errors of the gradient  <= 128 u deep (kappa + sqrt(kappa beta)) s_i,
+///     errors of the Hessian   <= 16 u kappa' beta s_i s_j / least_radius,
 ///
-/// u = 2^-53. The first is derived (docs/derivations/derivatives-and-curvature.md), for every
-/// aspect ratio; the largest seen is GSEEN u (...) s_i. The second is measured, for aspect ratios
-/// to 1e6, faces and rims of flat bodies included (tests/geometry/gap_derivatives_test.cpp).
+/// u = 2^-53. The first is derived for every aspect ratio, the second measured for those to 1e8
+/// (docs/derivations/derivatives-and-curvature.md, which has the largest seen of both; tested by
+/// tests/geometry/gap_derivatives_test.cpp on random normals and on the faces of discs).
 ///
 /// A pair is `degenerate` where u kappa' beta > 2^-10 or Newton's method does not settle. Where g >
 /// -rho, least_radius >= g + rho, rho the sum of the bodies' a_min^2 / a_max. Ties between

@@ -26,6 +26,9 @@ using methods::VectorOf;
 // what else is rounded, stay below u L / 64 (docs/derivations/other-gaps.md).
 constexpr double kOfSize = 0x1p-61;
 
+constexpr double kTurned = 0x1p7;  // of R'v over |v|, in units of the arithmetic's epsilon
+constexpr double kOfFoot = 1.5;    // of the foot over |z|, for a turn of the line: sqrt(2)
+
 /// Both bodies in one unit, and what was found between them.
 template <class T>
 struct Found {
@@ -110,15 +113,16 @@ struct AlongTheNormal {
     const VectorOf<T> foot = z + -dot(z, e) * e;
     const T square = dot(foot, foot), room = T(1.0) - square;
 
-    const R length_v = rough(length(pair.at.v)), two = 2.0;
+    const R two = 2.0, slack = methods::kSlack;
+    const R of_v = slack * pair.at.turn + R(kTurned * methods::Arithmetic<T>::kEpsilon);
     const R turn =
-        two * pair.at.turn * length_v / (R(body.body.smallest_semi_axis()) * rough(length_w));
-    const R of_foot = two * (off + two * rough(length(z)) * turn);
+        of_v * rough(length(pair.at.v)) / (R(body.body.smallest_semi_axis()) * rough(length_w));
+    const R of_foot = slack * (off + R(kOfFoot) * rough(length(z)) * turn);
     const R of_room = of_foot * (two * sqrt(rough(square)) + of_foot);
     if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}};
     if (as_double(room) < 0.0) return {End<T>::misses, {}};
     const T cosine = sqrt(room);
-    const R error = of_foot + turn + two * of_room / rough(cosine);
+    const R error = of_foot + turn + of_room / rough(cosine);
     if (!(R(body.body.largest_semi_axis()) * error < R(kOfSize) * pair.size)) {
       return {End<T>::unknown, {}};
     }

@@ -18,9 +18,8 @@ constexpr double kNear = 0x1p-40;            // of a step in log l: the next one
 constexpr double kSmallestSlope = 0x1p-100;  // chosen: leads out of the bracket, so to its middle
 
 // docs/derivations/other-gaps.md. In units of the arithmetic's epsilon:
-constexpr double kResidual = 0x1p9;      // of (S + E) v = d and of A'v, B'v: |E| over |S|
-constexpr double kSlope = 0x1p12;        // of p over kappa v'Sv
-constexpr double kFirstOrder = 0x1p-10;  // what has to be small so that squares are within a factor
+constexpr double kResidual = 0x1p9;  // of (S + E) v = d and of A'v, B'v: |E| over |S|
+constexpr double kSlope = 0x1p12;    // of p over kappa v'Sv
 
 DoubleDouble scaled(const DoubleDouble& v, int power) {
   return {scaled_by_power(v.high, power), scaled_by_power(v.low, power)};
@@ -165,14 +164,14 @@ std::optional<EqualLevel<T>> equal_level(const ShapeIn<T>& a, const ShapeIn<T>& 
 
   const R solving = R(kResidual) * epsilon * largest * length / (sqrt(least) * root);
   const R parallel = at.parallel - R(kSlope) * epsilon * kappa * energy;
-  const R in_levels = R(2.0) * solving * (share_a + share_b);
-  if (!(R(kResidual) * epsilon * kappa < R(kFirstOrder)) || !(in_levels < R(kFirstOrder)) ||
+  const R in_levels = R(2.0) * solving * (share_a + share_b), slack = kSlack;
+  if (!(R(kResidual) * epsilon * kappa < R(kSmallError)) || !(in_levels < R(kSmallError)) ||
       !(R(0.0) < parallel)) {
     return std::nullopt;
   }
-  const R of_l = R(2.0) * (abs(at.apart) + R(2.0) * in_levels) / at.slope(parallel);
-  if (!(of_l < R(kFirstOrder))) return std::nullopt;
-  const R relative = R(2.0) * (solving + of_l), off = relative * root;
+  const R of_l = slack * (abs(at.apart) + slack * in_levels) / at.slope(parallel);
+  if (!(of_l < R(kSmallError))) return std::nullopt;
+  const R relative = slack * (solving + of_l), off = relative * root;
   return EqualLevel<T>{l,
                        at.v.vector,
                        at.y_a,

@@ -25,6 +25,9 @@ using exact::DoubleDouble;
 using exact::DoubleDoubleVector;
 using exact::WideFloat;
 
+/// Relative errors below the first are squared by a factor below the second, and more.
+inline constexpr double kSmallError = 0x1p-10, kSlack = 1.0625;
+
 /// What the search asks of an arithmetic beyond its operators.
 template <class T>
 struct Arithmetic;

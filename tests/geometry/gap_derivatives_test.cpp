@@ -59,7 +59,7 @@ struct Case {
     return i % kOfBodyB < kRotation ? 1.0 : is_angle(i) ? beta * size : beta;
   }
   /// What the gradient's errors are relative to, over u and the scale.
-  double first_order() const { return kappa * deep + std::sqrt(kappa * deep * beta); }
+  double first_order() const { return deep * (kappa + std::sqrt(kappa * beta)); }
 
   Ellipsoid a, b;
   RealPair pair;
@@ -72,8 +72,8 @@ double distance(double value, const Real& truth) {
   return std::abs(static_cast<double>(value - truth));
 }
 
-/// Largest errors: of the gradient in units of the scale, of u (kappa' + sqrt(kappa' beta)) and it;
-/// of the Hessian in units of the scales / least radius, and of that times u kappa' beta.
+/// Largest errors: of the gradient in units of the scale, of u deep (kappa + sqrt(kappa beta)) and
+/// it; of the Hessian in units of the scales / least radius, and of that times u kappa' beta.
 struct Worst {
   double gradient = 0, gradient_conditioned = 0, hessian = 0, hessian_conditioned = 0;
   double kappa = 0, beta = 0;
@@ -113,7 +113,7 @@ struct Worst {
   void print(const char* name) const {
     std::printf(
         "%s: %d pairs, %d overlapping, kappa to %.2g, beta to %.2g: gradient %.2g (%.3g u "
-        "(kappa' + sqrt(kappa' beta))), Hessian %.2g (%.3g u kappa' beta)\n",
+        "deep (kappa + sqrt(kappa beta))), Hessian %.2g (%.3g u kappa' beta)\n",
         name, count, overlapping, kappa, beta, gradient, gradient_conditioned, hessian,
         hessian_conditioned);
   }

@@ -43,7 +43,7 @@ class Numbers {
   WideFloat next() {
     WideFloat v = number() / number();
     if (random_() % 4 == 0) v = v * number();
-    if (random_() % 8 == 0) return v.scaled(static_cast<long>(random_() % 600) - 300);
+    if (random_() % 8 == 0) return v.scaled(static_cast<long>(random_() % 300) - 150);
     return v;
   }
   std::uint64_t random() { return random_(); }

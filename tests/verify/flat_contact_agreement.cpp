@@ -331,12 +331,12 @@ bool check_derivatives(Source& source, long count) {
     ++answers;
     const double size = size_of(p);
     const double deep = 1 + std::max(0.0, -gap.gap / d.least_radius);
-    const double kappa = (1 + size / d.least_radius) * deep;
+    const double kappa = 1 + size / d.least_radius;
     const auto sharpness = [&](const Ellipsoid& e) {
       return e.largest_semi_axis() / e.support(gap.normal);
     };
     const double beta = std::max(sharpness(p.a), sharpness(p.b));
-    const double unit = kU * (kappa + std::sqrt(kappa * beta));
+    const double unit = kU * deep * (kappa + std::sqrt(kappa * beta));
     const auto scale = [&](int k) {
       return k % kOfBodyB < kRotation ? 1 : testing::is_angle(k) ? size * beta : beta;
     };
@@ -352,7 +352,7 @@ bool check_derivatives(Source& source, long count) {
       const auto row = static_cast<std::size_t>(k);
       const Real difference = (more[row] - less[row]) / (2 * step) - half_commutator(d, k, j);
       hessian.see(as_double(abs(Real(d.hessian(k, j)) - difference)) * d.least_radius /
-                      (kHessian * kU * kappa * beta * scale(k) * scale(j)),
+                      (kHessian * kU * kappa * deep * beta * scale(k) * scale(j)),
                   p, gap.normal);
     }
   }
