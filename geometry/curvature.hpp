@@ -27,11 +27,11 @@ struct PrincipalCurvatures {
 
 /// Of a body's surface where its outer normal is `normal`: at support_point(normal).
 ///
-/// Each curvature, the smaller one too, to a relative error of 64 u beta, u = 2^-53, beta = a_max /
-/// h(n): that is how much the rounding of n and of the rotation matter. Directions to 8 u beta
-/// (k_0 + k_1) / (k_0 - k_1). Measured for aspect ratios to 1e8
-/// (tests/geometry/curvature_test.cpp); any scale, no square leaves the range of doubles for aspect
-/// ratios to 1e70.
+/// Each curvature, the smaller one too, to a relative error of 128 u beta, u = 2^-53, beta = a_max
+/// / h(n): that is how much the rounding of the rotation and of tangents matters. Directions to 64
+/// u beta (k_0 + k_1) / (k_0 - k_1). Derived in docs/derivations/derivatives-and-curvature.md; the
+/// largest seen is KSEEN u beta (tests/geometry/curvature_test.cpp). Any scale; no square leaves
+/// the range of doubles for aspect ratios to 1e70.
 /// @param normal  unit
 PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept;
 
@@ -49,8 +49,11 @@ struct ContactCurvature {
 ///     curvatures.
 /// (5) The relative curvatures add up to the four of the bodies.
 ///
-/// Errors as surface_curvature's, with the larger beta. For pairs whose longest semi-axis is up to
-/// 1e70 times the shortest.
+/// The bodies' curvatures err as surface_curvature's, the relative ones by 512 u beta, the smaller
+/// one by 2^-91 beta times the larger aspect ratio more, with the larger beta; directions by as
+/// much as the bodies'. Two large curvatures that are nearly parallel leave a small one that
+/// depends on the angle between them: it is computed in double-double. For pairs whose longest
+/// semi-axis is up to 1e70 times the shortest. Assumes the default floating-point environment.
 /// @param normal  unit, from A to B: Gap::normal
 ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
                                    const Vec3& normal) noexcept;

@@ -21,7 +21,11 @@ constexpr double kRounding =
     kOrdinaryGapErrorBound * kUnitRoundoff;    // of L: n.d is half of f(n) - f(-n)
 constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa' beta; three digits are left
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // of a pair in the unit of its caller
-constexpr int kPolishingSteps = 2;  // a Gap's normal is off by sqrt(u kappa) at most: one may do
+// A Gap's normal is off by sqrt(u kappa) at most, so that these mostly do; and where they do not.
+constexpr int kPolishingSteps = 2, kMostSteps = 8;
+// Of the step from a settled normal, in u deep (kappa + sqrt(kappa beta)): what its rounding may
+// come to, docs/derivations/derivatives-and-curvature.md.
+constexpr double kSettled = 16.0;
 
 GapDerivatives none(DerivativeStatus status) {
   return {GapGradient::Zero(), GapHessian::Zero(), 0.0, status};
@@ -73,11 +77,17 @@ struct Expansion {
         definite ? methods::principal_values(w(0, 0), w(1, 1), w(0, 1), determinant).smaller : 0.0;
   }
 
+  double beta() const { return std::max(a.sharpness, b.sharpness); }
+  double kappa(double size) const { return 1.0 + size / least; }
+  double deep() const { return 1.0 + std::max(0.0, -gap / least); }
   bool safe(double size) const {
-    const double beta = std::max(a.sharpness, b.sharpness);
-    const double deep = 1.0 + std::max(0.0, -gap / least);
-    const double kappa = 1.0 + size / least;
-    return least > 0.0 && kUnitRoundoff * kappa * deep * beta <= kWorstConditioned;
+    return least > 0.0 && kUnitRoundoff * kappa(size) * deep() * beta() <= kWorstConditioned;
+  }
+  Eigen::Vector2d move() const { return inverse * slope; }  ///< Newton's step of the normal
+  bool settled(double size) const {
+    const double rounding =
+        kUnitRoundoff * deep() * (kappa(size) + std::sqrt(kappa(size) * beta()));
+    return move().norm() <= kSettled * rounding;
   }
 
   Vec3 n;
@@ -151,12 +161,12 @@ GapDerivatives solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, cons
   const double size = d.norm() + a.largest_semi_axis() + b.largest_semi_axis();
   if (std::abs(gap.normal.dot(d)) <= kRounding * size) return none(DerivativeStatus::tie);
   Expansion f(a, b, d, gap.normal);
-  for (int step = 0; step < kPolishingSteps; ++step) {
+  for (int step = 0;; ++step) {
     if (!f.safe(size)) return none(DerivativeStatus::degenerate);
-    const Eigen::Vector2d move = f.inverse * f.slope;
-    f = Expansion(a, b, d, (f.n + f.basis * move).normalized());
+    if (step >= kPolishingSteps && f.settled(size)) break;
+    if (step == kMostSteps) return none(DerivativeStatus::degenerate);
+    f = Expansion(a, b, d, (f.n + f.basis * f.move()).normalized());
   }
-  if (!f.safe(size)) return none(DerivativeStatus::degenerate);
   const bool ok = gap.status == GapStatus::ok;
   return derivatives_at(a, b, f, ok ? DerivativeStatus::ok : DerivativeStatus::local);
 }

@@ -60,19 +60,22 @@ struct GapDerivatives {
 
 /// Derivatives at an answer of signed_gap() or follow_gap() for these bodies.
 ///
-/// Conditioning. With L = |d| + a_A + a_B (the largest semi-axes), kappa = 1 + L / least_radius and
-/// beta the larger a_max / h(n) of the bodies, doubles give the normal to about u kappa, u = 2^-53,
-/// and W to about u kappa' beta of itself: kappa' = kappa (1 + |g| / least_radius) for g < 0, where
-/// W is a difference, and kappa otherwise. Scales: s = t = 1 for a centre; s = L, t = L beta for an
-/// angle; s = 1, t = beta for a semi-axis, for a support point moves beta times as fast. Measured
-/// for aspect ratios to 1000 (tests/geometry/gap_derivatives_test.cpp):
+/// Conditioning. With L = |d| + a_A + a_B (the largest semi-axes), kappa = 1 + L / least_radius,
+/// beta the larger a_max / h(n) of the bodies, and deep = 1 + |g| / least_radius for g < 0, where W
+/// is a difference, and 1 otherwise; kappa' = kappa deep. Scales s_i: 1 for a centre, L beta for an
+/// angle, beta for a semi-axis, for a support point moves beta times as fast as the normal.
 ///
-///     errors of the gradient  <= 16 u kappa s_i,
-///     errors of the Hessian   <= 16 u kappa' beta t_i t_j / least_radius.
+///     errors of the gradient  <= 128 u deep (kappa + sqrt(kappa beta)) s_i,
+///     errors of the Hessian   <= 16 u kappa' beta s_i s_j / least_radius,
 ///
-/// A pair is `degenerate` where u kappa' beta > 2^-10. Where g > -rho, least_radius >= g + rho, rho
-/// the sum of the bodies' a_min^2 / a_max. Ties between *separate* local maxima are known to the
-/// search alone: where the Gap is `local`, so are its derivatives. Any scale; does not allocate.
+/// u = 2^-53. The first is derived for every aspect ratio, the second measured for those to 1e8
+/// (docs/derivations/derivatives-and-curvature.md, which has the largest seen of both; tested by
+/// tests/geometry/gap_derivatives_test.cpp on random normals and on the faces of discs).
+///
+/// A pair is `degenerate` where u kappa' beta > 2^-10 or Newton's method does not settle. Where g >
+/// -rho, least_radius >= g + rho, rho the sum of the bodies' a_min^2 / a_max. Ties between
+/// *separate* local maxima are known to the search alone: where the Gap is `local`, so are its
+/// derivatives. Any scale; does not allocate.
 /// @param gap  of this pair; only its status and normal, polished here by Newton's method, are used
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept;
 

@@ -1,132 +1,254 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/other_gaps.hpp>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/equal_level.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
 namespace {
 
 using exact::DoubleDouble;
-using exact::DoubleDoubleVector;
+using exact::WideFloat;
 using methods::Direction;
-using methods::DoubleDoubleShape;
 using methods::EqualLevel;
+using methods::Rough;
+using methods::ShapeIn;
+using methods::VectorOf;
+
+// Of L, what the errors of a normal or of a point before its rounding may come to: two of them, and
+// what else is rounded, stay below u L / 64 (docs/derivations/other-gaps.md).
+constexpr double kOfSize = 0x1p-61;
+
+constexpr double kTurned = 0x1p7;  // of R'v over |v|, in units of the arithmetic's epsilon
+constexpr double kOfFoot = 1.5;    // of the foot over |z|, for a turn of the line: sqrt(2)
 
 /// Both bodies in one unit, and what was found between them.
+template <class T>
 struct Found {
-  const DoubleDoubleShape& a;
-  const DoubleDoubleShape& b;
-  const Direction& d;
-  const EqualLevel& at;
+  const ShapeIn<T>& a;
+  const ShapeIn<T>& b;
+  VectorOf<T> d;
+  Rough<T> size;  ///< L
+  const EqualLevel<T>& at;
 };
+
+/// What is measured; nothing where it is not known well enough.
+using Measured = std::optional<OtherGap>;
 
 OtherGap nothing(OtherGapStatus status) {
   return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status};
 }
 
-OtherGap rounded(const DoubleDouble& gap, const DoubleDoubleVector& normal,
-                 const DoubleDoubleVector& arm_a, const DoubleDoubleVector& arm_b) {
-  return {gap.high, exact::rounded(normal), exact::rounded(arm_a), exact::rounded(arm_b),
+double as_double(const DoubleDouble& v) { return v.high; }
+double as_double(const WideFloat& v) { return static_cast<double>(v); }
+
+double scaled(double v, int power) { return std::scalbn(v, power); }
+DoubleDouble scaled(const DoubleDouble& v, int power) {
+  return {std::scalbn(v.high, power), std::scalbn(v.low, power)};
+}
+WideFloat scaled(const WideFloat& v, int power) { return v.scaled(power); }
+
+template <class T>
+VectorOf<T> scaled(const VectorOf<T>& v, int power) {
+  return {scaled(v[0], power), scaled(v[1], power), scaled(v[2], power)};
+}
+
+template <class T>
+VectorOf<T> unit(const VectorOf<T>& v) {
+  return (T(1.0) / length(v)) * v;
+}
+
+template <class T>
+OtherGap rounded(const T& gap, const VectorOf<T>& normal, const VectorOf<T>& arm_a,
+                 const VectorOf<T>& arm_b) {
+  return {as_double(gap), exact::rounded(normal), exact::rounded(arm_a), exact::rounded(arm_b),
           OtherGapStatus::ok};
 }
 
-OtherGap between_tangent_planes(const Found& pair) {
-  const auto& n = pair.at.normal;
-  const DoubleDoubleVector y_a = pair.a.stretched(n), y_b = pair.b.stretched(n);
-  const DoubleDouble h_a = exact::length(y_a), h_b = exact::length(y_b), one = 1.0;
-  const DoubleDouble along = dot(n, pair.d.vector);
-  const DoubleDouble reach = {std::scalbn(along.high, pair.d.exponent),
-                              std::scalbn(along.low, pair.d.exponent)};
-  return rounded(reach - h_a - h_b, n, pair.a.spread((one / h_a) * y_a),
-                 -pair.b.spread((one / h_b) * y_b));
-}
-
-OtherGap along_the_normal(const Found& pair) {
-  const auto& n = pair.at.normal;
-  // At x + t n the level of A is F + 2 |v| t + n'M_A^-1 n t^2, that of B is F - 2 l |v| t + ...: of
-  // the two roots of level = 1 the one nearer to 0, so written that nothing cancels.
-  const DoubleDouble inside = DoubleDouble(1.0) - pair.at.level;
-  bool meets = true;
-  const auto root = [&](const DoubleDoubleShape& body, const DoubleDouble& slope) {
-    const DoubleDouble discriminant = slope * slope + body.inverse_form(n) * inside;
-    if (discriminant.high < 0.0) meets = false;
-    return inside / (slope + sqrt(discriminant));
-  };
-  const DoubleDouble t_a = root(pair.a, pair.at.slope);
-  const DoubleDouble t_b = -root(pair.b, pair.at.ratio * pair.at.slope);
-  if (!meets) return nothing(OtherGapStatus::not_applicable);
-  return rounded(t_b - t_a, n, pair.at.from_a + t_a * n, pair.at.from_b + t_b * n);
-}
-
-/// The answer of measure(Found) in the unit of the bodies as given, times 2^exponent.
-template <class Measure>
-OtherGap solve(const Ellipsoid& a, const Ellipsoid& b, const Direction& d, int exponent,
-               const Measure& measure) {
-  const DoubleDoubleShape shape_a(a), shape_b(b);
-  const auto at = methods::find_equal_level(shape_a, shape_b, d);
-  if (!at) return nothing(OtherGapStatus::not_converged);
-  OtherGap result = measure(Found{shape_a, shape_b, d, *at});
-  const bool finite = std::isfinite(result.gap) && result.normal.allFinite() &&
-                      result.arm_a.allFinite() && result.arm_b.allFinite();
-  if (!finite) return nothing(OtherGapStatus::not_converged);
-  if (exponent != 0) {
-    result.gap = std::scalbn(result.gap, exponent);
-    for (Vec3* arm : {&result.arm_a, &result.arm_b}) {
-      for (double& component : *arm) component = std::scalbn(component, exponent);
+struct BetweenTangentPlanes {
+  template <class T>
+  Measured operator()(const Found<T>& pair) const {
+    using R = Rough<T>;
+    const R allowed = R(kOfSize) * pair.size;
+    const R of_arm_a = R(pair.a.body.largest_semi_axis()) * pair.at.turn_a;
+    const R of_arm_b = R(pair.b.body.largest_semi_axis()) * pair.at.turn_b;
+    if (!(pair.at.turn < R(kOfSize)) || !(of_arm_a < allowed) || !(of_arm_b < allowed)) {
+      return std::nullopt;
     }
+    const VectorOf<T> n = unit(pair.at.v);
+    const VectorOf<T> y_a = pair.a.stretched(n), y_b = pair.b.stretched(n);
+    const T h_a = length(y_a), h_b = length(y_b), one = 1.0;
+    return rounded(dot(n, pair.d) - h_a - h_b, n, pair.a.spread((one / h_a) * y_a),
+                   -pair.b.spread((one / h_b) * y_b));
+  }
+};
+
+struct AlongTheNormal {
+  /// Where the line leaves a body.
+  template <class T>
+  struct End {
+    enum { known, misses, unknown } is = unknown;
+    VectorOf<T> arm;
+  };
+
+  /// In the coordinates that make the body the unit ball the line is z + t e.
+  /// @param off   bounds |the error of z|
+  /// @param sign  1: the last point in the body, -1: the first
+  template <class T>
+  static End<T> end(const ShapeIn<T>& body, const VectorOf<T>& z, const Rough<T>& off, double sign,
+                    const Found<T>& pair) {
+    using std::abs, std::sqrt;
+    using R = Rough<T>;
+    const auto rough = [](const T& v) { return methods::Arithmetic<T>::rough(v); };
+    const VectorOf<T> w = body.in_ball(pair.at.v);
+    const T length_w = length(w);
+    const VectorOf<T> e = (T(1.0) / length_w) * w;
+    const VectorOf<T> foot = z + -dot(z, e) * e;
+    const T square = dot(foot, foot), room = T(1.0) - square;
+
+    const R two = 2.0, slack = methods::kSlack;
+    const R of_v = slack * pair.at.turn + R(kTurned * methods::Arithmetic<T>::kEpsilon);
+    const R turn =
+        of_v * rough(length(pair.at.v)) / (R(body.body.smallest_semi_axis()) * rough(length_w));
+    const R of_foot = slack * (off + R(kOfFoot) * rough(length(z)) * turn);
+    const R of_room = of_foot * (two * sqrt(rough(square)) + of_foot);
+    if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}};
+    if (as_double(room) < 0.0) return {End<T>::misses, {}};
+    const T cosine = sqrt(room);
+    const R error = of_foot + turn + of_room / rough(cosine);
+    if (!(R(body.body.largest_semi_axis()) * error < R(kOfSize) * pair.size)) {
+      return {End<T>::unknown, {}};
+    }
+    return {End<T>::known, body.spread(foot + T(sign) * cosine * e)};
+  }
+
+  template <class T>
+  Measured operator()(const Found<T>& pair) const {
+    const int unit_exponent = pair.at.exponent;
+    const auto at_a = end(pair.a, scaled(pair.at.y_a, unit_exponent),
+                          scaled(pair.at.off_a, unit_exponent), 1.0, pair);
+    if (at_a.is == at_a.misses) return nothing(OtherGapStatus::not_applicable);
+    const auto at_b = end(pair.b, -scaled(pair.at.y_b, unit_exponent),
+                          scaled(pair.at.off_b, unit_exponent), -1.0, pair);
+    if (at_b.is == at_b.misses) return nothing(OtherGapStatus::not_applicable);
+    if (!(pair.at.turn < Rough<T>(kOfSize)) || at_a.is == at_a.unknown || at_b.is == at_b.unknown) {
+      return std::nullopt;
+    }
+    const VectorOf<T> n = unit(pair.at.v);
+    return rounded(dot(n, pair.d + at_b.arm + -at_a.arm), n, at_a.arm, at_b.arm);
+  }
+};
+
+/// @param ratio  l, as find_equal_level() takes and leaves it
+template <class T, class Measure>
+Measured solve(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d, double& ratio,
+               const Measure& measure) {
+  const ShapeIn<T> shape_a(a), shape_b(b);
+  const auto at = methods::find_equal_level<T>(shape_a, shape_b, d, ratio);
+  if (!at) return std::nullopt;
+  const VectorOf<T> separation = scaled(d.vector, d.exponent);
+  const Rough<T> distance = methods::Arithmetic<T>::rough(length(separation));
+  const Rough<T> size =
+      distance + Rough<T>(a.largest_semi_axis()) + Rough<T>(b.largest_semi_axis());
+  return measure(Found<T>{shape_a, shape_b, separation, size, *at});
+}
+
+Direction<DoubleDouble> direction(const Vec3& d, const Vec3& d_low) {
+  VectorOf<DoubleDouble> v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    v[i] = {d[static_cast<int>(i)], d_low[static_cast<int>(i)]};
+  }
+  return methods::direction<DoubleDouble>(v);
+}
+
+/// In the unit of the bodies as given, times 2^exponent.
+template <class Measure>
+Measured solve_in_unit(const Ellipsoid& a, const Ellipsoid& b, const Direction<DoubleDouble>& d,
+                       int exponent, double& ratio, const Measure& measure) {
+  Measured result = solve<DoubleDouble>(a, b, d, ratio, measure);
+  if (!result || exponent == 0) return result;
+  result->gap = std::scalbn(result->gap, exponent);
+  for (Vec3* arm : {&result->arm_a, &result->arm_b}) {
+    for (double& component : *arm) component = std::scalbn(component, exponent);
   }
   return result;
 }
 
-Direction direction(const Vec3& d, const Vec3& d_low) {
-  DoubleDoubleVector v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v[i] = {d[static_cast<int>(i)], d_low[static_cast<int>(i)]};
-  }
-  return methods::direction(v);
+/// By bits: DAZ makes subnormal differences equal to 0.
+bool are_equal(const Vec3& x, const Vec3& y) {
+  const auto same = [](double p, double q) {
+    return std::bit_cast<std::uint64_t>(p) == std::bit_cast<std::uint64_t>(q) ||
+           (is_zero(p) && is_zero(q));
+  };
+  return same(x[0], y[0]) && same(x[1], y[1]) && same(x[2], y[2]);
 }
 
 /// @param separation  null: that of the centres
 template <class Measure>
-OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
-                const Measure& measure) {
+Measured by_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
+                          double& ratio, const Measure& measure) {
+  if (!environment_is_default()) return std::nullopt;
   const Vec3 d = separation != nullptr ? *separation : Vec3(b.centre() - a.centre());
-  if (d == Vec3::Zero()) return nothing(OtherGapStatus::not_applicable);
   const Vec3 d_low = separation != nullptr ? Vec3(Vec3::Zero())
                                            : methods::separation_error(a.centre(), b.centre(), d);
-  if (methods::moderate(a, b, d)) return solve(a, b, direction(d, d_low), 0, measure);
+  if (methods::moderate(a, b, d)) {
+    return solve_in_unit(a, b, direction(d, d_low), 0, ratio, measure);
+  }
   const methods::ScaledPair pair =
       separation != nullptr ? methods::scaled_pair(a, b, d) : methods::scaled_pair(a, b);
   // d itself, unless it overflows: in the unit of large bodies a small d would lose digits.
-  Direction between = direction(pair.d, pair.d_low);
+  Direction<DoubleDouble> between = direction(pair.d, pair.d_low);
   if (d.allFinite()) {
     between = direction(d, d_low);
     between.exponent -= pair.exponent;
   }
-  return solve(pair.a, pair.b, between, pair.exponent, measure);
+  return solve_in_unit(pair.a, pair.b, between, pair.exponent, ratio, measure);
+}
+
+template <class Measure>
+OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
+                const Measure& measure) {
+  const auto component = [&](int i) {
+    return separation != nullptr ? WideFloat((*separation)[i])
+                                 : WideFloat(b.centre()[i]) - WideFloat(a.centre()[i]);
+  };
+  const bool coincide = separation != nullptr ? are_equal(*separation, Vec3::Zero())
+                                              : are_equal(a.centre(), b.centre());
+  if (coincide) return nothing(OtherGapStatus::not_applicable);
+  double ratio = 0.0;
+  Measured result = by_double_double(a, b, separation, ratio, measure);
+  if (!result) {
+    const VectorOf<WideFloat> d = {component(0), component(1), component(2)};
+    result = solve<WideFloat>(a, b, methods::direction<WideFloat>(d), ratio, measure);
+  }
+  return result.value_or(nothing(OtherGapStatus::not_converged));
 }
 
 }  // namespace
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, between_tangent_planes);
+  return answer(a, b, nullptr, BetweenTangentPlanes{});
 }
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept {
-  return answer(a, b, &separation, between_tangent_planes);
+  return answer(a, b, &separation, BetweenTangentPlanes{});
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, along_the_normal);
+  return answer(a, b, nullptr, AlongTheNormal{});
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept {
-  return answer(a, b, &separation, along_the_normal);
+  return answer(a, b, &separation, AlongTheNormal{});
 }
 
 }  // namespace tangency

@@ -18,10 +18,12 @@
 /// (4) For two spheres it is the signed gap; in general it differs from it by O(gap^2 / radius of
 ///     curvature).
 ///
-/// Every number is rounded once from double-double arithmetic: within u of itself + u L / 64,
-/// u = 2^-53, L = |d| + both largest semi-axes (the normal within 8 u), for aspect ratios and size
-/// ratios to 1e8 (tests/geometry/other_gaps_test.cpp prints the largest errors seen). Nothing here
-/// allocates. Assumes the default floating-point environment.
+/// Every number of an `ok` is within u of itself + u L / 64, u = 2^-53, L = |d| + both largest
+/// semi-axes (the normal within 8 u), at any aspect ratio: a bound is computed beside the numbers,
+/// in double-double and, where that does not suffice, in 512 bits; where that does not either the
+/// status says so (docs/derivations/other-gaps.md; tests/verify/flat_contact_agreement.cpp prints
+/// the largest errors). Any scale, rounding mode and treatment of subnormal numbers; outside the
+/// default environment everything is computed in 512 bits, by integers. Nothing here allocates.
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
@@ -31,7 +33,7 @@ namespace tangency {
 enum class OtherGapStatus {
   ok,
   not_applicable,  ///< the definition says nothing about this pair
-  not_converged,   ///< not found: aspect ratios beyond 1e12
+  not_converged,   ///< not known well enough: aspect ratios far beyond 1e20, or a line that touches
 };
 
 /// As Gap, by another definition. The numbers are 0 unless `ok`.
@@ -60,9 +62,8 @@ OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
 /// seek the point of equal potentials [Podlozhnyuk2017].
 ///
 /// `not_applicable` where the centres coincide, and where the line misses a body: solids that are
-/// far apart for their curvature. Whether it does is known to 2^-90; gap and points lose digits
-/// where the line grazes a body, by 1 / the cosine between it and the surface's normal, and at most
-/// half of those of double-double.
+/// far apart for their curvature. That it misses is proven. `not_converged` where it touches a
+/// body, or so nearly that 512 bits do not tell.
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,

@@ -165,6 +165,39 @@ TEST(Curvature, AtTheEndsOfTheAxesIsTheSemiAxisOverTheSquaresOfTheOthers) {
   }
 }
 
+TEST(Curvature, OfRimsAtASmallAngleIsThatOfTheAngle) {
+  // Discs of radius 1 that touch rim to rim, their planes turned from each other about the normal
+  // by an angle of tangent of half t: the sum of two tensors diag(1/c^2, 1), one turned, has the
+  // smaller value 2 (1 + t^2/c^2) / (1 + t^2).
+  for (int thin = 2; thin <= 60; thin += 5) {
+    const double c = std::exp2(-thin);
+    for (int half = 1; half <= 50; half += 7) {
+      const double t = std::exp2(-half);
+      const Vec3 axes(1, 1, c);
+      const Ellipsoid a({0, 0, 0}, axes, {1, 2, 3, 4});
+      // (1, 2, 3, 4) times (1, t, 0, 0), exactly.
+      const Ellipsoid b({0, 0, 0}, axes, {1 - 2 * t, 2 + t, 3 + 4 * t, 4 - 3 * t});
+      const Vec3 n = a.rotation().col(0);
+      const double truth = 2 * (1 + (t / c) * (t / c)) / (1 + t * t);
+      const double found = contact_curvature(a, b, n).relative.curvature[1];
+      EXPECT_NEAR(found / truth, 1, 64 * kU) << "c = 2^-" << thin << ", t = 2^-" << half;
+    }
+  }
+}
+
+TEST(Curvature, OfTwoDiscsOfAspect1000WhoseRelativeCurvatureWasOffByRoundingOfRotations) {
+  const Vec3 axes(1, 1, 0x1.0624dd2f1a9fcp-10);
+  const Ellipsoid a(
+      {0, 0, 0}, axes,
+      {-0x1.00694062990dbp+0, -0x1.d74f97b178a0dp-2, 0x1.5a34d752e81e9p-2, 0x1.8fd36f9b6e3b4p-5});
+  const Ellipsoid b(
+      {0, 0, 0}, axes,
+      {-0x1.bc15b3f65d8bap-1, -0x1.99b329a92b4c6p-2, 0x1.2c108d9b61ff7p-2, 0x1.56fb5a6cdbd5dp-5});
+  const Vec3 n(0x1.a646c8360ed76p-1, -0x1.3a7b59e47b32bp-2, 0x1.e637ac14e37b5p-2);
+  // in 100 digits.
+  EXPECT_NEAR(contact_curvature(a, b, n).relative.curvature[1] / 6.2132069379195170, 1, 16 * kU);
+}
+
 TEST(Curvature, OfASphereIsOneOverItsRadiusInAnyTwoDirections) {
   const Ellipsoid ball({1, 2, 3}, {4, 4, 4}, {0.1, 0.9, -0.3, 0.4});
   const Vec3 n = Vec3(1, -2, 2) / 3;

@@ -11,6 +11,7 @@
 
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/tests/support/conversions.hpp>
+#include <tangency/tests/support/gap_gradient.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
@@ -18,68 +19,15 @@ namespace {
 
 using families::ContactFamily;
 using families::ManufacturedContact;
+using testing::changed, testing::gradient_of, testing::is_angle;
+using testing::RealPair;
 using testing::to_ellipsoid;
 using verify::GapTruth;
 using verify::Real;
-using verify::Real3;
-using verify::RealEllipsoid;
 
 constexpr double kU = 0x1p-53;
 constexpr std::uint64_t kSeed = 20261122;
 const Real kStep("1e-40");  // of differences: errors of 1e-80 by truncation, 1e-65 by the oracle's
-
-using Gradient = std::array<Real, 18>;
-
-bool is_angle(int i) { return i % kOfBodyB / 3 == kRotation / 3; }
-
-struct RealPair {
-  RealEllipsoid a, b;
-};
-
-/// The pair with parameter i changed by a step. A turn of 2 atan(step / 2) is one of step +
-/// O(step^3).
-RealPair changed(RealPair pair, int i, const Real& step) {
-  RealEllipsoid& body = i < kOfBodyB ? pair.a : pair.b;
-  const auto k = static_cast<std::size_t>(i % 3);
-  const int kind = i % kOfBodyB - i % 3;
-  if (kind == kCentre) body.centre[k] += step;
-  if (kind == kSemiAxes) body.semi_axes[k] += step;
-  if (kind == kRotation) {
-    // (1, v/2) times q
-    const auto q = body.orientation;
-    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
-    const Real half = step / 2;
-    body.orientation[0] -= half * q[k + 1];
-    body.orientation[k + 1] += half * q[0];
-    body.orientation[l + 1] -= half * q[m + 1];
-    body.orientation[m + 1] += half * q[l + 1];
-  }
-  return pair;
-}
-
-/// The first derivatives by the identities of gap_derivatives.hpp, in 200 digits.
-Gradient gradient_of(const RealPair& pair, const GapTruth& truth) {
-  const verify::Separation<Real> shapes = separation(pair.a, pair.b);
-  Gradient g;
-  const auto body = [&](const verify::Shape<Real>& shape, const Real3& arm, int sign,
-                        std::size_t first) {
-    const Real3& n = truth.normal;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
-      g[first + k] = sign * n[k];
-      g[first + 3 + k] = sign * (arm[l] * n[m] - arm[m] * n[l]);
-      Real along_n = 0, along_x = 0;  // a_k^2 (R'n)_k / h is (R'x)_k, x = -sign arm
-      for (std::size_t j = 0; j < 3; ++j) {
-        along_n += shape.axes[k][j] * n[j];
-        along_x -= sign * shape.axes[k][j] * arm[j];
-      }
-      g[first + 6 + k] = -along_n * along_x / shape.semi_axes[k];
-    }
-  };
-  body(shapes.a, truth.arm_a, -1, 0);
-  body(shapes.b, truth.arm_b, 1, kOfBodyB);
-  return g;
-}
 
 /// A pair, its derivatives by the kernel, and the scales of their errors.
 struct Case {
@@ -106,11 +54,12 @@ struct Case {
     return 0.5 * derivatives.gradient.segment<3>(first).dot(
                      Vec3::Unit(i - first).cross(Vec3(Vec3::Unit(j - first))));
   }
-  double scale(int i) const { return is_angle(i) ? size : 1.0; }
   /// A support point moves up to beta times as fast as the normal or a semi-axis.
-  double hessian_scale(int i) const {
-    return i % kOfBodyB >= kRotation ? beta * scale(i) : scale(i);
+  double scale(int i) const {
+    return i % kOfBodyB < kRotation ? 1.0 : is_angle(i) ? beta * size : beta;
   }
+  /// What the gradient's errors are relative to, over u and the scale.
+  double first_order() const { return deep * (kappa + std::sqrt(kappa * beta)); }
 
   Ellipsoid a, b;
   RealPair pair;
@@ -123,8 +72,8 @@ double distance(double value, const Real& truth) {
   return std::abs(static_cast<double>(value - truth));
 }
 
-/// Largest errors: of the gradient in units of the scale, of u kappa and the scale; of the Hessian
-/// in units of the scales / least radius, and of that times u kappa' beta.
+/// Largest errors: of the gradient in units of the scale, of u deep (kappa + sqrt(kappa beta)) and
+/// it; of the Hessian in units of the scales / least radius, and of that times u kappa' beta.
 struct Worst {
   double gradient = 0, gradient_conditioned = 0, hessian = 0, hessian_conditioned = 0;
   double kappa = 0, beta = 0;
@@ -133,11 +82,11 @@ struct Worst {
   void add_gradient(const Case& c, int i, const Real& truth) {
     const double error = distance(c.derivatives.gradient[i], truth) / c.scale(i);
     gradient = std::max(gradient, error);
-    gradient_conditioned = std::max(gradient_conditioned, error / (kU * c.kappa));
+    gradient_conditioned = std::max(gradient_conditioned, error / (kU * c.first_order()));
   }
   void add_hessian(const Case& c, int i, int j, const Real& truth) {
     const double error = distance(c.derivatives.hessian(i, j), truth) * c.derivatives.least_radius /
-                         (c.hessian_scale(i) * c.hessian_scale(j));
+                         (c.scale(i) * c.scale(j));
     hessian = std::max(hessian, error);
     hessian_conditioned = std::max(hessian_conditioned, error / (kU * c.kappa * c.deep * c.beta));
   }
@@ -147,10 +96,24 @@ struct Worst {
     kappa = std::max(kappa, c.kappa);
     beta = std::max(beta, c.beta);
   }
+  /// The gradient and column j mod 18 of the Hessian against 100 digits.
+  void add(const Case& c, int j) {
+    count_pair(c);
+    const auto at = gradient_of(c.pair, c.truth_of(c.pair));
+    const RealPair more = changed(c.pair, j % 18, kStep), less = changed(c.pair, j % 18, -kStep);
+    const auto above = gradient_of(more, c.truth_of(more));
+    const auto below = gradient_of(less, c.truth_of(less));
+    for (int k = 0; k < 18; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      add_gradient(c, k, at[row]);
+      const Real difference = (above[row] - below[row]) / (2 * kStep);
+      add_hessian(c, k, j % 18, difference - c.half_commutator(k, j % 18));
+    }
+  }
   void print(const char* name) const {
     std::printf(
         "%s: %d pairs, %d overlapping, kappa to %.2g, beta to %.2g: gradient %.2g (%.3g u "
-        "kappa), Hessian %.2g (%.3g u kappa' beta)\n",
+        "deep (kappa + sqrt(kappa beta))), Hessian %.2g (%.3g u kappa' beta)\n",
         name, count, overlapping, kappa, beta, gradient, gradient_conditioned, hessian,
         hessian_conditioned);
   }
@@ -185,18 +148,7 @@ Worst compare(const ContactFamily& family, int count, double closer = 1) {
       EXPECT_EQ(c.derivatives.status, DerivativeStatus::ok) << i;
     }
     if (c.derivatives.least_radius == 0) continue;
-    worst.count_pair(c);
-    const Gradient at = gradient_of(c.pair, c.truth_of(c.pair));
-    const int j = i % 18;
-    const RealPair more = changed(c.pair, j, kStep), less = changed(c.pair, j, -kStep);
-    const Gradient above = gradient_of(more, c.truth_of(more));
-    const Gradient below = gradient_of(less, c.truth_of(less));
-    for (int k = 0; k < 18; ++k) {
-      const auto row = static_cast<std::size_t>(k);
-      worst.add_gradient(c, k, at[row]);
-      const Real difference = (above[row] - below[row]) / (2 * kStep);
-      worst.add_hessian(c, k, j, difference - c.half_commutator(k, j));
-    }
+    worst.add(c, i);
   }
   char name[64];
   std::snprintf(name, sizeof name, "%s, aspect to %g", family.name.c_str(), family.aspect);
@@ -261,6 +213,63 @@ TEST(GapDerivatives, AreWithinTheirPublishedBoundsAtEveryAspectTo1000) {
       EXPECT_LT(worst.hessian_conditioned, 16) << family.name << aspect;
     }
   }
+}
+
+/// A disc of that aspect ratio touched by a sphere or by a disc on its face, near its middle or
+/// anywhere: kappa is about 1 and beta the aspect ratio.
+ManufacturedContact on_a_face(std::mt19937_64& random, double aspect) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto any = [&] { return Eigen::Quaterniond(unit(random), unit(random), unit(random), 1); };
+  const Ellipsoid disc({0, 0, 0}, {1, 0.6 + 0.4 * unit(random), 1 / aspect}, any());
+  const Vec3 aside = Vec3(unit(random), unit(random), unit(random)) / aspect;
+  const Vec3 n = (disc.rotation().col(2) + (unit(random) > 0) * aside).normalized();
+  const double r = 0.3 + 0.2 * unit(random);
+  const Ellipsoid other({0, 0, 0}, {r, r, unit(random) > 0 ? r : r / aspect}, any());
+  const double gap = 0.5 * (disc.least_radius() + other.least_radius()) * unit(random);
+  const Vec3 d = disc.support_point(n) + other.support_point(n) + gap * n;
+  return {testing::to_raw(disc), testing::to_raw(other.moved_to(d)), {n[0], n[1], n[2]}, gap, 0, 0};
+}
+
+TEST(GapDerivatives, OnTheFacesOfDiscsAreWithinTheirPublishedBounds) {
+  for (const double aspect : {30.0, 100.0, 1000.0, 1e6}) {
+    std::mt19937_64 random(kSeed);
+    Worst worst;
+    for (int i = 0; i < 180; ++i) {
+      const Case c(on_a_face(random, aspect));
+      ASSERT_EQ(c.derivatives.status, DerivativeStatus::ok) << i;
+      worst.add(c, i);
+    }
+    char name[64];
+    std::snprintf(name, sizeof name, "on a face, aspect %g", aspect);
+    worst.print(name);
+    EXPECT_LT(worst.gradient_conditioned, 16) << aspect;
+    EXPECT_LT(worst.hessian_conditioned, 16) << aspect;
+    EXPECT_GT(worst.beta, 0.5 * aspect);
+  }
+}
+
+TEST(GapDerivatives, OfADiscTouchedOnItsFaceWhichBrokeABoundWithoutItsSharpnessKeepThePromise) {
+  const ManufacturedContact contact{
+      {{0, 0, 0},
+       {1, 0x1.4f799fd6ee6d1p-1, 0x1.47ae147ae147bp-7},
+       {0x1.e9569ce93dcf2p-2, 0x1.188dfb42b525ep-2, -0x1.086878443a99ep+0, 0x1.589a0efac340bp-10}},
+      {{-0x1.baa775702437ap-1, -0x1.1d0d790d8ce72p-2, -0x1.295c5e15c781cp-1},
+       {0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2},
+       {-0x1.5fd99dd3d8fddp+0, -0x1.5f594744ee6d6p+0, 0x1.9c3281fbeb54bp-4, 0x1.8f51932a60fe2p-1}},
+      {},
+      0,
+      0,
+      0};
+  const Case c(contact);
+  ASSERT_EQ(c.derivatives.status, DerivativeStatus::ok);
+  Worst worst;
+  for (int j = 0; j < 18; ++j) worst.add(c, j);
+  worst.print("a disc of aspect 100 touched on its face");
+  EXPECT_LT(worst.gradient_conditioned, 16);
+  EXPECT_LT(worst.hessian_conditioned, 16);
+  // d/dv_A,y in 100 digits.
+  EXPECT_NEAR(c.derivatives.gradient[kRotation + 1], 0.15657676489168298,
+              16 * kU * c.first_order() * c.scale(kRotation));
 }
 
 TEST(GapDerivatives, OfDeepPairsAreThoseOfTheirBranchWithinTheSameBounds) {

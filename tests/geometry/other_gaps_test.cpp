@@ -12,6 +12,7 @@
 #include <tangency/bench/families/extreme.hpp>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/support/conversions.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 
@@ -173,6 +174,123 @@ struct Errors {
                      distance(found.arm_b, truth.arm_b) / promised(found.arm_b.stableNorm())});
   }
 };
+
+/// Both definitions of one pair, which has an answer by the first, against 100 digits.
+void hold_against_oracle(const Ellipsoid& a, const Ellipsoid& b) {
+  const auto truth = verify::perram_wertheim(testing::to_raw(a), testing::to_raw(b));
+  ASSERT_TRUE(truth.has_value());
+  const OtherGap planes = perram_wertheim_gap(a, b), midpoint = midpoint_potential_gap(a, b);
+  ASSERT_EQ(planes.status, OtherGapStatus::ok);
+  ASSERT_EQ(midpoint.status, truth->midpoint ? OtherGapStatus::ok : OtherGapStatus::not_applicable);
+  Errors errors;
+  errors.add(planes, truth->tangent_planes, size_of(a, b));
+  if (truth->midpoint) errors.add(midpoint, *truth->midpoint, size_of(a, b));
+  EXPECT_LE(errors.gap, 1);
+  EXPECT_LE(errors.normal, 1);
+  EXPECT_LE(errors.arms, 1);
+}
+
+TEST(OtherGaps, OfFlatFacesManyThicknessesApartAreRight) {
+  // The discriminant of the midpoint's line is 1e-16 of its terms as they are usually written.
+  for (const double thickness : {1e-5, 1e-6, 1e-7, 1e-8, 1e-12, 1e-15}) {
+    SCOPED_TRACE(thickness);
+    const Eigen::Quaterniond q(0.9, 0.1, 0.2, 0.3);
+    const Ellipsoid a({0, 0, 0}, {1, 1, thickness}, q);
+    hold_against_oracle(a, Ellipsoid(2 * a.rotation().col(2), {2, 2, 2 * thickness}, q));
+  }
+  // Was off by 3e7 times the bound, with status ok.
+  const Eigen::Quaterniond q(0x1.9160f4cd9ee82p-1, -0x1.3fc6dfd057a28p-3, -0x1.7530ad53f47e8p-2,
+                             -0x1.2c7e324abf4bcp-2);
+  constexpr double r = 0x1.cac851c693b4dp+0, s = 0x1.77eb67ccaa501p+1;
+  hold_against_oracle(
+      Ellipsoid({0, 0, 0}, {r, r, 0x1.839a46c14d37fp-26}, q),
+      Ellipsoid({0x1.0dfde276bb91ep+1, -0x1.022365ec248b7p+1, -0x1.31d8d99137544p+1},
+                {s, s, 0x1.3d9888d5d1c1ap-25}, q));
+}
+
+TEST(OtherGaps, OfNearlyConcentricThinPairsAreRight) {
+  // Was off by 3.9 times the bound: rounding of the shapes' sum times its condition.
+  hold_against_oracle(
+      Ellipsoid(
+          {0, 0, 0}, {0x1.799f6dc1d1774p+2, 0x1.48dc376ef477fp-7, 0x1.fad631fdc07eep-25},
+          {0x1.5dea88f7570fdp-2, -0x1.73185e203c26fp+0, 0x1.b8b76902d0be3p+0, 0x1.13cc06c32499p+0}),
+      Ellipsoid({-0x1.2f5faf96089cfp-19, 0x1.1176fc0b2fea3p-19, -0x1.b06903be29646p-20},
+                {0x1.ab5331a55e445p+0, 0x1.1ec5df35ef531p-26, 0x1.1ec5df35ef531p-26},
+                {0x1.47b11a653d7f7p+0, 0x1.c13f2a9d89693p-3, 0x1.0e3de1631737ap+1,
+                 0x1.e342297524b05p+0}));
+}
+
+TEST(OtherGaps, SayThatTheLineMissesTwoDiscsThatItMissesByLittle) {
+  // Was answered as if the line met both.
+  const Eigen::Quaterniond q(-0x1.53132ed15a45ap-2, 0x1.ed8fb63344ae1p+0, -0x1.97e85a19ca51ap-2,
+                             0x1.74508bb4fa2b6p-2);
+  constexpr double r = 0x1.db84f3758c184p-3, s = 0x1.3ca412c950052p+3;
+  const Ellipsoid a({0, 0, 0}, {r, r, 0x1.91be2652a1a41p-29}, q);
+  const Ellipsoid b({-0x1.3d97e949882a5p+8, 0x1.dc55e4f4fc2a4p+8, 0x1.850a724efd151p+10},
+                    {s, s, 0x1.0b83a59fe01a7p-23}, q);
+  hold_against_oracle(a, b);
+  EXPECT_EQ(midpoint_potential_gap(a, b).status, OtherGapStatus::not_applicable);
+}
+
+TEST(OtherGaps, MidpointPotentialIsUnknownOnlyWhereTheLineTouchesABody) {
+  // The line through the point half way, d / 2, along M^-1 d touches both bodies exactly.
+  const Vec3 axes(90, 45, 45), d(510, 34, 0);
+  const auto with = [&](double y) {
+    return midpoint_potential_gap(Ellipsoid({0, 0, 0}, axes), Ellipsoid({d[0], y, d[2]}, axes));
+  };
+  EXPECT_EQ(with(d[1]).status, OtherGapStatus::not_converged);
+  EXPECT_EQ(with(d[1]).gap, 0);
+  const double less = std::nextafter(d[1], 0.0), more = std::nextafter(d[1], 35.0);
+  EXPECT_EQ(with(less).status, OtherGapStatus::ok);
+  EXPECT_EQ(with(more).status, OtherGapStatus::not_applicable);
+  EXPECT_EQ(perram_wertheim_gap(Ellipsoid({0, 0, 0}, axes), Ellipsoid(d, axes)).status,
+            OtherGapStatus::ok);
+}
+
+TEST(OtherGaps, AreRightOrSaidToBeUnknownAtEveryAspectRatio) {
+  // Equal discs one above the other, so that the gap is known in closed form.
+  int known = 0, unknown = 0;
+  for (int power = 1; power <= 1000; power += power < 100 ? 9 : 50) {
+    const double thickness = std::exp2(-power);
+    const Ellipsoid a({0, 0, 0}, {1, 1, thickness}, {1, 2, 3, 4});
+    // R of (1, 2, 3, 4) has the column (22, 4, 20) / 30 exactly.
+    const Ellipsoid b({11, 2, 10}, {1, 1, thickness}, {1, 2, 3, 4});
+    for (const auto& find : kDefinitions) {
+      const OtherGap found = find(a, b);
+      ++(found.status == OtherGapStatus::ok ? known : unknown);
+      if (found.status != OtherGapStatus::ok) {
+        EXPECT_EQ(found.status, OtherGapStatus::not_converged) << power;
+        EXPECT_GT(power, 80) << "an aspect ratio of 1e24";
+        continue;
+      }
+      EXPECT_NEAR(found.gap, 15 - 2 * thickness, 16 * kU) << power;
+      EXPECT_LE((found.normal - Vec3(11, 2, 10) / 15).norm(), 4 * kU) << power;
+    }
+  }
+  EXPECT_GT(known, 20);
+  EXPECT_GT(unknown, 20);
+}
+
+TEST(OtherGaps, AreRightInEveryRoundingModeAndWithSubnormalsFlushed) {
+  families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
+  for (int i = 0; i < 4; ++i) {
+    const auto contact = contacts.next();
+    const Ellipsoid a = to_ellipsoid(contact.a), b = to_ellipsoid(contact.b);
+    for (const auto& find : kDefinitions) {
+      const OtherGap right = find(a, b);
+      for (const auto& environment : testing::all_environments()) {
+        const OtherGap found = [&] {
+          const testing::EnvironmentGuard guard(environment);
+          return find(a, b);
+        }();
+        EXPECT_EQ(found.status, right.status) << environment.name;
+        EXPECT_NEAR(found.gap, right.gap, kU * kOfSize * size_of(a, b)) << environment.name;
+        EXPECT_LE((found.normal - right.normal).norm(), 2 * kU) << environment.name;
+        EXPECT_LE((found.arm_a - right.arm_a).norm(), 2 * kU * a.largest_semi_axis());
+      }
+    }
+  }
+}
 
 /// Both definitions of every pair that next() draws against 100 digits.
 template <class Next>
