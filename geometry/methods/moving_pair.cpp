@@ -128,7 +128,11 @@ double MovingPair::safe_step(const PairAt& now, const Vec3& normal, const Vec3& 
   const double growth = kInflated * 0.5 * w * w * greatest_speed_;
   const Reach a = reach_of(now.a, wa, normal, turning), b = reach_of(now.b, wb, normal, turning);
   const double error = rounding(now.t);
-  const double error_rate = rounding_per_time_ + kRounding * (greatest_speed_ + w * distance);
+  // A direction that turns with one body turns about the other.
+  const double turned = (turning - wa).norm() * a_.largest_semi_axis() +
+                        (turning - wb).norm() * b_.largest_semi_axis();
+  const double error_rate =
+      rounding_per_time_ + kRounding * (greatest_speed_ + w * distance + turned);
   return last_positive(
       [&](double s) {
         return value + s * (slope - error_rate) - s * s * (fall + s * growth) - a.at(s) - b.at(s) -
