@@ -22,9 +22,7 @@ constexpr int kMargin = 32;  // beyond a band's ends there are none of its roots
 struct Band {
   int low, high;
   int middle() const { return low + (high - low) / 2; }
-  bool holds(int exponent) const {
-    return low - kMargin <= exponent && exponent <= high + kMargin;
-  }
+  bool holds(int exponent) const { return low - kMargin <= exponent && exponent <= high + kMargin; }
 };
 
 struct Bands {
@@ -43,8 +41,8 @@ Bands bands_of(const std::array<double, 5>& a) {
     std::size_t next = last;
     for (std::size_t k = i + 1; k <= last; ++k) {
       if (is_zero(a[k])) continue;
-      const double at = static_cast<double>(exponent_of(a[i]) - exponent_of(a[k])) /
-                        static_cast<double>(k - i);
+      const double at =
+          static_cast<double>(exponent_of(a[i]) - exponent_of(a[k])) / static_cast<double>(k - i);
       if (at <= least) least = at, next = k;
     }
     const int at = static_cast<int>(std::floor(least));

@@ -25,7 +25,7 @@ constexpr double kSquared = 16 * kEpsilon;
 constexpr double kUnderflow = 0x1p-300;  // of a turned separation's components
 constexpr double kLeastAxis = 0x1p-200;  // as seen: a semi-axis below it was taken for it
 constexpr double kBeyond = 16.0;         // as seen: no hit has a t beyond it
-constexpr double kFarMiss = 0x1p-40;  // chosen: far above the rounding of the double test, 2^-49
+constexpr double kFarMiss = 0x1p-40;     // chosen: far above the rounding of the double test, 2^-49
 
 /// The line z + t v in the coordinates that make the body the unit ball, and how far it is off.
 struct UnitBallLine {
@@ -45,8 +45,13 @@ bool passes_far(const methods::SeenFromCentre& seen, const Vec3& direction) {
 
 UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::BodyFrame& frame,
                             const Vec3& direction) {
-  UnitBallLine line{
-      frame.to_body(seen.separation), frame.to_body(exact::exactly(direction)), {}, {}, {}, {}, 0.0};
+  UnitBallLine line{frame.to_body(seen.separation),
+                    frame.to_body(exact::exactly(direction)),
+                    {},
+                    {},
+                    {},
+                    {},
+                    0.0};
   const double distance = exact::rounded(seen.separation).norm(), speed = direction.norm();
   double z[3], v[3];  // absolute values
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,8 +67,7 @@ UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::
     x[i] = line.z[j] * line.v[k] - line.z[k] * line.v[j];
     const double dx = line.dz[j] * v[k] + (z[j] + line.dz[j]) * line.dv[k] + line.dz[k] * v[j] +
                       (z[k] + line.dz[k]) * line.dv[j] + kCrossed * (z[j] * v[k] + z[k] * v[j]);
-    line.error +=
-        (2.0 * std::abs(x[i].high) + dx) * dx + (2.0 * v[i] + line.dv[i]) * line.dv[i];
+    line.error += (2.0 * std::abs(x[i].high) + dx) * dx + (2.0 * v[i] + line.dv[i]) * line.dv[i];
   }
   const DoubleDouble vv = exact::dot(line.v, line.v), xx = exact::dot(x, x);
   line.discriminant = vv - xx;
@@ -72,9 +76,7 @@ UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::
 }
 
 /// The sign of a number that is within `error` of the value; 0 where that does not tell.
-int certain_sign(double value, double error) {
-  return value > error ? 1 : value < -error ? -1 : 0;
-}
+int certain_sign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
 
 /// The line and the ball in both arithmetics. Units of length and of the direction are powers of
 /// two: t is the caller's, 2^exponent times that of the unit ball's line.

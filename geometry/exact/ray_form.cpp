@@ -29,8 +29,8 @@ DoubleDouble quotient(const mpz_class& numerator, const mpz_class& denominator, 
   constexpr long kBits = 120;
   if (numerator == 0) return {};
   const long shift = kBits + bit_length(denominator) - bit_length(numerator);
-  mpz_class digits = shifted(numerator, std::max(0L, shift)) /
-                     shifted(denominator, std::max(0L, -shift));
+  mpz_class digits =
+      shifted(numerator, std::max(0L, shift)) / shifted(denominator, std::max(0L, -shift));
   const double high = digits.get_d();
   digits -= mpz_class(high);
   const int power = static_cast<int>(std::clamp(-shift - exponent, -5000L, 5000L));

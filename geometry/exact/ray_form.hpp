@@ -40,8 +40,8 @@ class RayForm {
 
   IntegerForm<4> form_;
   IntegerVector origin_, direction_;
-  int unit_;           ///< C0, C1, C2 belong to t 2^unit_
-  mp_bitcnt_t bits_;   ///< after the point, of t 2^unit_
+  int unit_;          ///< C0, C1, C2 belong to t 2^unit_
+  mp_bitcnt_t bits_;  ///< after the point, of t 2^unit_
   mpz_class c0_, c1_, c2_, discriminant_;
 };
 

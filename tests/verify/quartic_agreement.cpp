@@ -61,8 +61,9 @@ Polynomial exactly(const Coefficients& a) {
   Polynomial p;
   for (const double c : a) {
     const Dyadic d = dyadic(c);
-    p.push_back(d.exponent + 1074 >= 0 ? shifted(d.mantissa, d.exponent + 1074)
-                                       : d.mantissa >> static_cast<mp_bitcnt_t>(-d.exponent - 1074));
+    p.push_back(d.exponent + 1074 >= 0
+                    ? shifted(d.mantissa, d.exponent + 1074)
+                    : d.mantissa >> static_cast<mp_bitcnt_t>(-d.exponent - 1074));
   }
   while (!p.empty() && p.back() == 0) p.pop_back();
   return p;
@@ -253,8 +254,8 @@ class Check {
     for (std::size_t i = 0; i + 1 < missed.size(); i += 2) {
       ++tally_.missed_pairs;
       const Dyadic middle = half(sum(missed[i].high, missed[i + 1].low));
-      for (const Dyadic& x : {half(sum(missed[i].high, middle)), middle,
-                              half(sum(middle, missed[i + 1].low))}) {
+      for (const Dyadic& x :
+           {half(sum(missed[i].high, middle)), middle, half(sum(middle, missed[i + 1].low))}) {
         if (!is_lost(p_, x)) return false;
       }
     }
@@ -306,8 +307,7 @@ class Source {
     std::vector<double> p{number(reach)}, root{number(reach)};
     while (root.size() < 4 && below(6) != 0) {
       const bool close = below(kind == 4 ? 2 : 8) == 0;
-      root.push_back(close ? root.back() * (1 + std::ldexp(number(0), -below(60)))
-                           : number(reach));
+      root.push_back(close ? root.back() * (1 + std::ldexp(number(0), -below(60))) : number(reach));
     }
     for (const double r : root) {
       std::vector<double> q(p.size() + 1, 0.0);

@@ -159,8 +159,7 @@ bool holds(const Case& c, Tally& tally) {
                            : sign == 0 ? RayStatus::grazing
                                        : RayStatus::hit;
   if (found.count != count || found.status != status) return false;
-  const double size =
-      (c.ray.origin - c.body.centre()).norm() + c.body.largest_semi_axis();
+  const double size = (c.ray.origin - c.body.centre()).norm() + c.body.largest_semi_axis();
   const double speed = c.ray.direction.norm();
   bool kept = true;
   for (int k = 0; k < count; ++k) {
@@ -172,8 +171,8 @@ bool holds(const Case& c, Tally& tally) {
     tally.surface = std::max(tally.surface, surface), tally.line = std::max(tally.line, line);
     const double cosine = std::abs(normal.dot(c.ray.direction)) / speed;
     if (sign > 0 && cosine > 0x1p-30) {
-      const Digits120 error = std::min(abs(Digits120(t - truth.time(-1))),
-                                       abs(Digits120(t - truth.time(1))));
+      const Digits120 error =
+          std::min(abs(Digits120(t - truth.time(-1))), abs(Digits120(t - truth.time(1))));
       const Digits120 room = 2 * kU * std::abs(t) + 0x1p-80 * size / (cosine * speed);
       const double time = static_cast<double>(Digits120(error / room));
       tally.time = std::max(tally.time, time);
@@ -259,7 +258,7 @@ class Source {
   /// Semi-axes N f_i H, a quaternion of whole numbers with square N, and the point that R takes
   /// from N f_i W_i, W^2 = H^2: all whole numbers times powers of two.
   Case from_the_surface() {
-    static constexpr int kTuples[][4] = {{1, 0, 0, 1}, {3, 4, 0, 5},  {5, 12, 0, 13}, {1, 2, 2, 3},
+    static constexpr int kTuples[][4] = {{1, 0, 0, 1}, {3, 4, 0, 5}, {5, 12, 0, 13}, {1, 2, 2, 3},
                                          {2, 3, 6, 7}, {1, 4, 8, 9}, {4, 4, 7, 9},   {2, 6, 9, 11}};
     const auto& tuple = kTuples[below(8)];
     double q[4] = {};
