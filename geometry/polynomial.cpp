@@ -30,22 +30,37 @@ struct Bands {
   std::array<Band, 4> band;
 };
 
+/// p without its root 0, and the exponents of its terms.
+struct Terms {
+  std::array<double, 5> a{};
+  std::array<int, 5> exponent{};
+  std::size_t last = 0;
+  std::size_t zeros = 0;  ///< the multiplicity of the root 0
+
+  /// Requires p not 0.
+  explicit Terms(const std::array<double, 5>& p) {
+    while (is_zero(p[zeros])) ++zeros;
+    for (std::size_t k = 0; k + zeros < 5; ++k) {
+      a[k] = p[k + zeros], exponent[k] = exponent_of(a[k]);
+      if (!is_zero(a[k])) last = k;
+    }
+  }
+};
+
 /// Where the greatest term of p becomes another, by the upper hull of the points (k, exponent of
-/// a_k) [Newton's polygon]. Requires a[0] not 0.
-Bands bands_of(const std::array<double, 5>& a) {
-  std::size_t last = 4;
-  while (is_zero(a[last])) --last;
+/// a_k) [Newton's polygon].
+Bands bands_of(const Terms& p) {
   Bands bands;
-  for (std::size_t i = 0; i < last;) {
+  for (std::size_t i = 0; i < p.last;) {
     double least = kInfinity;
-    std::size_t next = last;
-    for (std::size_t k = i + 1; k <= last; ++k) {
-      if (is_zero(a[k])) continue;
+    std::size_t next = p.last;
+    for (std::size_t k = i + 1; k <= p.last; ++k) {
+      if (is_zero(p.a[k])) continue;
       const double at =
-          static_cast<double>(exponent_of(a[i]) - exponent_of(a[k])) / static_cast<double>(k - i);
+          static_cast<double>(p.exponent[i] - p.exponent[k]) / static_cast<double>(k - i);
       if (at <= least) least = at, next = k;
     }
-    const int at = static_cast<int>(std::floor(least));
+    const int whole = static_cast<int>(least), at = whole - (least < whole ? 1 : 0);
     if (bands.count > 0 && at - bands.band[bands.count - 1].high <= kApart) {
       bands.band[bands.count - 1].high = at;
     } else {
@@ -57,15 +72,17 @@ Bands bands_of(const std::array<double, 5>& a) {
 }
 
 /// p(2^middle z), times a power of two that brings its largest coefficient into [1, 2).
-std::array<double, 5> in_band(const std::array<double, 5>& a, int middle) {
-  std::array<int, 5> power{};
-  int largest = std::numeric_limits<int>::min();
-  for (std::size_t k = 0; k < 5; ++k) {
-    power[k] = static_cast<int>(k) * middle;
-    if (!is_zero(a[k])) largest = std::max(largest, exponent_of(a[k]) + power[k]);
+std::array<double, 5> in_band(const Terms& p, int middle) {
+  int largest = p.exponent[0];
+  for (int k = 1; k < 5; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!is_zero(p.a[i])) largest = std::max(largest, p.exponent[i] + k * middle);
   }
   std::array<double, 5> scaled{};
-  for (std::size_t k = 0; k < 5; ++k) scaled[k] = scaled_by_power(a[k], power[k] - largest);
+  for (int k = 0; k < 5; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    scaled[i] = scaled_by_power(p.a[i], k * middle - largest);
+  }
   return scaled;
 }
 
@@ -81,8 +98,8 @@ QuarticRoot on_the_line(const methods::ProjectiveRoot<double>& root) {
 
 /// x = 2^middle z
 QuarticRoot scaled_back(const QuarticRoot& root, int middle) {
-  const double x = std::scalbn(root.x, middle);
-  const double error = std::scalbn(root.error, middle);
+  const double x = scaled_by_power(root.x, middle);
+  const double error = scaled_by_power(root.error, middle);
   if (std::abs(x) >= std::numeric_limits<double>::min() &&
       error >= std::numeric_limits<double>::min()) {
     return {x, error, root.crosses};
@@ -101,9 +118,9 @@ void add(QuarticRoots& roots, const QuarticRoot& root) {
   roots.root[static_cast<std::size_t>(roots.count++)] = root;
 }
 
-void add_band(QuarticRoots& roots, const std::array<double, 5>& a, const Band& band, bool even) {
+void add_band(QuarticRoots& roots, const Terms& p, const Band& band, bool even) {
   const int middle = band.middle();
-  const auto found = methods::projective_roots(in_band(a, middle));
+  const auto found = methods::projective_roots(in_band(p, middle));
   for (int i = 0; i < found.count; ++i) {
     const QuarticRoot root = on_the_line(found.root[static_cast<std::size_t>(i)]);
     if (!std::isfinite(root.x) || !band.holds(exponent_of(root.x) + middle)) continue;
@@ -116,18 +133,6 @@ void add_band(QuarticRoots& roots, const std::array<double, 5>& a, const Band& b
   }
 }
 
-/// p / x^power, and that power.
-struct WithoutZero {
-  std::array<double, 5> a{};
-  std::size_t power = 0;
-
-  /// Requires p not 0.
-  explicit WithoutZero(const std::array<double, 5>& p) {
-    while (is_zero(p[power])) ++power;
-    std::copy(p.begin() + static_cast<std::ptrdiff_t>(power), p.end(), a.begin());
-  }
-};
-
 }  // namespace
 
 QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
@@ -135,19 +140,17 @@ QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
   QuarticRoots roots{0, {}, false, 0};
   roots.vanishes = std::all_of(a.begin(), a.end(), is_zero);
   if (roots.vanishes) return roots;
-  WithoutZero rest(a);
 
   // Of p(x) and p(-x), and their negatives, the search sees one, and of an even p one half: where
   // it stops within rounding of a root depends on the signs.
-  const double odd = is_zero(rest.a[1]) ? rest.a[3] : rest.a[1];
-  const double sign = (odd < 0) != (rest.a[0] < 0) ? -1.0 : 1.0;
-  for (const std::size_t k : {1u, 3u}) rest.a[k] *= sign;
-  const Bands bands = bands_of(rest.a);
-  for (std::size_t i = 0; i < bands.count; ++i) {
-    add_band(roots, rest.a, bands.band[i], is_zero(odd));
-  }
+  Terms p(a);
+  const double odd = is_zero(p.a[1]) ? p.a[3] : p.a[1];
+  const double sign = (odd < 0) != (p.a[0] < 0) ? -1.0 : 1.0;
+  for (const std::size_t k : {1u, 3u}) p.a[k] *= sign;
+  const Bands bands = bands_of(p);
+  for (std::size_t i = 0; i < bands.count; ++i) add_band(roots, p, bands.band[i], is_zero(odd));
   for (int i = 0; i < roots.count; ++i) roots.root[static_cast<std::size_t>(i)].x *= sign;
-  if (rest.power > 0) add(roots, {0.0, 0.0, rest.power % 2 == 1});
+  if (p.zeros > 0) add(roots, {0.0, 0.0, p.zeros % 2 == 1});
   std::sort(roots.root.begin(), roots.root.begin() + roots.count,
             [](const QuarticRoot& p, const QuarticRoot& q) { return p.x < q.x; });
   return roots;

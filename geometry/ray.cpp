@@ -86,7 +86,7 @@ class Chord {
         bool taken_for_thicker)
       : body_(body), ray_(ray), line_(line), exponent_(exponent) {
     sign_ = taken_for_thicker ? 0 : certain_sign(line.discriminant.high, line.error);
-    if (sign_ == 0) sign_ = exact().discriminant_sign();
+    if (sign_ == 0) sign_ = integers().discriminant_sign();
     filtered_ = !taken_for_thicker;
   }
 
@@ -98,7 +98,7 @@ class Chord {
   int place_of(double t) {
     const double scaled = std::scalbn(t, -exponent_);
     if (std::abs(scaled) > kBeyond) return t < 0.0 ? -2 : 2;
-    const auto [level, slope] = sign_ == 0 ? Signs{1, exact().slope_sign(t)} : signs_at(t, scaled);
+    const auto [level, slope] = sign_ == 0 ? Signs{1, integers().slope_sign(t)} : signs_at(t, scaled);
     return level < 0 ? 0 : level == 0 ? slope : 2 * slope;
   }
 
@@ -136,7 +136,7 @@ class Chord {
   Signs signs_at(double t, double scaled) {
     const Signs signs = filtered_ ? filtered_signs(scaled) : Signs{0, 0};
     if (signs.level < 0 || signs.level * signs.slope != 0) return signs;
-    return {exact().level_sign(t), exact().slope_sign(t)};
+    return {integers().level_sign(t), integers().slope_sign(t)};
   }
 
   Signs filtered_signs(double t) const {
@@ -154,7 +154,7 @@ class Chord {
     return {certain_sign(level.high, of_level), certain_sign(slope.high, of_slope)};
   }
 
-  const exact::RayForm& exact() {
+  const exact::RayForm& integers() {
     if (!form_) form_.emplace(body_, ray_.origin, ray_.direction);
     return *form_;
   }

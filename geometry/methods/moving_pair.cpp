@@ -128,7 +128,7 @@ double MovingPair::safe_step(const PairAt& now, const Vec3& normal, const Vec3& 
       kInflated * 0.5 * (w * w * distance + 2.0 * w * greatest_speed_ + greatest_acceleration_);
   const double growth = kInflated * 0.5 * w * w * greatest_speed_;
   const Reach a = reach_of(now.a, wa, normal, turning), b = reach_of(now.b, wb, normal, turning);
-  // A direction that turns with one body turns about the other: docs/derivations, section 3.
+  // A direction that turns with one body turns about the other (section 3 there).
   double error = rounding(now.t), turned = 0.0;
   for (const auto& [spin, size] :
        {std::pair(wa, a_.largest_semi_axis()), std::pair(wb, b_.largest_semi_axis())}) {
