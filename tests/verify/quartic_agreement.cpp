@@ -131,8 +131,8 @@ struct Crossing {
   Dyadic low, high;
 };
 
-/// The sign changes of p in (low, high], both of one sign: the interval is halved, in the exponent
-/// first.
+/// The sign changes of p in (low, high), both of one sign and no roots: the interval is halved, in
+/// the exponent first.
 void isolate(const Polynomial& p, const Sturm& sturm, const Dyadic& low, const Dyadic& high,
              std::vector<Crossing>& found) {
   const int inside = sturm.variations_at(low) - sturm.variations_at(high);
@@ -142,8 +142,7 @@ void isolate(const Polynomial& p, const Sturm& sturm, const Dyadic& low, const D
     return static_cast<long>(mpz_sizeinbase(x.mantissa.get_mpz_t(), 2)) + x.exponent;
   };
   if (bits(width) < bits(far) - 80) {
-    const int left = sign_at(p, low), right = sign_at(p, high);
-    if (left * right <= 0 && !(left == 0 && right == 0)) found.push_back({low, high});
+    if (sign_at(p, low) * sign_at(p, high) < 0) found.push_back({low, high});
     return;
   }
   const Dyadic near = low.mantissa < 0 ? high : low;
@@ -151,6 +150,8 @@ void isolate(const Polynomial& p, const Sturm& sturm, const Dyadic& low, const D
   if (bits(far) > bits(near) + 2) {
     middle = {far.mantissa < 0 ? -1 : 1, (bits(far) + bits(near)) >> 1};
   }
+  // Sturm's theorem is of intervals whose ends are no multiple roots.
+  while (sign_at(p, middle) == 0) middle = half(sum(middle, far));
   isolate(p, sturm, low, middle, found);
   isolate(p, sturm, middle, high, found);
 }
