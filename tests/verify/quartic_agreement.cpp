@@ -176,6 +176,9 @@ bool is_lost(const Polynomial& p, const Dyadic& x) {
   return !less(most, here);
 }
 
+/// The greatest double, with room for a root's own error.
+const Dyadic kLimit{mpz_class((1UL << 50) - 1), 1024 - 50};
+
 struct Tally {
   long polynomials = 0, roots = 0, closely = 0, missed_pairs = 0, beyond = 0, violations = 0;
   double widest = 0;  // error of a root that is told well, in u sum |a_k x^k| / |p'(x)| + u |x|
@@ -214,18 +217,41 @@ class Check {
     return sum(dyadic(root.x), dyadic(side * root.error));
   }
 
-  /// The quick way: as many disjoint enclosures, each with a change of sign, as roots.
+  /// An upper bound of the number of real roots not 0: Descartes' rule, for p(x) and p(-x).
+  int most_roots() const {
+    int most = 0;
+    for (const int side : {1, -1}) {
+      int before = 0;
+      for (std::size_t k = 0; k < p_.size(); ++k) {
+        const int here = sgn(p_[k]) * (k % 2 == 1 ? side : 1);
+        if (here == 0) continue;
+        if (before != 0 && here != before) ++most;
+        before = here;
+      }
+    }
+    return most;
+  }
+
+  /// Is the number of those beyond the greatest double odd, on either side?
+  int beyond_at_least() const {
+    const int end = sgn(p_.back());
+    return (sign_at(p_, kLimit) != end ? 1 : 0) +
+           (sign_at(p_, minus(kLimit)) != (p_.size() % 2 == 1 ? end : -end) ? 1 : 0);
+  }
+
+  /// The quick way: as many disjoint enclosures, each with a change of sign, as roots at most.
   bool each_root_has_its_own() const {
-    const Sturm sturm(p_);
-    if (!sturm.is_square_free() || found_.beyond > 0) return false;
-    if (static_cast<int>(roots_.size()) != sturm.count()) return false;
     for (std::size_t i = 0; i < roots_.size(); ++i) {
       if (!roots_[i].crosses || !std::isfinite(roots_[i].error)) return false;
       const Dyadic low = end(roots_[i], -1), high = end(roots_[i], 1);
       if (sign_at(p_, low) * sign_at(p_, high) >= 0) return false;
       if (i > 0 && !less(end(roots_[i - 1], 1), low)) return false;
     }
-    return true;
+    if (found_.beyond != beyond_at_least()) return false;
+    const int found = static_cast<int>(roots_.size()) + found_.beyond;
+    if (found == most_roots()) return true;
+    const Sturm sturm(p_);
+    return sturm.is_square_free() && found == sturm.count();
   }
 
   bool is_within(const Crossing& c, const QuarticRoot& root) const {
@@ -240,14 +266,12 @@ class Check {
       const auto is_its = [&](const Crossing& c) { return is_within(c, root); };
       if (root.crosses && std::none_of(exact.begin(), exact.end(), is_its)) return false;
     }
-    // The greatest double, with room for a root's own error.
-    const Dyadic limit{mpz_class((1UL << 50) - 1), 1024 - 50};
     int beyond = 0;
     std::vector<Crossing> missed;
     for (const Crossing& c : exact) {
       const auto has_it = [&](const QuarticRoot& root) { return is_within(c, root); };
       if (std::any_of(roots_.begin(), roots_.end(), has_it)) continue;
-      const bool far = less(limit, c.low) || less(c.high, minus(limit));
+      const bool far = less(kLimit, c.low) || less(c.high, minus(kLimit));
       far ? static_cast<void>(++beyond) : missed.push_back(c);
     }
     if (beyond > found_.beyond + 2 || missed.size() % 2 != 0) return false;
