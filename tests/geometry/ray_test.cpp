@@ -73,7 +73,9 @@ TEST(Ray, OriginExactlyOnATurnedSurfaceIsAHitAtZero) {
     ASSERT_EQ(hit.count, turn > 0 ? 2 : 1);
     EXPECT_EQ(hit.points[0].t, 0);
     EXPECT_EQ(hit.points[0].arm, Vec3(0, -3, 4));
-    if (turn > 0) EXPECT_EQ(hit.points[1].t, 2);
+    if (turn > 0) {
+      EXPECT_EQ(hit.points[1].t, 2);
+    }
   }
   const Ellipsoid other({0, 0, 0}, {13, 26, 52}, Eigen::Quaterniond(1, 5, 0, 0));
   const RayHit outwards = intersect(other, {{0, -24, 10}, {0, -24, 10}});
