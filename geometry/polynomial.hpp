@@ -3,10 +3,11 @@
 /// The real roots of a real quartic, in double, each with an error that is proven.
 ///
 /// (1) An error encloses: p changes sign within `error` of a root that `crosses`.
-/// (2) Near every sign change of p is a root, unless all along from it to the next one
+/// (2) From every sign change of p, all along to a root or else to another sign change,
 ///     |p(x)| <= 32 u sum |a_k x^k|, u = 2^-53: two roots that rounding cannot keep apart are one
-///     that does not cross, or none.
-/// (3) Multiplying p by a power of two changes nothing; p(-x) has the negated roots.
+///     that does not cross, or none, and no other is missed.
+/// (3) Multiplying p by a power of two changes nothing; p(-x) has the negated roots. Bit for bit.
+/// (4) p(2^k x) has the roots and errors times 2^-k, bit for bit while these are normal doubles.
 #pragma once
 
 #include <array>
@@ -27,14 +28,17 @@ struct QuarticRoots {
   int count;                         ///< at most 4 cross
   std::array<QuarticRoot, 16> root;  ///< by increasing x; those beyond count are zero
   bool vanishes;  ///< every coefficient is 0: every number is a root, and count is 0
+  int beyond;     ///< how many more lie beyond the greatest double, on either side
 };
 
 /// Of p(x) = a[0] + a[1] x + a[2] x^2 + a[3] x^3 + a[4] x^4, any of them 0.
 ///
-/// The errors are a few units in the last place of a root that is far from the others, and as wide
-/// as rounding of p makes a root that is not: about u sum |a_k x^k| / |p'(x)| where that is small,
-/// its square root at a double one. Roots beyond the range of doubles are left out. Assumes the
-/// default floating-point environment. Does not allocate. docs/derivations/quartic-roots.md
+/// For coefficients of any exponents, subnormal ones included. The errors are a few units in the
+/// last place of a root that is far from the others, and as wide as rounding of p makes a root that
+/// is not: about u sum |a_k x^k| / |p'(x)| where that is small, its square root at a double one. A
+/// root 0 has the error 0; one below the least normal double is rounded to a multiple of 2^-1074,
+/// which its error has in it. Assumes the default floating-point environment. Does not allocate.
+/// docs/derivations/quartic-roots.md
 /// @param a  finite (asserted)
 QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept;
 

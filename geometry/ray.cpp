@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include <tangency/geometry/exact/ray_form.hpp>
 #include <tangency/geometry/methods/body_frame.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -19,11 +22,16 @@ constexpr double kEpsilon = exact::kDoubleDoubleEpsilon;
 constexpr double kTurned = 64 * kEpsilon;
 constexpr double kCrossed = 8 * kEpsilon;
 constexpr double kSquared = 16 * kEpsilon;
-constexpr double kFarMiss = 0x1p-40;  // chosen: far above the rounding of the double test, 2^-49
+constexpr double kUnderflow = 0x1p-300;  // of a turned separation's components
+constexpr double kLeastAxis = 0x1p-200;  // as seen: a semi-axis below it was taken for it
+constexpr double kBeyond = 16.0;         // as seen: no hit has a t beyond it
+constexpr double kFarMiss = 0x1p-40;     // chosen: far above the rounding of the double test, 2^-49
 
 /// The line z + t v in the coordinates that make the body the unit ball, and how far it is off.
 struct UnitBallLine {
   DoubleDoubleVector z, v;
+  double dz[3], dv[3];        ///< bounds of their errors
+  DoubleDoubleVector moment;  ///< z x v
   DoubleDouble discriminant;  ///< |v|^2 - |z x v|^2: > 0 where the line meets the ball's interior
   double error;               ///< a bound of its error
 };
@@ -37,30 +45,127 @@ bool passes_far(const methods::SeenFromCentre& seen, const Vec3& direction) {
 
 UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::BodyFrame& frame,
                             const Vec3& direction) {
-  UnitBallLine line{
-      frame.to_body(seen.separation), frame.to_body(exact::exactly(direction)), {}, 0.0};
+  UnitBallLine line{frame.to_body(seen.separation),
+                    frame.to_body(exact::exactly(direction)),
+                    {},
+                    {},
+                    {},
+                    {},
+                    0.0};
   const double distance = exact::rounded(seen.separation).norm(), speed = direction.norm();
-  double z[3], v[3], dz[3], dv[3];  // absolute values, and bounds of their errors
+  double z[3], v[3];  // absolute values
   for (std::size_t i = 0; i < 3; ++i) {
     const double a = seen.semi_axes[static_cast<int>(i)];
     line.z[i] = line.z[i] / DoubleDouble(a);
     line.v[i] = line.v[i] / DoubleDouble(a);
-    z[i] = std::abs(line.z[i].high), dz[i] = kTurned * distance / a;
-    v[i] = std::abs(line.v[i].high), dv[i] = kTurned * speed / a;
+    z[i] = std::abs(line.z[i].high), line.dz[i] = (kTurned * distance + kUnderflow) / a;
+    v[i] = std::abs(line.v[i].high), line.dv[i] = kTurned * speed / a;
   }
-  DoubleDoubleVector x;
+  DoubleDoubleVector& x = line.moment;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     x[i] = line.z[j] * line.v[k] - line.z[k] * line.v[j];
-    const double dx = dz[j] * v[k] + (z[j] + dz[j]) * dv[k] + dz[k] * v[j] +
-                      (z[k] + dz[k]) * dv[j] + kCrossed * (z[j] * v[k] + z[k] * v[j]);
-    line.error += (2.0 * std::abs(x[i].high) + dx) * dx + (2.0 * v[i] + dv[i]) * dv[i];
+    const double dx = line.dz[j] * v[k] + (z[j] + line.dz[j]) * line.dv[k] + line.dz[k] * v[j] +
+                      (z[k] + line.dz[k]) * line.dv[j] + kCrossed * (z[j] * v[k] + z[k] * v[j]);
+    line.error += (2.0 * std::abs(x[i].high) + dx) * dx + (2.0 * v[i] + line.dv[i]) * line.dv[i];
   }
   const DoubleDouble vv = exact::dot(line.v, line.v), xx = exact::dot(x, x);
   line.discriminant = vv - xx;
   line.error += kSquared * (vv.high + xx.high);
   return line;
 }
+
+/// The sign of a number that is within `error` of the value; 0 where that does not tell.
+int certain_sign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
+
+/// The line and the ball in both arithmetics. Units of length and of the direction are powers of
+/// two: t is the caller's, 2^exponent times that of the unit ball's line.
+class Chord {
+ public:
+  Chord(const Ellipsoid& body, const Ray& ray, const UnitBallLine& line, int exponent,
+        bool taken_for_thicker)
+      : body_(body), ray_(ray), line_(line), exponent_(exponent) {
+    sign_ = taken_for_thicker ? 0 : certain_sign(line.discriminant.high, line.error);
+    if (sign_ == 0) sign_ = integers().discriminant_sign();
+    filtered_ = !taken_for_thicker;
+  }
+
+  /// Of the discriminant, exact.
+  int sign() const { return sign_; }
+
+  /// -2 before the first hit, -1 at it, 0 between, 1 at the second, 2 after it. For a tangent -2,
+  /// 0 at its touch, 2. Exact.
+  int place_of(double t) {
+    const double scaled = std::scalbn(t, -exponent_);
+    if (std::abs(scaled) > kBeyond) return t < 0.0 ? -2 : 2;
+    const auto [level, slope] = sign_ == 0 ? Signs{1, integers().slope_sign(t)} : signs_at(t, scaled);
+    return level < 0 ? 0 : level == 0 ? slope : 2 * slope;
+  }
+
+  struct Hit {
+    DoubleDouble t;  ///< of the unit ball's line
+    Vec3 normal;
+  };
+  /// @param side  -1, 1, or 0 for a tangent
+  Hit hit(int side, const methods::SeenFromCentre& seen, const methods::BodyFrame& frame) {
+    if (form_) {
+      const auto [t, normal] = form_->hit(side, exponent_);
+      return {t, normal};
+    }
+    // The nearest point of the line to the centre, v x (z x v) / |v|^2, and what is left of 1 along
+    // v: of unit length whatever the origin's distance.
+    const DoubleDoubleVector &v = line_.v, &x = line_.moment;
+    const DoubleDouble square = exact::dot(v, v), root = sqrt(line_.discriminant);
+    const DoubleDouble half = DoubleDouble(side) * root;
+    DoubleDoubleVector gradient;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      gradient[i] = (v[j] * x[k] - v[k] * x[j] + half * v[i]) /
+                    (square * DoubleDouble(seen.semi_axes[static_cast<int>(i)]));
+    }
+    const DoubleDoubleVector normal = DoubleDouble(1.0) / exact::length(gradient) * gradient;
+    return {(half - exact::dot(line_.z, v)) / square, exact::rounded(frame.to_space(normal))};
+  }
+
+ private:
+  /// Of the level |z + t v|^2 - 1 and of its derivative.
+  struct Signs {
+    int level, slope;
+  };
+
+  Signs signs_at(double t, double scaled) {
+    const Signs signs = filtered_ ? filtered_signs(scaled) : Signs{0, 0};
+    if (signs.level < 0 || signs.level * signs.slope != 0) return signs;
+    return {integers().level_sign(t), integers().slope_sign(t)};
+  }
+
+  Signs filtered_signs(double t) const {
+    DoubleDouble level(-1.0), slope;
+    double of_level = kSquared, of_slope = 0.0;  // bounds of their errors
+    for (std::size_t i = 0; i < 3; ++i) {
+      const DoubleDouble step = DoubleDouble(t) * line_.v[i], w = line_.z[i] + step;
+      const double v = std::abs(line_.v[i].high), size = std::abs(w.high);
+      const double dw = line_.dz[i] + std::abs(t) * line_.dv[i] +
+                        kCrossed * (std::abs(line_.z[i].high) + std::abs(step.high));
+      level = level + w * w, slope = slope + w * line_.v[i];
+      of_level += (2.0 * size + dw) * dw + kSquared * size * size;
+      of_slope += dw * v + (size + dw) * line_.dv[i] + kSquared * size * v;
+    }
+    return {certain_sign(level.high, of_level), certain_sign(slope.high, of_slope)};
+  }
+
+  const exact::RayForm& integers() {
+    if (!form_) form_.emplace(body_, ray_.origin, ray_.direction);
+    return *form_;
+  }
+
+  const Ellipsoid& body_;
+  const Ray& ray_;
+  const UnitBallLine& line_;
+  int exponent_, sign_;
+  bool filtered_ = false;
+  std::optional<exact::RayForm> form_;
+};
 
 }  // namespace
 
@@ -78,32 +183,31 @@ RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t
 
   const methods::BodyFrame frame(body.orientation());
   const UnitBallLine line = unit_ball_line(seen, frame, direction);
-  if (line.discriminant.high < -line.error) return hit;
-  const bool crosses = line.discriminant.high > line.error;
-  const DoubleDouble square = exact::dot(line.v, line.v);
-  const DoubleDouble middle = -(exact::dot(line.z, line.v) / square);
-  const DoubleDouble half = crosses ? sqrt(line.discriminant) / square : DoubleDouble();
+  Chord chord(body, ray, line, seen.exponent - turn, seen.semi_axes.minCoeff() <= kLeastAxis);
+  if (chord.sign() < 0) return hit;
 
-  const auto consider = [&](const DoubleDouble& t) {
-    const double rounded = std::scalbn(t.high, seen.exponent - turn);
-    if (!(rounded >= t_begin && rounded <= t_end)) return;
-    DoubleDoubleVector w = line.z + t * line.v;
-    w = DoubleDouble(1.0) / exact::length(w) * w;
-    DoubleDoubleVector point, gradient;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const DoubleDouble a = seen.semi_axes[static_cast<int>(i)];
-      point[i] = a * w[i];
-      gradient[i] = w[i] / a;
+  const int begin = chord.place_of(t_begin), end = chord.place_of(t_end);
+  const auto consider = [&](int side) {
+    if (begin > side || end < side) return;
+    auto [t, normal] = chord.hit(side, seen, frame);
+    // An end that is the hit itself, and one that its rounding would pass.
+    double rounded = std::clamp(std::scalbn(t.high, seen.exponent - turn), t_begin, t_end);
+    for (const auto& [place, at] : {std::pair(begin, t_begin), std::pair(end, t_end)}) {
+      if (place == side) rounded = at, t = std::scalbn(at, turn - seen.exponent);
     }
-    const Vec3 arm = exact::rounded(frame.to_space(point));
-    const DoubleDoubleVector normal = DoubleDouble(1.0) / exact::length(gradient) * gradient;
-    hit.points[hit.count++] = {
-        rounded, arm.unaryExpr([&](double x) { return std::scalbn(x, seen.exponent); }),
-        exact::rounded(frame.to_space(normal))};
+    const Vec3 arm =
+        exact::rounded(seen.separation + t * exact::exactly(direction)).unaryExpr([&](double x) {
+          return std::scalbn(x, seen.exponent);
+        });
+    hit.points[hit.count++] = {rounded, arm, normal};
   };
-  consider(middle - half);
-  if (crosses) consider(middle + half);
-  if (hit.count > 0) hit.status = crosses ? RayStatus::hit : RayStatus::grazing;
+  if (chord.sign() == 0) {
+    consider(0);
+  } else {
+    consider(-1);
+    consider(1);
+  }
+  if (hit.count > 0) hit.status = chord.sign() > 0 ? RayStatus::hit : RayStatus::grazing;
   return hit;
 }
 

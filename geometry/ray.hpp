@@ -6,6 +6,8 @@
 /// (2) Reversing the direction negates t and exchanges the points.
 /// (3) A direction s times as long divides t by s and changes nothing else.
 /// (4) Moving the origin along the line shifts t.
+/// (5) Whether a point is in the interval is exact: t_begin and t_end are those of the stored
+///     doubles, and an end that is exactly a hit's t is returned as that.
 #pragma once
 
 #include <limits>
@@ -22,7 +24,7 @@ struct Ray {
 enum class RayStatus {
   miss,     ///< no point of the surface in the interval
   hit,      ///< one or two points
-  grazing,  ///< the whole line touches the surface, or misses or cuts it by less than can be told
+  grazing,  ///< the line touches the surface in one point, exactly, which is in the interval
 };
 
 struct SurfacePoint {
@@ -40,17 +42,15 @@ struct RayHit {
 
 /// Intersects the surface with origin + t direction, t_begin <= t <= t_end: a ray without further
 /// arguments, a segment or, from -infinity, a line. An origin inside has one hit, where the ray
-/// leaves; one on the surface counts as a hit at t = 0 where the exact t rounds to 0.
+/// leaves; one exactly on the surface is a hit at t = 0, and may have another ahead.
 ///
-/// With L = |origin - c| + largest semi-axis, u = 2^-53, e = direction / |direction|, semi-axes of
-/// at least 2^-200 L, in the default floating-point environment (docs/derivations/primitives.md,
-/// section 4):
+/// With L = |origin - c| + largest semi-axis, u = 2^-53, e = direction / |direction|, for any
+/// semi-axes, in the default floating-point environment (docs/derivations/primitives.md, section
+/// 4):
 ///
-/// - hit or miss is decided in double-double with a bound of its error and is never wrong.
-/// `grazing`
-///   is what it cannot decide: on such a line the least of the level |diag(1/a) R'(x - c)|^2 is
-///   within 2^-90 L / smallest semi-axis of 1. One point is returned for it, that of the least
-///   level, if it is in the interval.
+/// - hit, miss or touch, and what lies in the interval, is exact for the stored doubles: decided in
+///   double-double with a bound of its error, and in exact integers where that does not do, which
+///   allocates.
 /// - arm is within 8 u L of the surface and of the line; t |direction| is within 2 u |t direction|
 ///   + 2^-80 L / k of the true one where k = |n . e| > 2^-30, and the arm as near to the true hit.
 ///   Nearer to tangency t loses accuracy as the problem does: a change of the body by x moves the

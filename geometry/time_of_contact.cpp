@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <tangency/geometry/closest_point.hpp>
+#include <tangency/geometry/exact/double_double.hpp>
 #include <tangency/geometry/methods/moving_pair.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -40,6 +41,12 @@ bool proven_overlap(const MovingPair& pair, double t) {
          both_hold(now, now.d, error);
 }
 
+/// The greatest double that is no more than from + by, both >= 0; infinite where that overflows.
+double at_most_after(double from, double by) {
+  const exact::DoubleDouble sum = exact::two_sum(from, by);
+  return sum.low < 0.0 ? std::nextafter(sum.high, 0.0) : sum.high;
+}
+
 /// A moment of (from, to] at which they are proven to overlap, or -1: the ends of ever shorter
 /// parts, and then the search for the least gap.
 double overlap_within(const MovingPair& pair, double from, double to) {
@@ -49,7 +56,8 @@ double overlap_within(const MovingPair& pair, double from, double to) {
   };
   double part = to - from;
   for (int i = 0; i < kProbes; ++i, part *= 0.5) {
-    if (proven_overlap(pair, from + part)) return from + part;
+    const double t = std::min(from + part, to);  // to - from is rounded, and so is the sum
+    if (proven_overlap(pair, t)) return t;
   }
   constexpr double kGolden = 0.6180339887498949;
   double low = from, high = to;
@@ -128,7 +136,7 @@ TimeOfContact advance(const MovingPair& pair, double horizon, double tolerance) 
     const bool lost = gap.gap <= 2.0 * pair.rounding(t) || t + move == t;
     t += move;
     if (move > kNear * tolerance) continue;
-    const double end = std::min(t + tolerance, horizon);
+    const double end = std::min(at_most_after(t, tolerance), horizon);
     if (proven_overlap(pair, end)) return answer(pair, ContactTimeStatus::contact, t, end, step);
     if (!lost) continue;
     const double overlap = overlap_within(pair, t, end);

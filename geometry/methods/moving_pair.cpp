@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tangency::methods {
 namespace {
@@ -127,8 +128,16 @@ double MovingPair::safe_step(const PairAt& now, const Vec3& normal, const Vec3& 
       kInflated * 0.5 * (w * w * distance + 2.0 * w * greatest_speed_ + greatest_acceleration_);
   const double growth = kInflated * 0.5 * w * w * greatest_speed_;
   const Reach a = reach_of(now.a, wa, normal, turning), b = reach_of(now.b, wb, normal, turning);
-  const double error = rounding(now.t);
-  const double error_rate = rounding_per_time_ + kRounding * (greatest_speed_ + w * distance);
+  // A direction that turns with one body turns about the other (section 3 there).
+  double error = rounding(now.t), turned = 0.0;
+  for (const auto& [spin, size] :
+       {std::pair(wa, a_.largest_semi_axis()), std::pair(wb, b_.largest_semi_axis())}) {
+    const double rate = (turning - spin).norm();
+    if (rate > 0.0) error += kRounding * size;
+    turned += 2.0 * rate * size;
+  }
+  const double error_rate =
+      rounding_per_time_ + kRounding * (greatest_speed_ + w * distance + turned);
   return last_positive(
       [&](double s) {
         return value + s * (slope - error_rate) - s * s * (fall + s * growth) - a.at(s) - b.at(s) -

@@ -136,13 +136,18 @@ struct Circle {
   }
 };
 
+template <class Real>
+constexpr Real kShort = Real(0x1p-16);  // chosen: errors of triple roots in double, u^(1/3)
+
 /// How far from x, towards `end`, the sign is certainly `sign`; no further than `end`, where it is.
 template <class Real>
 Real reach(const QuarticCoefficients<Real>& a, Real x, Real end, int sign) {
   const Real whole = std::abs(end - x), slope = std::abs(value<Real, 3>(derivative<Real, 4>(a), x));
   constexpr Real u = std::numeric_limits<Real>::epsilon() / 2;
   Real width = 2 * u * std::abs(x) + std::numeric_limits<Real>::min();
-  if (slope > 0) width = std::max(width, 2 * rounding<Real, 4>(a, x) / slope);
+  // A guess that would pass over most of the way is that of a slope which is rounding itself.
+  const Real guess = 2 * rounding<Real, 4>(a, x) / slope;
+  if (guess < kShort<Real> * whole) width = std::max(width, guess);
   for (; width < whole; width *= 2) {
     const Real point = end > x ? x + width : x - width;
     if (sign_at<Real, 4>(a, point) == sign) return std::abs(point - x) * (1 + 2 * u);

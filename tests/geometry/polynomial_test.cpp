@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tangency/geometry/exact/integer_forms.hpp>
@@ -152,7 +153,7 @@ RC_GTEST_PROP(PolynomialProperty, QuarticRootsComeInOrderAndFewerThanFiveCross, 
 }
 
 // geometry/polynomial.hpp (3)
-RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowAPowerOfTwoAndAReflection, ()) {
+RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowAPowerOfTwoAndAReflectionBitForBit, ()) {
   const Coefficients a = *coefficients();
   const double s = std::exp2(*rc::gen::inRange(-900, 900));
   Coefficients scaled = a, reflected = a;
@@ -164,9 +165,26 @@ RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowAPowerOfTwoAndAReflection, (
   RC_ASSERT(before.count == mirrored.count);
   for (int i = 0; i < before.count; ++i) {
     const QuarticRoot& root = before.root[static_cast<std::size_t>(i)];
-    RC_ASSERT(root.x == after.root[static_cast<std::size_t>(i)].x);
+    const QuarticRoot& same = after.root[static_cast<std::size_t>(i)];
     const QuarticRoot& other = mirrored.root[static_cast<std::size_t>(before.count - 1 - i)];
-    RC_ASSERT(std::abs(root.x + other.x) <= root.error + other.error);
+    RC_ASSERT(root.x == same.x && root.error == same.error && root.crosses == same.crosses);
+    RC_ASSERT(root.x == -other.x && root.error == other.error && root.crosses == other.crosses);
+  }
+}
+
+// geometry/polynomial.hpp (4)
+RC_GTEST_PROP(PolynomialProperty, QuarticRootsFollowTheUnitBitForBit, ()) {
+  const Coefficients a = *coefficients();
+  const int unit = *rc::gen::inRange(-180, 180);
+  Coefficients longer = a;
+  for (std::size_t k = 0; k < 5; ++k) longer[k] = std::ldexp(a[k], unit * static_cast<int>(k));
+  const QuarticRoots before = quartic_roots(a), after = quartic_roots(longer);
+  RC_ASSERT(before.count == after.count);
+  for (int i = 0; i < before.count; ++i) {
+    const QuarticRoot& root = before.root[static_cast<std::size_t>(i)];
+    const QuarticRoot& other = after.root[static_cast<std::size_t>(i)];
+    RC_ASSERT(std::ldexp(root.x, -unit) == other.x);
+    RC_ASSERT(std::ldexp(root.error, -unit) == other.error && root.crosses == other.crosses);
   }
 }
 
@@ -194,6 +212,27 @@ TEST(Polynomial, DoubleRootOfAQuarticDoesNotCrossAndATripleOneDoes) {
   EXPECT_LE(thrice.root[1].error, 1e-4);
 }
 
+TEST(Polynomial, MultipleRootsAreAsWideAsRoundingMakesThemInEveryUnit) {
+  // The guess of the error from a slope that is rounding once went to the next root, or infinity.
+  for (const double unit : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    const QuarticRoots thrice = quartic_roots(product({unit, unit, unit, -3 * unit}, 1));
+    ASSERT_EQ(thrice.count, 2) << unit;
+    EXPECT_LE(thrice.root[1].error, 1e-4 * unit) << unit;
+    const QuarticRoots twice = quartic_roots(product({unit, unit, -2 * unit, -2 * unit}, 1));
+    ASSERT_EQ(twice.count, 2) << unit;
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_LE(twice.root[static_cast<std::size_t>(i)].error, 1e-6 * unit) << unit;
+    }
+  }
+  // A double root at 2^-154 to 2e-15 of itself: the error was 5e14 times the root.
+  const QuarticRoots close =
+      quartic_roots({-0x1.e098520f799b8p+35, 0x1.0b80d8cbcfda9p+191, -0x1.dae36b287ba4dp+343,
+                     -0x1.51e20afee0872p+497, 0x1.beb4ca0f2cba6p+650});
+  ASSERT_EQ(close.count, 3);
+  EXPECT_FALSE(close.root[1].crosses);
+  EXPECT_LE(close.root[1].error, 1e-6 * close.root[1].x);
+}
+
 TEST(Polynomial, DegreeOfAQuarticMayFall) {
   EXPECT_TRUE(quartic_roots({0, 0, 0, 0, 0}).vanishes);
   EXPECT_EQ(quartic_roots({3, 0, 0, 0, 0}).count, 0);
@@ -213,6 +252,68 @@ TEST(Polynomial, QuarticRootsMayBeFarApart) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(roots.root[i].x, expected[i], 1e-14 * expected[i]);
     EXPECT_LE(roots.root[i].error, 1e-14 * expected[i]);
+  }
+}
+
+// Lost once, or far off: the form underflowed in the charts near a root this large.
+TEST(Polynomial, QuarticRootsBeyondTwoToThe255AreFound) {
+  struct Row {
+    Coefficients a;
+    double root;  // and its negative
+  };
+  for (const auto& [a, root] :
+       {Row{{1, 0, -0x1p-900, 0, 0}, 0x1p450}, Row{{0x1p900, 0, 0, 0, -0x1p-300}, 0x1p300},
+        Row{{1, 0, 0, 0, -0x1p-1021}, 0x1.306fe0a31b715p255},
+        Row{{1, 0, 0, 0, -0x1p-1000}, 0x1p250}, Row{{0x1p1023, 0, -0x1p-1074, 0, 0}, 0},
+        Row{{0x1p-1074, 0, 0, 0, -0x1p1020}, 0x1.6a09e667f3bcdp-524}}) {
+    const QuarticRoots roots = quartic_roots(a);
+    if (root == 0) {
+      EXPECT_EQ(roots.count, 0);
+      EXPECT_EQ(roots.beyond, 2);
+      continue;
+    }
+    ASSERT_EQ(roots.count, 2) << root;
+    EXPECT_EQ(roots.beyond, 0);
+    for (int i = 0; i < 2; ++i) {
+      const QuarticRoot& found = roots.root[static_cast<std::size_t>(i)];
+      EXPECT_TRUE(found.crosses);
+      EXPECT_NEAR(found.x, i == 0 ? -root : root, found.error);
+      EXPECT_LE(found.error, 64 * 0x1p-53 * root);  // 48 u, rounded up to powers of two
+    }
+  }
+}
+
+TEST(Polynomial, QuarticRootsOfEveryMagnitudeInOnePolynomialAreFound) {
+  // (x - 2^-300) (x + 2^-100) (x - 2^100) (x + 2^300), up to far less than rounding.
+  const QuarticRoots roots = quartic_roots({0x1p0, -0x1p300, -0x1p400, 0x1p300, 0x1p0});
+  ASSERT_EQ(roots.count, 4);
+  const std::array<double, 4> expected{-0x1p300, -0x1p-100, 0x1p-300, 0x1p100};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(roots.root[i].x, expected[i], roots.root[i].error) << i;
+    EXPECT_LE(roots.root[i].error, 64 * 0x1p-53 * std::abs(expected[i])) << i;
+  }
+}
+
+TEST(Polynomial, QuarticRootBelowTheLeastDoubleIsRoundedAndEnclosed) {
+  const QuarticRoots roots = quartic_roots({0x1p-1074, -0x1p1000, 0, 0, 0});
+  ASSERT_EQ(roots.count, 1);
+  EXPECT_TRUE(roots.root[0].crosses);
+  EXPECT_LE(std::abs(roots.root[0].x), 0x1p-1074);
+  EXPECT_GT(roots.root[0].error, std::abs(roots.root[0].x));
+  EXPECT_LE(roots.root[0].error, 0x1p-1072);
+}
+
+TEST(Polynomial, QuarticRootZeroIsExactAndCrossesWhereItsMultiplicityIsOdd) {
+  for (int power = 1; power < 5; ++power) {
+    Coefficients a{};
+    a[static_cast<std::size_t>(power)] = -3;
+    if (power < 3) a[4] = 3;
+    const QuarticRoots roots = quartic_roots(a);
+    const auto end = roots.root.begin() + roots.count;
+    const auto zero = std::find_if(roots.root.begin(), end, [](auto& r) { return r.x == 0; });
+    ASSERT_NE(zero, end) << power;
+    EXPECT_EQ(zero->error, 0);
+    EXPECT_EQ(zero->crosses, power % 2 == 1);
   }
 }
 

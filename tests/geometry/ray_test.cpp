@@ -21,6 +21,10 @@ namespace {
 constexpr double kU = 0x1p-53;
 constexpr double kEver = std::numeric_limits<double>::infinity();
 
+double size_of(const Ellipsoid& e, const Ray& ray) {
+  return (ray.origin - e.centre()).norm() + e.largest_semi_axis();
+}
+
 TEST(Ray, HitsTheNearSideFirst) {
   const Ellipsoid e({0, 0, 0}, {3, 2, 1});
   const RayHit hit = intersect(e, {{-10, 0, 0}, {1, 0, 0}});
@@ -57,6 +61,99 @@ TEST(Ray, FromTheSurfaceHitsAtZero) {
   const RayHit outwards = intersect(e, {{-3, 0, 0}, {-1, 0, 0}});
   ASSERT_EQ(outwards.count, 1);
   EXPECT_EQ(outwards.points[0].t, 0);
+}
+
+// geometry/ray.hpp (5)
+TEST(Ray, OriginExactlyOnATurnedSurfaceIsAHitAtZero) {
+  // Lost once: double-double put the hit at -1e-32.
+  const Ellipsoid e({0, 0, 0}, {2.5, 5, 10}, Eigen::Quaterniond(1, 2, 0, 0));
+  for (const double turn : {1.0, -1.0}) {
+    const RayHit hit = intersect(e, {{0, -3, 4}, {0, turn * 3, turn * -4}});
+    ASSERT_EQ(hit.status, RayStatus::hit);
+    ASSERT_EQ(hit.count, turn > 0 ? 2 : 1);
+    EXPECT_EQ(hit.points[0].t, 0);
+    EXPECT_EQ(hit.points[0].arm, Vec3(0, -3, 4));
+    if (turn > 0) {
+      EXPECT_EQ(hit.points[1].t, 2);
+    }
+  }
+  const Ellipsoid other({0, 0, 0}, {13, 26, 52}, Eigen::Quaterniond(1, 5, 0, 0));
+  const RayHit outwards = intersect(other, {{0, -24, 10}, {0, -24, 10}});
+  ASSERT_EQ(outwards.count, 1);
+  EXPECT_EQ(outwards.points[0].t, 0);
+}
+
+// geometry/ray.hpp (5)
+TEST(Ray, EndsOfAnIntervalThatAreHitsAreInItAndTheirNeighboursTell) {
+  const Ellipsoid e({1, 2, 3}, {2.5, 5, 10}, Eigen::Quaterniond(1, 2, 0, 0));
+  // On the surface at t = 5 and t = 7 exactly.
+  const Ray ray{Vec3(1, 2, 3) + 6.0 * Vec3(0, -3, 4), {0, 3, -4}};
+  const auto count = [&](double begin, double end) { return intersect(e, ray, begin, end).count; };
+  const auto before = [](double t) { return std::nextafter(t, -kEver); };
+  const auto after = [](double t) { return std::nextafter(t, kEver); };
+  EXPECT_EQ(count(5, 7), 2);
+  EXPECT_EQ(count(after(5), 7), 1);
+  EXPECT_EQ(count(5, before(7)), 1);
+  EXPECT_EQ(count(after(5), before(7)), 0);
+  EXPECT_EQ(count(5, 5), 1);
+  EXPECT_EQ(count(7, 7), 1);
+  EXPECT_EQ(count(-kEver, before(5)), 0);
+  EXPECT_EQ(count(after(7), kEver), 0);
+  EXPECT_EQ(intersect(e, ray, 5, 6).points[0].t, 5);
+  EXPECT_EQ(intersect(e, ray, 6, 7).points[0].t, 7);
+}
+
+// geometry/ray.hpp (5)
+TEST(Ray, TangentOfATurnedSurfaceTouchesAtItsOrigin) {
+  // The gradient at (0, -3, 4) is along (0, -3, 4) by symmetry: it is the end of an axis.
+  const Ellipsoid e({0, 0, 0}, {2.5, 5, 10}, Eigen::Quaterniond(1, 2, 0, 0));
+  for (const Vec3& along : {Vec3(0, 4, 3), Vec3(1, 8, 6), Vec3(-3, 0, 0)}) {
+    const RayHit hit = intersect(e, {{0, -3, 4}, along});
+    ASSERT_EQ(hit.status, RayStatus::grazing);
+    ASSERT_EQ(hit.count, 1);
+    EXPECT_EQ(hit.points[0].t, 0);
+    EXPECT_EQ(hit.points[0].arm, Vec3(0, -3, 4));
+    EXPECT_LE((hit.points[0].normal - Vec3(0, -0.6, 0.8)).norm(), 2 * kU);
+    EXPECT_EQ(intersect(e, {{0, -3, 4}, along}, 0x1p-1074).status, RayStatus::miss);
+  }
+}
+
+TEST(Ray, HitPointsOfTheThinnestBodiesAreOnTheLine) {
+  // 2.05 times 8 u L off once, and 1e15 times at aspect 1e50.
+  for (const double thin : {0x1.3a90a51fac45bp-60, 0x1p-100, 0x1p-180, 0x1p-500, 0x1p-1022}) {
+    const Ellipsoid e({0, 0, 0}, {thin, 1, 0x1.83f43f9baacadp-36},
+                      Eigen::Quaterniond(-0x1.30ce24ea08644p-1, 0x1.a81c48c475901p-3,
+                                         -0x1.37b7d96815c4cp-4, -0x1.a88521baffb96p-5));
+    const Ray ray{{-0x1.593ce14a280bfp-1, -0x1.0832d27a028d3p-1, 0x1.a94eeb0dbbbfap-2},
+                  {0x1.8b0758de66ddep-1, 0x1.809751604f8a6p-3, -0x1.54afd4b24f0b3p-3}};
+    const RayHit hit = intersect(e, ray);
+    ASSERT_EQ(hit.count, 2) << thin;
+    const double tilt = 4 * kU + 0x1p36 * thin;  // of the normal, from the thin axis
+    for (const SurfacePoint& p : hit.points) {
+      const Vec3 off = (p.arm - ray.origin).cross(ray.direction) / ray.direction.norm();
+      EXPECT_LE(off.norm(), 2 * kU * size_of(e, ray)) << thin;
+      // On the disc's plane, and its normal the axis.
+      const Vec3 axis = e.rotation().col(0);
+      EXPECT_LE(std::abs(axis.dot(p.arm)), 4 * kU) << thin;
+      EXPECT_LE(p.normal.cross(axis).norm(), tilt) << thin;
+    }
+    EXPECT_LE((hit.points[0].normal + hit.points[1].normal).norm(), 2 * tilt) << thin;
+  }
+}
+
+TEST(Ray, LineInThePlaneOfAThinDiscIsToldFromAMiss) {
+  // Called grazing once, with a point off the surface: the plane is thinner than double-double.
+  const Ellipsoid disc({0, 0, 0}, {5, 5, 1e-50}, Eigen::Quaterniond(1, 0, 2, 0));
+  // Its axis is (4, 0, -3) / 5; in its plane are y and (3, 0, 4).
+  const Vec3 across(3, 0, 4);
+  for (const double y : {4.9, 5.0, 5.1}) {
+    const RayHit hit = intersect(disc, {Vec3(0, y, 0) - 2 * across, across});
+    EXPECT_EQ(hit.status, y < 5 ? RayStatus::hit : y > 5 ? RayStatus::miss : RayStatus::grazing);
+    for (int i = 0; i < hit.count; ++i) {
+      EXPECT_NEAR(hit.points[i].arm.norm(), 5, 8 * kU * 15);
+      EXPECT_LE((hit.points[i].normal - hit.points[i].arm / 5).norm(), 8 * kU);
+    }
+  }
 }
 
 TEST(Ray, SegmentHitsOnlyBetweenItsEnds) {
@@ -122,10 +219,6 @@ rc::Gen<std::pair<Ellipsoid, Ray>> body_and_ray() {
         const Vec3 through = e.centre() + depth * e.support_point(n);
         return std::pair<Ellipsoid, Ray>(e, {through - back * along, along});
       });
-}
-
-double size_of(const Ellipsoid& e, const Ray& ray) {
-  return (ray.origin - e.centre()).norm() + e.largest_semi_axis();
 }
 
 // geometry/ray.hpp (1)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/geometry/time_of_contact.hpp>
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -38,6 +39,26 @@ TEST(TimeOfContact, OfSpheresHeadOnIsTheDistanceOverTheSpeed) {
   expect_contact_at(
       time_of_contact(a, flight({1, 0, 0}), b, flight({-2.5, 0, 0}, {0, 5, 0}), 10, kTolerance), 2,
       kTolerance);
+}
+
+TEST(TimeOfContact, LatestIsNoFurtherThanTheToleranceExactly) {
+  // time + tolerance is rounded: up in half of all cases.
+  const Ellipsoid a = sphere({0, 0, 0}, 1);
+  for (int i = 0; i < 200; ++i) {
+    const Ellipsoid b = sphere({3.1 + 0.01 * i, 0.1, 0}, 2);
+    const double tolerance = 1e-9 * (1 + 0.37 * i);
+    const TimeOfContact found = time_of_contact(a, {}, b, flight({-1, 0, 0}), 10, tolerance);
+    ASSERT_EQ(found.status, Status::contact);
+    EXPECT_LE(mpq_class(found.latest) - mpq_class(found.time), mpq_class(tolerance)) << i;
+  }
+}
+
+TEST(TimeOfContact, ToleranceBelowTheSpacingOfTimesIsNotExceeded) {
+  // From a moment far from 0 the next double is further than the tolerance.
+  const Ellipsoid a = sphere({0, 0, 0}, 1), b = sphere({1e6, 0.1, 0}, 2);
+  const TimeOfContact found = time_of_contact(a, {}, b, flight({-1, 0, 0}), 2e6, 1e-11);
+  EXPECT_LE(mpq_class(found.latest) - mpq_class(found.time), mpq_class(1e-11));
+  EXPECT_NEAR(found.time, 1e6, 4);
 }
 
 TEST(TimeOfContact, IsNoneUntilTheHorizonAndThenContact) {

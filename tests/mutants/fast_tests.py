@@ -33,7 +33,9 @@ COMMANDS = {
     "verify/relation": ["{relation_agreement}", "--per-class", "2000", "--adversarial", "2000"],
     "verify/gap": ["{gap_agreement}", "--per-family", "100"],
     "verify/primitives": ["{primitives_agreement}", "--count", "5000"],
-    "verify/time_of_contact": ["{time_of_contact_agreement}", "--count", "1000"],
+    "verify/ray": ["{ray_agreement}", "--count", "5000"],
+    "verify/quartic": ["{quartic_agreement}", "--count", "4000"],
+    "verify/time_of_contact": ["{time_of_contact_agreement}", "--count", "1200", "--spins", "1000"],
     "verify/ellipses": ["{ellipse_agreement}", "--share", "0.01", "--numbers", "20"],
 }
 # Whose tests these are, as the rooms of the others follow from their names.
