@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/equal_level.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 
@@ -112,21 +113,22 @@ OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
 }  // namespace
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, between_tangent_planes);
+  return in_default_environment([&] { return answer(a, b, nullptr, between_tangent_planes); });
 }
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept {
-  return answer(a, b, &separation, between_tangent_planes);
+  return in_default_environment(
+      [&] { return answer(a, b, &separation, between_tangent_planes); });
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, along_the_normal);
+  return in_default_environment([&] { return answer(a, b, nullptr, along_the_normal); });
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept {
-  return answer(a, b, &separation, along_the_normal);
+  return in_default_environment([&] { return answer(a, b, &separation, along_the_normal); });
 }
 
 }  // namespace tangency

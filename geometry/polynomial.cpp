@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/projective_quartic.hpp>
 
 namespace tangency {
@@ -22,9 +23,7 @@ QuarticRoot on_the_line(const methods::ProjectiveRoot<double>& root) {
   return {x, spread * (1 + 8 * kUnitRoundoff) + kUnitRoundoff * std::abs(x), root.crosses};
 }
 
-}  // namespace
-
-QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
+QuarticRoots found_roots(const std::array<double, 5>& a) {
   const methods::ProjectiveRoots<double> found = methods::projective_roots(a);
   QuarticRoots roots{0, {}, found.vanishes};
   for (int i = 0; i < found.count; ++i) {
@@ -34,6 +33,12 @@ QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
   std::sort(roots.root.begin(), roots.root.begin() + roots.count,
             [](const QuarticRoot& p, const QuarticRoot& q) { return p.x < q.x; });
   return roots;
+}
+
+}  // namespace
+
+QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
+  return in_default_environment([&] { return found_roots(a); });
 }
 
 }  // namespace tangency

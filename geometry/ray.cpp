@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/body_frame.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -62,9 +63,7 @@ UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::
   return line;
 }
 
-}  // namespace
-
-RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) noexcept {
+RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) {
   assert(ray.origin.allFinite() && ray.direction.allFinite() && ray.direction != Vec3::Zero());
   assert(t_begin <= t_end);
   RayHit hit{
@@ -105,6 +104,12 @@ RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t
   if (crosses) consider(middle + half);
   if (hit.count > 0) hit.status = crosses ? RayStatus::hit : RayStatus::grazing;
   return hit;
+}
+
+}  // namespace
+
+RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) noexcept {
+  return in_default_environment([&] { return found_hit(body, ray, t_begin, t_end); });
 }
 
 }  // namespace tangency

@@ -143,7 +143,9 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   methods::prove_gap(pair, off, at);
   const Vec3 n = off;
   const double h_a = p.a.support(n), h_b = p.b.support(n);
-  const methods::Bend bend = methods::bend_at(p.a, p.b, n, h_a, h_b);
+  const exact::DoubleDoubleSide side_a(p.a, exact::exactly(n)), side_b(p.b, exact::exactly(n));
+  const methods::Bend bend =
+      methods::bend_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
   const Vec3 r = pair.d - at.arm_a + at.arm_b - at.gap * n;
   const methods::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
   const methods::Cap cap = methods::cap_around(bend, slope, 1.0);
