@@ -181,7 +181,13 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   }
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
-  const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  if (!proof.global && (pair.a.is_sphere() || pair.b.is_sphere())) {
+    // A branch as high as the highest is the global one.
+    const double high = solve_with_sphere(pair).proof.high;
+    proof.global = high - proof.low <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
+    if (proof.global) proof.high = high;
+  }
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
   solved.tier = GapTier::factored;
   if (!proof.global && proof.low < 0.0 && !asked.overlaps(solved.tier)) {

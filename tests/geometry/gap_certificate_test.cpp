@@ -221,10 +221,51 @@ TEST(GapSign, ThatTheProofLeavesOpenPutsTheGapInTheMiddleOfWhatIsLeft) {
   EXPECT_EQ(touch.low, 0.0);
   EXPECT_EQ(touch.gap, 0.0);
   EXPECT_EQ(touch.high, 0.0);
+  EXPECT_TRUE(touch.global);
   const auto apart = settled(-1e-17, Relation::separate);
   EXPECT_EQ(apart.low, 0.0);
   EXPECT_EQ(apart.gap, 1e-17);
   EXPECT_EQ(apart.high, 2e-17);
+}
+
+// A touch proves the value 0 of its own normal only: a deep branch keeps its normal and is no `ok`.
+TEST(GapSign, OfATouchDoesNotMakeABranchGlobalThatIsNotProvenToBe) {
+  methods::GapProof proof{-0.3, -0.31, -0.29, false, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+  GapTier tier = GapTier::factored;
+  methods::settle_sign(proof, tier, Told{Relation::external_touch}, 1.0);
+  EXPECT_EQ(proof.gap, 0.0);
+  EXPECT_FALSE(proof.global);
+  // What is left of the error bounds the distance to the branch's value.
+  EXPECT_EQ(proof.low, -0.31);
+  EXPECT_EQ(proof.high, 0.0);
+}
+
+// The bound of the curvatures at thin bodies, and what it is made of: docs/derivations/
+// gap-certificate.md, (S). A face of a/h = 2^k: the normal's own rounding would show in the roots
+// 2^k times as large.
+TEST(GapCap, CurvaturesOfThinFacesAreRightToTheirLoss) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 10; k <= 80; k += 5) {
+    const double thin = std::ldexp(1.0, -k);
+    const Eigen::Quaterniond q(any(random), any(random), any(random), any(random));
+    const Ellipsoid a({0, 0, 0}, {1, 0.7, thin}, q), b({0, 0, 0}, {0.4, 0.4, 0.4});
+    // At the face's own normal, which no double is: h and the roots are of what is stored.
+    const Vec3 n = a.rotation().col(2).normalized();
+    const exact::DoubleDoubleSide side_a(a, exact::exactly(n)), side_b(b, exact::exactly(n));
+    const methods::Bend bend =
+        methods::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+    // kappa kappa' of an ellipsoid is (h^2 / (a1 a2 a3))^2, exactly: det H_A of h's stored value.
+    const double h = side_a.support.high;
+    const double determinant = std::pow(0.7 * thin / (h * h), 2);
+    const double sum = bend.a.curvature[0] + bend.a.curvature[1];
+    // H = H_A + 0.4 I: its determinant is det H_A + 0.4 tr H_A + 0.16.
+    const double expected = determinant + 0.4 * sum + 0.16;
+    EXPECT_LE(std::abs(bend.curvature[0] * bend.curvature[1] - expected),
+              (4 * bend.loss + 1e-12) * expected)
+        << k;
+    EXPECT_LE(bend.loss, std::ldexp(1.0, k - 88) + 0x1p-45) << k;
+  }
 }
 
 TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
