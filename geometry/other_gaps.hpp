@@ -21,7 +21,7 @@
 /// Every number is rounded once from double-double arithmetic: within u of itself + u L / 64,
 /// u = 2^-53, L = |d| + both largest semi-axes (the normal within 8 u), for aspect ratios and size
 /// ratios to 1e8 (tests/geometry/other_gaps_test.cpp prints the largest errors seen). Nothing here
-/// allocates. Assumes the default floating-point environment.
+/// allocates. In any floating-point environment.
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>

@@ -33,8 +33,8 @@ struct QuarticRoots {
 ///
 /// The errors are a few units in the last place of a root that is far from the others, and as wide
 /// as rounding of p makes a root that is not: about u sum |a_k x^k| / |p'(x)| where that is small,
-/// its square root at a double one. Roots beyond the range of doubles are left out. Assumes the
-/// default floating-point environment. Does not allocate. docs/derivations/quartic-roots.md
+/// its square root at a double one. Roots beyond the range of doubles are left out. In any
+/// floating-point environment. Does not allocate. docs/derivations/quartic-roots.md
 /// @param a  finite (asserted)
 QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept;
 

@@ -43,7 +43,7 @@ struct RayHit {
 /// leaves; one on the surface counts as a hit at t = 0 where the exact t rounds to 0.
 ///
 /// With L = |origin - c| + largest semi-axis, u = 2^-53, e = direction / |direction|, semi-axes of
-/// at least 2^-200 L, in the default floating-point environment (docs/derivations/primitives.md,
+/// at least 2^-200 L, in any floating-point environment (docs/derivations/primitives.md,
 /// section 4):
 ///
 /// - hit or miss is decided in double-double with a bound of its error and is never wrong.
