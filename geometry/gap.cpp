@@ -111,9 +111,29 @@ std::optional<Solved> search(const Pair& pair, const FactoredPair& factored, con
   return std::nullopt;
 }
 
+bool has_sphere(const Pair& pair) { return pair.a.is_sphere() || pair.b.is_sphere(); }
+
+/// Does the value of a branch come so near to an upper bound of all that it is the global one?
+bool reaches(const Pair& pair, const GapProof& proof, double high) {
+  return high - proof.low <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
+}
+
+/// The ascents of the search, which keep its order of ties, bounded by the projection in place of
+/// the branch and bound.
+Solved search_with_sphere(const Pair& pair, const FactoredPair& factored, const Vec3& first) {
+  const Solved projected = solve_with_sphere(pair);
+  const double high = projected.proof.high;
+  std::optional<GapProof> found = methods::search_sphere(pair, factored, first, 0);
+  // Where rounding the normal to doubles costs more than that, the distance is the better answer.
+  if (!found || !(found->low >= projected.proof.low)) return projected;
+  found->high = found->global ? std::min(found->high, high) : high;
+  found->gap = std::min(found->gap, found->high);
+  found->global = true;
+  return {*found, GapTier::factored};
+}
+
 /// What is not settled in double.
 Solved solve_hard(const Pair& pair) {
-  if (pair.a.is_sphere() || pair.b.is_sphere()) return solve_with_sphere(pair);
   const FactoredPair factored(pair.a, pair.b, pair.d);
   const bool concentric = pair.d == Vec3::Zero();
   const Vec3 start = concentric ? factored.axis(0) : factored.perram_wertheim_normal();
@@ -123,6 +143,7 @@ Solved solve_hard(const Pair& pair) {
   const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
+  if (has_sphere(pair)) return search_with_sphere(pair, factored, start);
   const std::optional<Solved> searched = search(pair, factored, start);
   if (!searched) return {proof, GapTier::factored};
   const GapProof& other = searched->proof;
@@ -182,10 +203,9 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
   GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
-  if (!proof.global && (pair.a.is_sphere() || pair.b.is_sphere())) {
-    // A branch as high as the highest is the global one.
+  if (!proof.global && has_sphere(pair)) {
     const double high = solve_with_sphere(pair).proof.high;
-    proof.global = high - proof.low <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
+    proof.global = reaches(pair, proof, high);
     if (proof.global) proof.high = high;
   }
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.

@@ -65,8 +65,7 @@ inline constexpr double kOrdinaryGapErrorBound = 16.0;
 ///
 /// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B, and gap_error at
 /// most 100 u L; deeper pairs are searched, and `ok` where the search over all normals finished
-/// within its budget. Where one body is a sphere: `ok` at any depth, and what is not settled in
-/// double breaks ties as closest_point.hpp does.
+/// within its budget. Where one body is a sphere: `ok` at any depth.
 ///
 /// The sign of gap is that of the exact relation: > 0 separate, 0 external_touch, < 0 where the
 /// interiors meet. In any floating-point environment. Allocates only in tier `exact`.

@@ -16,9 +16,11 @@
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
+#include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
 namespace {
@@ -128,6 +130,60 @@ TEST(GapError, IsAtMostThePublishedConstantForAspectsTo100) {
   std::printf("largest gap_error %.2f u L\n", largest);
   EXPECT_LE(largest, kOrdinaryGapErrorBound);
   EXPECT_GT(largest, 0.5 * kOrdinaryGapErrorBound);  // a much better bound is to be published
+}
+
+// A flat face of aspect 1e16 on a sphere, and on what is not quite one: at the sphere a normal has
+// f = 4.93922345342781e-07, 50 times the error that was given above what was given.
+TEST(GapError, HoldsAtTheFaceOfABodyOfAspect1e16) {
+  const verify::RawEllipsoid disc{
+      {0, 0, 0},
+      {1, 0x1.6b1260e893c2bp-1, 0x1.bb5c232aac737p-57},
+      {-0x1.8274dae13223dp-1, -0x1.7289ec23675cep-3, 0x1.e39d7d8c041bep-1, 0x1.70a3f3d571b48p-1}};
+  const double r = 0x1.92cad67f16bbep-2;
+  verify::RawEllipsoid round{
+      {-0x1.a7fad9e162f94p-2, 0x1.186f42052c5bcp-4, 0x1.e0c6e31853078p-4},
+      {r, r, r},
+      {0x1.31a65d84e910ep+0, -0x1.1d24d0e932789p+1, 0x1.0ebdbb20af063p-9, 0x1.00cf13a540f24p-2}};
+  for (const double other : {r, std::nextafter(r, 1.0), 1.01 * r}) {
+    round.semi_axes[2] = other;
+    const verify::Real truth = verify::signed_gap(disc, round).gap;
+    const Ellipsoid a = to_ellipsoid(disc), b = to_ellipsoid(round);
+    for (const Gap& gap : {signed_gap(a, b), signed_gap(b, a)}) {
+      const double error = abs(truth - verify::Real(gap.gap)).convert_to<double>();
+      if (other == r) {
+        EXPECT_EQ(gap.status, GapStatus::ok);
+      }
+      if (gap.status == GapStatus::ok) {
+        EXPECT_LE(error, gap.gap_error) << other;
+      }
+      EXPECT_TRUE(verify::Real(gap.gap) - gap.gap_error <= truth) << other;
+    }
+  }
+}
+
+// A sphere in a thin body: what signed_gap(Sphere, Ellipsoid) proves is proven of the pair too.
+TEST(GapStatusOfSpheres, IsOkAtEveryDepthAndAspect) {
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  for (const double aspect : {10.0, 1e2, 1e4, 1e8, 1e16, 1e30, 1e150}) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 axes(1, std::pow(aspect, -uniform(0, 1)), 1 / aspect);
+      const Ellipsoid a({0, 0, 0}, axes,
+                        Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 0.2));
+      const Vec3 side(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      const Vec3 place = uniform(0, 1) * a.support_point(side);
+      const double radius = std::exp(uniform(-5, 0));
+      const Ellipsoid b(place, Vec3::Constant(radius));
+      const Gap gap = signed_gap(a, b), other = signed_gap(a, Sphere{place, radius});
+      ASSERT_EQ(gap.status, GapStatus::ok) << aspect << ' ' << i;
+      ASSERT_LE(std::abs(gap.gap - other.gap), gap.gap_error + other.gap_error) << aspect;
+      const Gap followed = follow_gap(a, b, place, gap.normal);
+      ASSERT_EQ(followed.status, GapStatus::ok) << aspect << ' ' << i;
+      ASSERT_LE(std::abs(followed.gap - other.gap), followed.gap_error + other.gap_error);
+    }
+  }
 }
 
 /// The greatest f on a fan of normals around the proof's, out to its cap's edge.
