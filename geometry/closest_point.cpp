@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/surface_projection.hpp>
 
 namespace tangency {
+namespace {
 
-ClosestPoint closest_point(const Ellipsoid& body, const Vec3& point) noexcept {
+ClosestPoint projected(const Ellipsoid& body, const Vec3& point) {
   assert(point.allFinite());
   const methods::SeenFromCentre seen = methods::seen_from_centre(body, point);
   const methods::BodyFrame frame(body.orientation());
@@ -18,6 +20,12 @@ ClosestPoint closest_point(const Ellipsoid& body, const Vec3& point) noexcept {
   const auto in_unit = [&](double x) { return std::scalbn(x, seen.exponent); };
   return {in_unit(found.distance.high), exact::rounded(frame.to_space(found.normal)),
           arm.unaryExpr(in_unit)};
+}
+
+}  // namespace
+
+ClosestPoint closest_point(const Ellipsoid& body, const Vec3& point) noexcept {
+  return in_default_environment([&] { return projected(body, point); });
 }
 
 }  // namespace tangency

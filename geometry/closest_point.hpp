@@ -25,8 +25,7 @@ struct ClosestPoint {
 };
 
 /// Any finite point: at the centre, on an axis, on the surface, far away. With L = |p - c| +
-/// largest semi-axis and u = 2^-53, semi-axes at least 2^-200 L, in the default floating-point
-/// environment:
+/// largest semi-axis and u = 2^-53, semi-axes at least 2^-200 L:
 ///
 /// - distance is within 2 u |distance| + 2^-80 L of the true one, so its sign is right but for
 ///   points within 2^-80 L of the surface (docs/derivations/primitives.md, section 3);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <tangency/geometry/exact/double_double_vector.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/plane_tensor.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -89,17 +90,14 @@ PrincipalCurvatures principal(const PlaneTensor& k, const PlaneBasis& basis, dou
   return principal(k.xx(), k.yy(), k.xy(), k.determinant, basis, turn, exponent);
 }
 
-}  // namespace
-
-PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept {
+PrincipalCurvatures curvature_at(const Ellipsoid& body, const Vec3& normal) {
   assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
   const PlaneBasis basis = methods::tangent_basis(normal);
   const int exponent = size_exponent(body);
   return principal(tensor_of(in_unit(body, exponent), basis, normal), basis, 1.0, exponent);
 }
 
-ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
-                                   const Vec3& normal) noexcept {
+ContactCurvature curvature_between(const Ellipsoid& a, const Ellipsoid& b, const Vec3& normal) {
   assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
   const PlaneBasis basis = methods::tangent_basis(normal);
   const int exponent = std::max(size_exponent(a), size_exponent(b));
@@ -113,6 +111,17 @@ ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
   return {principal(ka, basis, 1.0, exponent), principal(kb, basis, -1.0, exponent),
           principal(ka.xx() + kb.xx(), ka.yy() + kb.yy(), ka.xy() + kb.xy(), determinant, basis,
                     1.0, exponent)};
+}
+
+}  // namespace
+
+PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept {
+  return in_default_environment([&] { return curvature_at(body, normal); });
+}
+
+ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
+                                   const Vec3& normal) noexcept {
+  return in_default_environment([&] { return curvature_between(a, b, normal); });
 }
 
 }  // namespace tangency

@@ -9,6 +9,7 @@
 
 #include <tangency/geometry/exact/cosine_sine.hpp>
 #include <tangency/geometry/exact/double_double_plane.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
@@ -26,7 +27,8 @@ Vec2 direction_of(double angle) {
   if (!std::isfinite(angle)) {
     throw InvalidEllipse({"angle", angle, "an angle must be finite"});
   }
-  const exact::CosineSine found = exact::rounded_cosine_sine(angle);
+  const exact::CosineSine found =
+      in_default_environment([&] { return exact::rounded_cosine_sine(angle); });
   return {found.cosine, found.sine};
 }
 
@@ -64,14 +66,17 @@ std::optional<EllipseFault> Ellipse::find_fault(const Vec2& centre, const Vec2& 
 Ellipse::Ellipse(const Vec2& centre, const Vec2& semi_axes, const Vec2& direction)
     : centre_(centre), semi_axes_(semi_axes), direction_(direction) {
   if (const auto fault = find_fault(centre, semi_axes, direction)) throw InvalidEllipse(*fault);
-  axis_ = exact::rounded(exact::double_double_direction(direction));
+  axis_ = in_default_environment(
+      [&] { return exact::rounded(exact::double_double_direction(direction)); });
 }
 
 Ellipse Ellipse::at_angle(const Vec2& centre, const Vec2& semi_axes, double angle) {
   return {centre, semi_axes, direction_of(angle)};
 }
 
-double Ellipse::area() const noexcept { return kPi * semi_axes_[0] * semi_axes_[1]; }
+double Ellipse::area() const noexcept {
+  return in_default_environment([&] { return kPi * semi_axes_[0] * semi_axes_[1]; });
+}
 
 Ellipse Ellipse::moved_to(const Vec2& centre) const noexcept {
   assert(centre.allFinite());
@@ -81,18 +86,23 @@ Ellipse Ellipse::moved_to(const Vec2& centre) const noexcept {
 }
 
 double Ellipse::support(const Vec2& n) const noexcept {
-  return semi_axes_.cwiseProduct(turned_back(axis_, n)).stableNorm();
+  return in_default_environment(
+      [&] { return semi_axes_.cwiseProduct(turned_back(axis_, n)).stableNorm(); });
 }
 
 Vec2 Ellipse::support_point(const Vec2& n) const noexcept {
-  assert(n != Vec2::Zero());
-  const Vec2 y = semi_axes_.cwiseProduct(turned_back(axis_, n));
-  const Vec2 unit = (y / y.cwiseAbs().maxCoeff()).normalized();
-  return turned(axis_, semi_axes_.cwiseProduct(unit));
+  return in_default_environment([&]() -> Vec2 {
+    assert(n != Vec2::Zero());
+    const Vec2 y = semi_axes_.cwiseProduct(turned_back(axis_, n));
+    const Vec2 unit = (y / y.cwiseAbs().maxCoeff()).normalized();
+    return turned(axis_, semi_axes_.cwiseProduct(unit));
+  });
 }
 
 double Ellipse::level(const Vec2& point) const noexcept {
-  return turned_back(axis_, point - centre_).cwiseQuotient(semi_axes_).squaredNorm();
+  return in_default_environment([&] {
+    return turned_back(axis_, point - centre_).cwiseQuotient(semi_axes_).squaredNorm();
+  });
 }
 
 }  // namespace tangency

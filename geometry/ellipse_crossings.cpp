@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/ellipse_meeting.hpp>
 #include <tangency/geometry/methods/plane_lens.hpp>
 #include <tangency/geometry/methods/real_quartic.hpp>
@@ -155,27 +156,27 @@ ChordContact chord_contact(const Asked& asked) {
 }  // namespace
 
 Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept {
-  return crossings(Asked{a, b, nullptr});
+  return in_default_environment([&] { return crossings(Asked{a, b, nullptr}); });
 }
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
-  return crossings(Asked{a, b, &separation});
+  return in_default_environment([&] { return crossings(Asked{a, b, &separation}); });
 }
 
 double common_area(const Ellipse& a, const Ellipse& b) noexcept {
-  return common_area(Asked{a, b, nullptr});
+  return in_default_environment([&] { return common_area(Asked{a, b, nullptr}); });
 }
 double common_area(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
-  return common_area(Asked{a, b, &separation});
+  return in_default_environment([&] { return common_area(Asked{a, b, &separation}); });
 }
 
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b) noexcept {
-  return chord_contact(Asked{a, b, nullptr});
+  return in_default_environment([&] { return chord_contact(Asked{a, b, nullptr}); });
 }
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
-  return chord_contact(Asked{a, b, &separation});
+  return in_default_environment([&] { return chord_contact(Asked{a, b, &separation}); });
 }
 
 }  // namespace tangency

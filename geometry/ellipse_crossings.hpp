@@ -7,7 +7,7 @@
 /// they are follows from one quartic in the tangent of the half angle, turned away from its
 /// singularity, in double-double. Two crossings closer than about 1e-15 of the size come out as
 /// one point twice; the places of bodies that differ by hardly more than rounding are uncertain as
-/// 2^-100 over that difference. Assumes the default floating-point environment. Allocates only
+/// 2^-100 over that difference. In any floating-point environment. Allocates only
 /// where the relation needs exact integers.
 ///
 /// (1) Exchanging the bodies leaves every number but for what it exchanges: the arms, the sign of

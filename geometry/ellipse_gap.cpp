@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/plane_gap.hpp>
 #include <tangency/geometry/methods/scaled_plane_pair.hpp>
@@ -108,20 +109,24 @@ PlaneGap answer(const Asked& asked, const Solve& solve_pair) {
 }  // namespace
 
 PlaneGap signed_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
-  assert(separation.allFinite());
-  return answer({a, b, &separation}, solve);
+  return in_default_environment([&] {
+    assert(separation.allFinite());
+    return answer({a, b, &separation}, solve);
+  });
 }
 
 PlaneGap signed_gap(const Ellipse& a, const Ellipse& b) noexcept {
-  return answer({a, b, nullptr}, solve);
+  return in_default_environment([&] { return answer({a, b, nullptr}, solve); });
 }
 
 PlaneGap follow_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation,
                     const Vec2& previous_normal) noexcept {
-  assert(separation.allFinite() && previous_normal != Vec2::Zero());
-  const Vec2 start = previous_normal.normalized();
-  const Asked asked{a, b, &separation};
-  return answer(asked, [&](const PlanePair& pair) { return follow(pair, start, asked); });
+  return in_default_environment([&] {
+    assert(separation.allFinite() && previous_normal != Vec2::Zero());
+    const Vec2 start = previous_normal.normalized();
+    const Asked asked{a, b, &separation};
+    return answer(asked, [&](const PlanePair& pair) { return follow(pair, start, asked); });
+  });
 }
 
 }  // namespace tangency

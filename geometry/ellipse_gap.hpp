@@ -42,7 +42,7 @@ struct PlaneGap {
 ///
 /// `ok` for aspect ratios to 1e8 at every depth: the circle of normals is searched to the end.
 /// The sign of gap is that of the exact relation: > 0 separate, 0 external_touch, < 0 where the
-/// interiors meet. Assumes the default floating-point environment. Allocates only in tier `exact`.
+/// interiors meet. In any floating-point environment. Allocates only in tier `exact`.
 ///
 /// @return infinite where the true gap is beyond the range of doubles
 PlaneGap signed_gap(const Ellipse& a, const Ellipse& b) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_relation.hpp>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/ellipse_meeting.hpp>
 
 namespace tangency {
@@ -31,12 +32,14 @@ std::optional<int> crossings(exact::Meeting meeting) {
 }  // namespace
 
 EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
-  const methods::MeetingAnswer found = methods::ellipse_meeting(a, b);
+  const methods::MeetingAnswer found =
+      in_default_environment([&] { return methods::ellipse_meeting(a, b); });
   return {found.answer.relation, found.answer.inner, crossings(found.answer.meeting), found.tier};
 }
 
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept {
-  const Relation found = methods::ellipse_meeting(a, b).answer.relation;
+  const Relation found =
+      in_default_environment([&] { return methods::ellipse_meeting(a, b).answer.relation; });
   return found != Relation::separate && found != Relation::external_touch;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <tangency/geometry/exact/double_double_vector.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
@@ -65,7 +66,8 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(const Vec3& centre, const Ve
 }
 
 Mat3 rotation_of(const Quaternion& q) noexcept {
-  const exact::DoubleDoubleMatrix r = exact::double_double_rotation(q);
+  const exact::DoubleDoubleMatrix r =
+      in_default_environment([&] { return exact::double_double_rotation(q); });
   Mat3 rounded;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -78,16 +80,18 @@ Mat3 rotation_of(const Quaternion& q) noexcept {
 Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes, const Quaternion& orientation)
     : centre_(centre), semi_axes_(semi_axes), orientation_(orientation) {
   if (const auto fault = find_fault(centre, semi_axes, orientation)) throw InvalidEllipsoid(*fault);
-  rotation_ = rotation_of(orientation);
-  const Vec3 a2 = semi_axes.cwiseAbs2();
-  shape_ = with_eigenvalues(rotation_, a2);
-  shape_adjugate_ = with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
-  shape_determinant_ = a2[0] * a2[1] * a2[2];
-  largest_ = semi_axes.maxCoeff();
-  smallest_ = semi_axes.minCoeff();
-  least_radius_ = smallest_ * (smallest_ / largest_);
-  is_sphere_ = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
-  moderate_ = largest_ <= kModerateLargest && smallest_ >= kModerateSmallest;
+  in_default_environment([&] {
+    rotation_ = rotation_of(orientation);
+    const Vec3 a2 = semi_axes.cwiseAbs2();
+    shape_ = with_eigenvalues(rotation_, a2);
+    shape_adjugate_ = with_eigenvalues(rotation_, {a2[1] * a2[2], a2[2] * a2[0], a2[0] * a2[1]});
+    shape_determinant_ = a2[0] * a2[1] * a2[2];
+    largest_ = semi_axes.maxCoeff();
+    smallest_ = semi_axes.minCoeff();
+    least_radius_ = smallest_ * (smallest_ / largest_);
+    is_sphere_ = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
+    moderate_ = largest_ <= kModerateLargest && smallest_ >= kModerateSmallest;
+  });
 }
 
 Ellipsoid Ellipsoid::moved_to(const Vec3& centre) const noexcept {
@@ -98,18 +102,23 @@ Ellipsoid Ellipsoid::moved_to(const Vec3& centre) const noexcept {
 }
 
 double Ellipsoid::support(const Vec3& n) const noexcept {
-  return semi_axes_.cwiseProduct(rotation_.transpose() * n).stableNorm();
+  return in_default_environment(
+      [&] { return semi_axes_.cwiseProduct(rotation_.transpose() * n).stableNorm(); });
 }
 
 Vec3 Ellipsoid::support_point(const Vec3& n) const noexcept {
-  assert(n != Vec3::Zero());
-  const Vec3 y = semi_axes_.cwiseProduct(rotation_.transpose() * n);
-  const Vec3 unit = (y / y.cwiseAbs().maxCoeff()).normalized();
-  return rotation_ * semi_axes_.cwiseProduct(unit);
+  return in_default_environment([&]() -> Vec3 {
+    assert(n != Vec3::Zero());
+    const Vec3 y = semi_axes_.cwiseProduct(rotation_.transpose() * n);
+    const Vec3 unit = (y / y.cwiseAbs().maxCoeff()).normalized();
+    return rotation_ * semi_axes_.cwiseProduct(unit);
+  });
 }
 
 double Ellipsoid::level(const Vec3& point) const noexcept {
-  return (rotation_.transpose() * (point - centre_)).cwiseQuotient(semi_axes_).squaredNorm();
+  return in_default_environment([&] {
+    return (rotation_.transpose() * (point - centre_)).cwiseQuotient(semi_axes_).squaredNorm();
+  });
 }
 
 Eigen::AlignedBox3d Ellipsoid::bounding_box() const noexcept {

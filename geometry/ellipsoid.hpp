@@ -59,8 +59,8 @@ class Ellipsoid {
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
   Quaternion orientation() const noexcept { return orientation_; }
-  /// R(q/|q|), each entry r within u |r| + 2^-96 of its true value (u = 2^-53; 2.2 u in a directed
-  /// rounding mode): docs/derivations/relation-filter.md.
+  /// R(q/|q|), each entry r within u |r| + 2^-96 of its true value, u = 2^-53:
+  /// docs/derivations/relation-filter.md.
   const Mat3& rotation() const noexcept { return rotation_; }
   /// M = R diag(a^2) R', which is (x - c)' M^-1 (x - c) <= 1 as a solid, rounded. Like adjugate and
   /// determinant it overflows or underflows unless moderate().

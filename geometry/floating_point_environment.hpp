@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Is the thread's floating-point arithmetic the one that a proof assumes?
+/// Is the thread's floating-point arithmetic the one that a proof assumes, and what is done where
+/// it is not: every public call computes in the default environment and leaves the caller's behind
+/// (docs/decisions/0008-default-environment.md).
 #pragma once
 
 #include <bit>
+#include <cfenv>
 #include <cstdint>
 
 #include <tangency/geometry/floating_point.hpp>
@@ -15,7 +18,7 @@
 namespace tangency {
 
 /// Does this thread round to nearest, keep subnormal results and read subnormal operands as they
-/// are? For filters whose proof needs it: where not, go to exact arithmetic.
+/// are?
 ///
 /// Where the compiler does its double arithmetic in SSE or AVX registers (all of x86-64 unless told
 /// otherwise), MXCSR alone governs it: rounding mode (bits 13 and 14, 0 is to nearest),
@@ -47,15 +50,70 @@ inline bool probe_environment() noexcept {
          bits(kept_result) == std::uint64_t{1} << 51 && bits(kept_operand) == bits(0x1p-1022);
 }
 
+namespace detail {
+
+#if defined(__SSE2_MATH__)
+/// Rounding mode, flush-to-zero and denormals-are-zero of MXCSR.
+inline constexpr unsigned kModes = 0x6000 | 0x8000 | 0x0040;
+#endif
+
+/// The default environment for the length of a scope; then the caller's modes again. Exception
+/// flags that were raised meanwhile stay raised, masks stay as they are.
+class DefaultEnvironment {
+ public:
+#if defined(__SSE2_MATH__)
+  DefaultEnvironment() noexcept : modes_(_mm_getcsr() & kModes) {
+    _mm_setcsr(_mm_getcsr() & ~kModes);
+  }
+  ~DefaultEnvironment() { _mm_setcsr((_mm_getcsr() & ~kModes) | modes_); }
+#else
+  DefaultEnvironment() noexcept {
+    std::fegetenv(&old_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~DefaultEnvironment() { std::feupdateenv(&old_); }
+#endif
+  DefaultEnvironment(const DefaultEnvironment&) = delete;
+  DefaultEnvironment& operator=(const DefaultEnvironment&) = delete;
+
+ private:
+#if defined(__SSE2_MATH__)
+  unsigned modes_;
+#else
+  std::fenv_t old_;
+#endif
+};
+
+/// A compiler may move arithmetic past a change of the modes, but no call that reads memory: so the
+/// computation is one.
+template <class Compute>
+[[gnu::noinline]] auto computed(const Compute& compute) {
+  return compute();
+}
+
+template <class Compute>
+[[gnu::noinline, gnu::cold]] auto computed_elsewhere(const Compute& compute) {
+  const DefaultEnvironment environment;
+  return computed(compute);
+}
+
+}  // namespace detail
+
 inline bool environment_is_default() noexcept {
 #if defined(__SSE2_MATH__)
-  constexpr unsigned rounding_mode = 0x6000;
-  constexpr unsigned flush_to_zero = 0x8000;
-  constexpr unsigned denormals_are_zero = 0x0040;
-  return (_mm_getcsr() & (rounding_mode | flush_to_zero | denormals_are_zero)) == 0;
+  return (_mm_getcsr() & detail::kModes) == 0;
 #else
   return probe_environment();
 #endif
+}
+
+/// compute(), in the default environment whatever the thread's is; three instructions more where
+/// the two are the same. `compute` does all of the arithmetic, on what it holds by reference.
+template <class Compute>
+auto in_default_environment(const Compute& compute) {
+  if (environment_is_default()) [[likely]]
+    return compute();
+  return detail::computed_elsewhere(compute);
 }
 
 }  // namespace tangency

@@ -7,12 +7,14 @@
 #include <limits>
 #include <optional>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
+#include <tangency/geometry/methods/surface_projection.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
@@ -67,6 +69,33 @@ Solved solve_spheres(const Pair& pair) {
   return {{gap, gap - error, gap + error, true, n, ra * n, -rb * n}, GapTier::fast};
 }
 
+/// A sphere and another body: the sphere's centre projected on the body's surface, which is global
+/// at every depth (primitives.hpp, identity (2)).
+Solved solve_with_sphere(const Pair& pair) {
+  const bool sphere_is_a = pair.a.is_sphere();
+  const Ellipsoid &body = sphere_is_a ? pair.b : pair.a, &sphere = sphere_is_a ? pair.a : pair.b;
+  const double radius = sphere.largest_semi_axis();
+  exact::DoubleDoubleVector separation;  // of the sphere's centre from the body's
+  for (int i = 0; i < 3; ++i) {
+    const exact::DoubleDouble d(pair.d[i], pair.d_low[i]);
+    separation[static_cast<std::size_t>(i)] = sphere_is_a ? -d : d;
+  }
+  const methods::SeenFromCentre seen = methods::seen_from_centre(body, separation);
+  const methods::BodyFrame frame(body.orientation());
+  const methods::SurfaceProjection found =
+      methods::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
+  const auto in_unit = [&](double x) { return std::scalbn(x, seen.exponent); };
+  const exact::DoubleDouble distance(in_unit(found.distance.high), in_unit(found.distance.low));
+  const double gap = (distance - exact::DoubleDouble(radius)).high;
+  const double error = 2.0 * kUnitRoundoff * std::abs(gap) + 0x1p-80 * pair.size;
+  const Vec3 outwards = exact::rounded(frame.to_space(found.normal));
+  const Vec3 arm = exact::rounded(frame.to_space(found.point)).unaryExpr(in_unit);
+  const Vec3 n = sphere_is_a ? Vec3(-outwards) : outwards;
+  const Vec3 arm_a = sphere_is_a ? Vec3(radius * n) : arm;
+  const Vec3 arm_b = sphere_is_a ? arm : Vec3(-radius * n);
+  return {{gap, gap - error, gap + error, true, n, arm_a, arm_b}, GapTier::factored};
+}
+
 /// Proven to be the maximum but for rounding, which leaves no doubt about the sign?
 bool settled(const Pair& pair, const GapProof& proof) {
   if (!proof.global || !(proof.low > 0.0 || proof.high < 0.0)) return false;
@@ -82,6 +111,27 @@ std::optional<Solved> search(const Pair& pair, const FactoredPair& factored, con
   return std::nullopt;
 }
 
+bool has_sphere(const Pair& pair) { return pair.a.is_sphere() || pair.b.is_sphere(); }
+
+/// Does the value of a branch come so near to an upper bound of all that it is the global one?
+bool reaches(const Pair& pair, const GapProof& proof, double high) {
+  return high - proof.low <= kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
+}
+
+/// The ascents of the search, which keep its order of ties, bounded by the projection in place of
+/// the branch and bound.
+Solved search_with_sphere(const Pair& pair, const FactoredPair& factored, const Vec3& first) {
+  const Solved projected = solve_with_sphere(pair);
+  const double high = projected.proof.high;
+  std::optional<GapProof> found = methods::search_sphere(pair, factored, first, 0);
+  // Where rounding the normal to doubles costs more than that, the distance is the better answer.
+  if (!found || !(found->low >= projected.proof.low)) return projected;
+  found->high = found->global ? std::min(found->high, high) : high;
+  found->gap = std::min(found->gap, found->high);
+  found->global = true;
+  return {*found, GapTier::factored};
+}
+
 /// What is not settled in double.
 Solved solve_hard(const Pair& pair) {
   const FactoredPair factored(pair.a, pair.b, pair.d);
@@ -93,6 +143,7 @@ Solved solve_hard(const Pair& pair) {
   const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
+  if (has_sphere(pair)) return search_with_sphere(pair, factored, start);
   const std::optional<Solved> searched = search(pair, factored, start);
   if (!searched) return {proof, GapTier::factored};
   const GapProof& other = searched->proof;
@@ -151,7 +202,12 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   }
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
-  const GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  if (!proof.global && has_sphere(pair)) {
+    const double high = solve_with_sphere(pair).proof.high;
+    proof.global = reaches(pair, proof, high);
+    if (proof.global) proof.high = high;
+  }
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
   solved.tier = GapTier::factored;
   if (!proof.global && proof.low < 0.0 && !asked.overlaps(solved.tier)) {
@@ -226,30 +282,36 @@ ContactBounds bounds(const Asked& asked, const Gap& gap) {
 }  // namespace
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
-  assert(separation.allFinite());
-  return answer({a, b, &separation}, solve);
+  return in_default_environment([&] {
+    assert(separation.allFinite());
+    return answer({a, b, &separation}, solve);
+  });
 }
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer({a, b, nullptr}, solve);
+  return in_default_environment([&] { return answer({a, b, nullptr}, solve); });
 }
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept {
-  assert(separation.allFinite() && previous_normal != Vec3::Zero());
-  const Vec3 start = previous_normal.normalized();
-  const Asked asked{a, b, &separation};
-  return answer(asked, [&](const Pair& pair) { return follow(pair, start, asked); });
+  return in_default_environment([&] {
+    assert(separation.allFinite() && previous_normal != Vec3::Zero());
+    const Vec3 start = previous_normal.normalized();
+    const Asked asked{a, b, &separation};
+    return answer(asked, [&](const Pair& pair) { return follow(pair, start, asked); });
+  });
 }
 
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept {
-  return bounds({a, b, nullptr}, gap);
+  return in_default_environment([&] { return bounds({a, b, nullptr}, gap); });
 }
 
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                              const Gap& gap) noexcept {
-  assert(separation.allFinite());
-  return bounds({a, b, &separation}, gap);
+  return in_default_environment([&] {
+    assert(separation.allFinite());
+    return bounds({a, b, &separation}, gap);
+  });
 }
 
 }  // namespace tangency

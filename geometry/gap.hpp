@@ -46,11 +46,12 @@ struct Gap {
 /// with d (or along its positive body axis where d is normal to it). Coaxial bodies of revolution:
 /// along their axis, then across it along the first equal axis of A (of B, if A is a sphere).
 ///
-/// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B; deeper pairs are
-/// searched, and `ok` where the search over all normals finished within its budget.
+/// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B, and gap_error at
+/// most 100 u L; deeper pairs are searched, and `ok` where the search over all normals finished
+/// within its budget. Where one body is a sphere: `ok` at any depth.
 ///
 /// The sign of gap is that of the exact relation: > 0 separate, 0 external_touch, < 0 where the
-/// interiors meet. Assumes the default floating-point environment. Allocates only in tier `exact`.
+/// interiors meet. In any floating-point environment. Allocates only in tier `exact`.
 ///
 /// @return infinite where the true gap is beyond the range of doubles
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;

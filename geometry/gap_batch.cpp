@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/gap_lanes.hpp>
 
 namespace tangency {
@@ -202,7 +203,7 @@ struct ToGaps {
 };
 
 template <class Write>
-void run(const Task& task, const Write& write) noexcept {
+void run_here(const Task& task, const Write& write) {
   Workspace work;
   for (std::size_t first = 0; first < task.count; first += kBlock) {
     const std::size_t count = std::min(kBlock, task.count - first);
@@ -217,6 +218,11 @@ void run(const Task& task, const Write& write) noexcept {
                    first + i);
     }
   }
+}
+
+template <class Write>
+void run(const Task& task, const Write& write) noexcept {
+  in_default_environment([&] { run_here(task, write); });
 }
 
 Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy = {}) {
@@ -245,6 +251,19 @@ Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy,
          fits_one(columns.arm_a) && fits_one(columns.arm_b) && fits_one(columns.status);
 }
 
+void overlaps_here(const Task& task, std::span<bool> answers) {
+  Workspace work;
+  for (std::size_t first = 0; first < task.count; first += kBlock) {
+    const std::size_t count = std::min(kBlock, task.count - first);
+    gather(task, first, count, work);
+    const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool decided = (lanes.decided >> i & 1) != 0;
+      answers[first + i] = decided ? (lanes.meet >> i & 1) != 0 : task.overlaps(first + i);
+    }
+  }
+}
+
 }  // namespace
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
@@ -257,8 +276,10 @@ BodyArray& BodyArray::operator=(BodyArray&&) noexcept = default;
 
 void BodyArray::refresh(std::size_t i) noexcept {
   assert(i < size());
-  fill(lanes_[i], bodies_[i]);
-  fill(shapes_[i], bodies_[i]);
+  in_default_environment([&] {
+    fill(lanes_[i], bodies_[i]);
+    fill(shapes_[i], bodies_[i]);
+  });
 }
 
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
@@ -312,16 +333,7 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {
   assert(answers.size() == list.pairs.size());
   const Task task = task_of(bodies, list);
-  Workspace work;
-  for (std::size_t first = 0; first < task.count; first += kBlock) {
-    const std::size_t count = std::min(kBlock, task.count - first);
-    gather(task, first, count, work);
-    const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool decided = (lanes.decided >> i & 1) != 0;
-      answers[first + i] = decided ? (lanes.meet >> i & 1) != 0 : task.overlaps(first + i);
-    }
-  }
+  in_default_environment([&] { overlaps_here(task, answers); });
 }
 
 }  // namespace tangency

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/plane_tensor.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 
@@ -191,17 +192,21 @@ GapDerivatives solve_scaled(const methods::ScaledPair& pair, const Gap& gap) {
 
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept {
-  assert(separation.allFinite());
-  const double largest =
-      std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
-  if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);
-  return solve_scaled(methods::scaled_pair(a, b, separation), gap);
+  return in_default_environment([&] {
+    assert(separation.allFinite());
+    const double largest =
+        std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
+    if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);
+    return solve_scaled(methods::scaled_pair(a, b, separation), gap);
+  });
 }
 
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept {
-  const Vec3 d = b.centre() - a.centre();
-  if (d.allFinite()) return gap_derivatives(a, b, d, gap);
-  return solve_scaled(methods::scaled_pair(a, b), gap);
+  return in_default_environment([&] {
+    const Vec3 d = b.centre() - a.centre();
+    if (d.allFinite()) return gap_derivatives(a, b, d, gap);
+    return solve_scaled(methods::scaled_pair(a, b), gap);
+  });
 }
 
 }  // namespace tangency

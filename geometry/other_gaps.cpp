@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/other_gaps.hpp>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -181,20 +180,10 @@ Measured solve_in_unit(const Ellipsoid& a, const Ellipsoid& b, const Direction<D
   return result;
 }
 
-/// By bits: DAZ makes subnormal differences equal to 0.
-bool are_equal(const Vec3& x, const Vec3& y) {
-  const auto same = [](double p, double q) {
-    return std::bit_cast<std::uint64_t>(p) == std::bit_cast<std::uint64_t>(q) ||
-           (is_zero(p) && is_zero(q));
-  };
-  return same(x[0], y[0]) && same(x[1], y[1]) && same(x[2], y[2]);
-}
-
 /// @param separation  null: that of the centres
 template <class Measure>
 Measured by_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
                           double& ratio, const Measure& measure) {
-  if (!environment_is_default()) return std::nullopt;
   const Vec3 d = separation != nullptr ? *separation : Vec3(b.centre() - a.centre());
   const Vec3 d_low = separation != nullptr ? Vec3(Vec3::Zero())
                                            : methods::separation_error(a.centre(), b.centre(), d);
@@ -219,8 +208,8 @@ OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
     return separation != nullptr ? WideFloat((*separation)[i])
                                  : WideFloat(b.centre()[i]) - WideFloat(a.centre()[i]);
   };
-  const bool coincide = separation != nullptr ? are_equal(*separation, Vec3::Zero())
-                                              : are_equal(a.centre(), b.centre());
+  const bool coincide = separation != nullptr ? *separation == Vec3::Zero()
+                                              : a.centre() == b.centre();
   if (coincide) return nothing(OtherGapStatus::not_applicable);
   double ratio = 0.0;
   Measured result = by_double_double(a, b, separation, ratio, measure);
@@ -234,21 +223,23 @@ OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
 }  // namespace
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, BetweenTangentPlanes{});
+  return in_default_environment([&] { return answer(a, b, nullptr, BetweenTangentPlanes{}); });
 }
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept {
-  return answer(a, b, &separation, BetweenTangentPlanes{});
+  return in_default_environment(
+      [&] { return answer(a, b, &separation, BetweenTangentPlanes{}); });
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  return answer(a, b, nullptr, AlongTheNormal{});
+  return in_default_environment([&] { return answer(a, b, nullptr, AlongTheNormal{}); });
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept {
-  return answer(a, b, &separation, AlongTheNormal{});
+  return in_default_environment(
+      [&] { return answer(a, b, &separation, AlongTheNormal{}); });
 }
 
 }  // namespace tangency

@@ -22,8 +22,7 @@
 /// semi-axes (the normal within 8 u), at any aspect ratio: a bound is computed beside the numbers,
 /// in double-double and, where that does not suffice, in 512 bits; where that does not either the
 /// status says so (docs/derivations/other-gaps.md; tests/verify/flat_contact_agreement.cpp prints
-/// the largest errors). Any scale, rounding mode and treatment of subnormal numbers; outside the
-/// default environment everything is computed in 512 bits, by integers. Nothing here allocates.
+/// the largest errors). Any scale. In any floating-point environment. Nothing here allocates.
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>

@@ -5,6 +5,7 @@
 
 #include <tangency/geometry/exact/ellipsoid_form.hpp>
 #include <tangency/geometry/exact/pencil_form.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {
@@ -23,17 +24,21 @@ std::vector<PencilMember> pencil_members(const Quadric& a, const Quadric& b) {
   std::copy(a.coefficients().begin(), a.coefficients().end(), all.begin());
   std::copy(b.coefficients().begin(), b.coefficients().end(), all.begin() + 10);
   const int exponent = exact::common_exponent(all);
-  return exact::pencil_members(exact::quadric_form(a.coefficients(), exponent),
-                               exact::quadric_form(b.coefficients(), exponent));
+  return in_default_environment([&] {
+    return exact::pencil_members(exact::quadric_form(a.coefficients(), exponent),
+                                 exact::quadric_form(b.coefficients(), exponent));
+  });
 }
 
 // One common denominator for both, so that f is that of the forms with -1 at the centres.
 std::vector<PencilMember> pencil_members(const Ellipsoid& a, const Ellipsoid& b) {
-  const exact::EllipsoidForm form_a = exact::ellipsoid_form(a);
-  const exact::EllipsoidForm form_b = exact::ellipsoid_form(b);
-  const exact::IntegerForm<4> zero;
-  return exact::pencil_members(exact::combine(form_b.denominator, form_a.form, 0, zero),
-                               exact::combine(form_a.denominator, form_b.form, 0, zero));
+  return in_default_environment([&] {
+    const exact::EllipsoidForm form_a = exact::ellipsoid_form(a);
+    const exact::EllipsoidForm form_b = exact::ellipsoid_form(b);
+    const exact::IntegerForm<4> zero;
+    return exact::pencil_members(exact::combine(form_b.denominator, form_a.form, 0, zero),
+                                 exact::combine(form_a.denominator, form_b.form, 0, zero));
+  });
 }
 
 bool published_scan_finds_overlap(std::span<const PencilMember> members) noexcept {

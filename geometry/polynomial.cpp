@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/projective_quartic.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -133,9 +134,7 @@ void add_band(QuarticRoots& roots, const Terms& p, const Band& band, bool even) 
   }
 }
 
-}  // namespace
-
-QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
+QuarticRoots found_roots(const std::array<double, 5>& a) {
   assert(std::all_of(a.begin(), a.end(), [](double c) { return std::isfinite(c); }));
   QuarticRoots roots{0, {}, false, 0};
   roots.vanishes = std::all_of(a.begin(), a.end(), is_zero);
@@ -154,6 +153,12 @@ QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
   std::sort(roots.root.begin(), roots.root.begin() + roots.count,
             [](const QuarticRoot& p, const QuarticRoot& q) { return p.x < q.x; });
   return roots;
+}
+
+}  // namespace
+
+QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
+  return in_default_environment([&] { return found_roots(a); });
 }
 
 }  // namespace tangency

@@ -37,7 +37,7 @@ struct QuarticRoots {
 /// last place of a root that is far from the others, and as wide as rounding of p makes a root that
 /// is not: about u sum |a_k x^k| / |p'(x)| where that is small, its square root at a double one. A
 /// root 0 has the error 0; one below the least normal double is rounded to a multiple of 2^-1074,
-/// which its error has in it. Assumes the default floating-point environment. Does not allocate.
+/// which its error has in it. In any floating-point environment. Does not allocate.
 /// docs/derivations/quartic-roots.md
 /// @param a  finite (asserted)
 QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept;

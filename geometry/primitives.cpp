@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/surface_projection.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -65,9 +66,7 @@ SupportPoint support_point(const Vec3& semi_axes, const DoubleDoubleVector& norm
   return found;
 }
 
-}  // namespace
-
-Gap signed_gap(const Sphere& a, const Sphere& b) noexcept {
+Gap between(const Sphere& a, const Sphere& b) {
   assert(a.radius >= 0.0 && b.radius >= 0.0);
   constexpr double kLeast = 0x1p-1074;
   const double larger = std::max({a.radius, b.radius, kLeast});
@@ -88,7 +87,7 @@ Gap signed_gap(const Sphere& a, const Sphere& b) noexcept {
   return global_gap(gap.high, size, seen.exponent, n, a.radius * n, -b.radius * n);
 }
 
-Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept {
+Gap between(const Ellipsoid& a, const Sphere& b) {
   assert(b.radius >= 0.0);
   const methods::SeenFromCentre seen = methods::seen_from_centre(a, b.centre);
   const methods::BodyFrame frame(a.orientation());
@@ -105,12 +104,7 @@ Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept {
                     arm_b);
 }
 
-Gap signed_gap(const Sphere& a, const Ellipsoid& b) noexcept {
-  const Gap gap = signed_gap(b, a);
-  return {gap.gap, -gap.normal, gap.arm_b, gap.arm_a, gap.gap_error, gap.status, gap.tier};
-}
-
-WallGap signed_gap(const Ellipsoid& body, const Plane& wall) noexcept {
+WallGap between(const Ellipsoid& body, const Plane& wall) {
   assert(wall.normal.allFinite() && wall.normal != Vec3::Zero() && std::isfinite(wall.offset));
   // The normal's largest component in [1, 2); the support function in a unit of the body's own,
   // which may be much smaller than that of the centre.
@@ -129,6 +123,25 @@ WallGap signed_gap(const Ellipsoid& body, const Plane& wall) noexcept {
   for (std::size_t i = 0; i < 3; ++i) across[i] = scaled(arm[i], own - unit) + gap * normal[i];
   return {std::scalbn(gap.high, unit), exact::rounded(normal), scaled(exact::rounded(arm), own),
           scaled(exact::rounded(across), unit)};
+}
+
+}  // namespace
+
+Gap signed_gap(const Sphere& a, const Sphere& b) noexcept {
+  return in_default_environment([&] { return between(a, b); });
+}
+
+Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept {
+  return in_default_environment([&] { return between(a, b); });
+}
+
+Gap signed_gap(const Sphere& a, const Ellipsoid& b) noexcept {
+  const Gap gap = signed_gap(b, a);
+  return {gap.gap, -gap.normal, gap.arm_b, gap.arm_a, gap.gap_error, gap.status, gap.tier};
+}
+
+WallGap signed_gap(const Ellipsoid& body, const Plane& wall) noexcept {
+  return in_default_environment([&] { return between(body, wall); });
 }
 
 }  // namespace tangency

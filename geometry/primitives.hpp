@@ -2,7 +2,7 @@
 /// @file
 /// Gaps of ellipsoids, spheres and walls: the neighbours of signed_gap() that have closed forms.
 ///
-/// Each number of an answer is rounded once from double-double arithmetic, in the default
+/// Each number of an answer is rounded once from double-double arithmetic, in any
 /// floating-point environment and for semi-axes of at least 2^-200 L, u = 2^-53:
 /// gaps are within 2 u |gap| + 2^-80 L of the true ones, arms within 2 u |arm| + 2^-80 L, unit
 /// normals within 2 u + 2^-80 L / (least radius of curvature + gap) (docs/derivations/

@@ -9,6 +9,7 @@
 #include <string>
 
 #include <tangency/geometry/classify_coefficients.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {
@@ -67,6 +68,47 @@ Normalised normalised(const Parts& p) {
           unit};
 }
 
+Parts surface_of(const Ellipsoid& e) {
+  const double scale = std::ldexp(1.0, std::ilogb(e.smallest_semi_axis()));
+  const Vec3& a = e.semi_axes();
+  const Vec3 weights = (Vec3::Constant(scale).cwiseQuotient(a)).cwiseQuotient(a);
+  const Mat3 block = turned(e.rotation(), weights.asDiagonal());
+  const Vec3 column = -(block * e.centre());
+  return {block, column, -column.dot(e.centre()) - scale};
+}
+
+// With x = R'(x' - t): Q_s' = R Q_s R', g' = R g - Q_s' t, K' = K - 2 t . R g + t . Q_s' t.
+Parts moved(const Parts& p, const Mat3& r, const Vec3& translation) {
+  const Mat3 block = turned(r, p.block);
+  const Vec3 turned_column = r * p.column;
+  const Vec3 column = turned_column - block * translation;
+  return {block, column, p.constant - translation.dot(turned_column + column)};
+}
+
+std::optional<Ellipsoid> solid_of(const Quadric& quadric) {
+  if (classify_coefficients(quadric.coefficients()).type != QuadricType::real_ellipsoid) return std::nullopt;
+  auto [p, unit_exponent] = normalised(parts_of(quadric));
+  if (p.block.trace() < 0.0) p = {-p.block, -p.column, -p.constant};
+
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(p.block);
+  const Vec3 eigenvalues = eigen.eigenvalues().reverse();
+  if (!(eigenvalues.minCoeff() > 0.0)) return std::nullopt;
+  Mat3 axes = eigen.eigenvectors().rowwise().reverse();
+  if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
+
+  const Vec3 centre = -(axes * (axes.transpose() * p.column).cwiseQuotient(eigenvalues));
+  const double value_at_centre = p.column.dot(centre) + p.constant;
+  if (!(value_at_centre < 0.0)) return std::nullopt;
+  const Vec3 semi_axes = (eigenvalues.cwiseInverse() * -value_at_centre).cwiseSqrt();
+
+  const auto rescaled = [unit = unit_exponent](double v) { return std::ldexp(v, unit); };
+  const Vec3 true_centre = centre.unaryExpr(rescaled);
+  const Vec3 true_axes = semi_axes.unaryExpr(rescaled);
+  const Quaternion orientation(axes);
+  if (Ellipsoid::find_fault(true_centre, true_axes, orientation)) return std::nullopt;
+  return Ellipsoid(true_centre, true_axes, orientation);
+}
+
 }  // namespace
 
 InvalidQuadric::InvalidQuadric(const QuadricFault& fault)
@@ -87,12 +129,7 @@ std::optional<QuadricFault> Quadric::find_fault(const Coefficients& coefficients
 }
 
 Quadric Quadric::from_ellipsoid(const Ellipsoid& e) {
-  const double scale = std::ldexp(1.0, std::ilogb(e.smallest_semi_axis()));
-  const Vec3& a = e.semi_axes();
-  const Vec3 weights = (Vec3::Constant(scale).cwiseQuotient(a)).cwiseQuotient(a);
-  const Mat3 block = turned(e.rotation(), weights.asDiagonal());
-  const Vec3 column = -(block * e.centre());
-  return quadric_of({block, column, -column.dot(e.centre()) - scale});
+  return quadric_of(in_default_environment([&] { return surface_of(e); }));
 }
 
 Mat4 Quadric::discriminant() const noexcept {
@@ -103,13 +140,17 @@ Mat4 Quadric::discriminant() const noexcept {
 Mat3 Quadric::sub_discriminant() const noexcept { return discriminant().topLeftCorner<3, 3>(); }
 
 double Quadric::evaluate(const Vec3& point) const noexcept {
-  const Parts p = parts_of(*this);
-  return point.dot(p.block * point + 2.0 * p.column) + p.constant;
+  return in_default_environment([&] {
+    const Parts p = parts_of(*this);
+    return point.dot(p.block * point + 2.0 * p.column) + p.constant;
+  });
 }
 
 Vec3 Quadric::gradient(const Vec3& point) const noexcept {
-  const Parts p = parts_of(*this);
-  return 2.0 * (p.block * point + p.column);
+  return in_default_environment([&]() -> Vec3 {
+    const Parts p = parts_of(*this);
+    return 2.0 * (p.block * point + p.column);
+  });
 }
 
 Quadric Quadric::negated() const noexcept {
@@ -118,46 +159,23 @@ Quadric Quadric::negated() const noexcept {
   return Quadric(result);
 }
 
-// With x = R'(x' - t): Q_s' = R Q_s R', g' = R g - Q_s' t, K' = K - 2 t . R g + t . Q_s' t.
 Quadric Quadric::moved(const Quaternion& rotation, const Vec3& translation) const {
-  const Mat3 r = rotation_of(rotation);
-  const Parts p = parts_of(*this);
-  const Mat3 block = turned(r, p.block);
-  const Vec3 turned_column = r * p.column;
-  const Vec3 column = turned_column - block * translation;
-  return quadric_of({block, column, p.constant - translation.dot(turned_column + column)});
+  return quadric_of(in_default_environment(
+      [&] { return tangency::moved(parts_of(*this), rotation_of(rotation), translation); }));
 }
 
 Quadric Quadric::scaled(double factor) const {
-  assert(std::isfinite(factor) && factor > 0.0);
-  Parts p = parts_of(*this);
-  p.block /= factor;
-  p.constant *= factor;
-  return quadric_of(p);
+  return quadric_of(in_default_environment([&] {
+    assert(std::isfinite(factor) && factor > 0.0);
+    Parts p = parts_of(*this);
+    p.block /= factor;
+    p.constant *= factor;
+    return p;
+  }));
 }
 
 std::optional<Ellipsoid> Quadric::to_ellipsoid() const {
-  if (classify_coefficients(coefficients_).type != QuadricType::real_ellipsoid) return std::nullopt;
-  auto [p, unit_exponent] = normalised(parts_of(*this));
-  if (p.block.trace() < 0.0) p = {-p.block, -p.column, -p.constant};
-
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(p.block);
-  const Vec3 eigenvalues = eigen.eigenvalues().reverse();
-  if (!(eigenvalues.minCoeff() > 0.0)) return std::nullopt;
-  Mat3 axes = eigen.eigenvectors().rowwise().reverse();
-  if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
-
-  const Vec3 centre = -(axes * (axes.transpose() * p.column).cwiseQuotient(eigenvalues));
-  const double value_at_centre = p.column.dot(centre) + p.constant;
-  if (!(value_at_centre < 0.0)) return std::nullopt;
-  const Vec3 semi_axes = (eigenvalues.cwiseInverse() * -value_at_centre).cwiseSqrt();
-
-  const auto rescaled = [unit = unit_exponent](double v) { return std::ldexp(v, unit); };
-  const Vec3 true_centre = centre.unaryExpr(rescaled);
-  const Vec3 true_axes = semi_axes.unaryExpr(rescaled);
-  const Quaternion orientation(axes);
-  if (Ellipsoid::find_fault(true_centre, true_axes, orientation)) return std::nullopt;
-  return Ellipsoid(true_centre, true_axes, orientation);
+  return in_default_environment([&] { return solid_of(*this); });
 }
 
 }  // namespace tangency

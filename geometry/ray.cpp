@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <tangency/geometry/exact/ray_form.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/body_frame.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -167,9 +168,7 @@ class Chord {
   std::optional<exact::RayForm> form_;
 };
 
-}  // namespace
-
-RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) noexcept {
+RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) {
   assert(ray.origin.allFinite() && ray.direction.allFinite() && ray.direction != Vec3::Zero());
   assert(t_begin <= t_end);
   RayHit hit{
@@ -209,6 +208,12 @@ RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t
   }
   if (hit.count > 0) hit.status = chord.sign() > 0 ? RayStatus::hit : RayStatus::grazing;
   return hit;
+}
+
+}  // namespace
+
+RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) noexcept {
+  return in_default_environment([&] { return found_hit(body, ray, t_begin, t_end); });
 }
 
 }  // namespace tangency

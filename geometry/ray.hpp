@@ -45,8 +45,7 @@ struct RayHit {
 /// leaves; one exactly on the surface is a hit at t = 0, and may have another ahead.
 ///
 /// With L = |origin - c| + largest semi-axis, u = 2^-53, e = direction / |direction|, for any
-/// semi-axes, in the default floating-point environment (docs/derivations/primitives.md, section
-/// 4):
+/// semi-axes, in any floating-point environment (docs/derivations/primitives.md, section 4):
 ///
 /// - hit, miss or touch, and what lies in the interval, is exact for the stored doubles: decided in
 ///   double-double with a bound of its error, and in exact integers where that does not do, which

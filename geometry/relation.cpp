@@ -22,8 +22,6 @@ Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const 
   if (methods::moderate(a, b, d)) {
     return ask(a, b, d, [&] { return methods::separation_error(a.centre(), b.centre(), d); });
   }
-  // A difference of subnormal centres may be lost before it is scaled.
-  if (!environment_is_default()) return otherwise;
   const methods::ScaledPair pair = methods::scaled_pair(a, b);
   if (!methods::moderate(pair.a, pair.b, pair.d)) return otherwise;
   return ask(pair.a, pair.b, pair.d, [&] { return pair.d_low; });
@@ -33,7 +31,7 @@ Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const 
 template <class SeparationError>
 Filtered settled(const OverlapFilter& filter, const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                  const SeparationError& d_low) {
-  if (filter.answer() != Filtered::unknown || !environment_is_default()) return filter.answer();
+  if (filter.answer() != Filtered::unknown) return filter.answer();
   return methods::filter_overlap_in_double_double(a, b, d, d_low(), filter.normal());
 }
 
@@ -95,38 +93,7 @@ OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
   return {position == exact::Position::interiors_meet, Tier::exact};
 }
 
-}  // namespace
-
-std::string_view to_string(Relation relation) noexcept {
-  switch (relation) {
-    case Relation::separate:
-      return "separate";
-    case Relation::external_touch:
-      return "external_touch";
-    case Relation::overlap:
-      return "overlap";
-    case Relation::internal_touch:
-      return "internal_touch";
-    case Relation::a_in_b:
-      return "a_in_b";
-    case Relation::b_in_a:
-      return "b_in_a";
-    case Relation::equal:
-      break;
-  }
-  return "equal";
-}
-
-OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  const Vec3 d = b.centre() - a.centre();
-  if (methods::moderate(a, b, d)) {
-    const Filtered found = OverlapFilter(a, b, d).answer();
-    if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
-  }
-  return doubtful_overlap(a, b);
-}
-
-RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
   const Found found = filtered(a, b, Found::unknown,
                                [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
                                   const auto& d_low) { return filter_relation(pa, pb, d, d_low); });
@@ -154,6 +121,42 @@ RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
       break;
   }
   return exact_containment(a, b, quartic);
+}
+
+}  // namespace
+
+std::string_view to_string(Relation relation) noexcept {
+  switch (relation) {
+    case Relation::separate:
+      return "separate";
+    case Relation::external_touch:
+      return "external_touch";
+    case Relation::overlap:
+      return "overlap";
+    case Relation::internal_touch:
+      return "internal_touch";
+    case Relation::a_in_b:
+      return "a_in_b";
+    case Relation::b_in_a:
+      return "b_in_a";
+    case Relation::equal:
+      break;
+  }
+  return "equal";
+}
+
+OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  // This filter holds in every environment; what it does not tell asks which one it is in.
+  const Vec3 d = b.centre() - a.centre();
+  if (methods::moderate(a, b, d)) {
+    const Filtered found = OverlapFilter(a, b, d).answer();
+    if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
+  }
+  return in_default_environment([&] { return doubtful_overlap(a, b); });
+}
+
+RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return in_default_environment([&] { return found_relation(a, b); });
 }
 
 }  // namespace tangency

@@ -8,6 +8,7 @@
 
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/exact/double_double.hpp>
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/moving_pair.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -147,23 +148,8 @@ TimeOfContact advance(const MovingPair& pair, double horizon, double tolerance) 
   return answer(pair, ContactTimeStatus::not_converged, t, t, kMaxSteps);
 }
 
-}  // namespace
-
-Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_velocity,
-             double speed) noexcept {
-  assert(angular_velocity != Vec3::Zero());
-  return {speed * angular_velocity.stableNormalized(), angular_velocity,
-          body.centre() - axis_point};
-}
-
-Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept {
-  // A body seen from a point that stays: its separation is the displacement of its centre.
-  const PairAt now = MovingPair(body, Motion{}, body, motion, Vec3::Zero()).at(t);
-  return now.b.moved_to(body.centre() + now.d);
-}
-
-TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
-                              const Motion& motion_b, double horizon, double tolerance) noexcept {
+TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                         const Motion& motion_b, double horizon, double tolerance) {
   assert(std::isfinite(horizon) && horizon >= 0.0 && tolerance > 0.0);
   assert(motion_a.angular_velocity.allFinite() && motion_b.angular_velocity.allFinite());
   const auto [pair, exponent] = problem(a, motion_a, b, motion_b, horizon);
@@ -179,6 +165,31 @@ TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const 
   found.gap.arm_b = scaled(found.gap.arm_b, exponent);
   found.resolution = std::scalbn(found.resolution, exponent);
   return found;
+}
+
+}  // namespace
+
+Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_velocity,
+             double speed) noexcept {
+  return in_default_environment([&]() -> Motion {
+    assert(angular_velocity != Vec3::Zero());
+    return {speed * angular_velocity.stableNormalized(), angular_velocity,
+            body.centre() - axis_point};
+  });
+}
+
+Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept {
+  return in_default_environment([&] {
+    // A body seen from a point that stays: its separation is the displacement of its centre.
+    const PairAt now = MovingPair(body, Motion{}, body, motion, Vec3::Zero()).at(t);
+    return now.b.moved_to(body.centre() + now.d);
+  });
+}
+
+TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                              const Motion& motion_b, double horizon, double tolerance) noexcept {
+  return in_default_environment(
+      [&] { return found_time(a, motion_a, b, motion_b, horizon, tolerance); });
 }
 
 }  // namespace tangency

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -59,9 +60,11 @@ const char* to_string(TraceStatus status) noexcept {
 }
 
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept {
-  if (relation(a, b).relation != Relation::overlap) return nothing(TraceStatus::not_overlapping);
-  const methods::ScaledPair pair = methods::scaled_pair(a, b);
-  return solve(pair.a, pair.b, pair.d, pair.exponent);
+  return in_default_environment([&] {
+    if (relation(a, b).relation != Relation::overlap) return nothing(TraceStatus::not_overlapping);
+    const methods::ScaledPair pair = methods::scaled_pair(a, b);
+    return solve(pair.a, pair.b, pair.d, pair.exponent);
+  });
 }
 
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b,

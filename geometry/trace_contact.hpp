@@ -59,7 +59,7 @@ struct TraceContact {
 /// Rounding of the gap: a quarter of u L in the median, u = 2^-53, L = |d| + both largest
 /// semi-axes; at most 64 u L for aspect ratios to 5 and 1e6 u L to 1000 (bench_trace measures it).
 /// What is beyond is the scheme's own error, not the program's. The exact relation is asked first,
-/// which may allocate; nothing else does. Assumes the default floating-point environment.
+/// which may allocate; nothing else does. In any floating-point environment.
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;

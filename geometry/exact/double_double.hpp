@@ -3,7 +3,7 @@
 /// Numbers of about 106 bits as unevaluated sums of two doubles [Dekker1971, HidaLiBailey2001].
 ///
 /// Valid in the default floating-point environment only (rounding to nearest, no flushing), which
-/// environment_is_default() tells, and while nothing overflows or underflows. Relative errors
+/// in_default_environment() provides, and while nothing overflows or underflows. Relative errors
 /// there: sum and difference of numbers of one sign 3 u^2, product 7 u^2, quotient 15 u^2, root 15
 /// u^2 [JoldesMullerPopescu2017]; all are below kDoubleDoubleEpsilon.
 #pragma once

@@ -148,7 +148,7 @@ WideFloat sqrt(const WideFloat& a) noexcept {
   return result;
 }
 
-WideMatrix wide_rotation(const Eigen::Quaterniond& q) noexcept {
+WideMatrix wide_rotation(const Quaternion& q) noexcept {
   const WideFloat w = q.w(), x = q.x(), y = q.y(), z = q.z();
   const WideFloat ww = w * w, xx = x * x, yy = y * y, zz = z * z;
   const WideFloat wx = w * x, wy = w * y, wz = w * z, xy = x * y, yz = y * z, zx = z * x;

@@ -60,7 +60,7 @@ using WideVector = std::array<WideFloat, 3>;
 using WideMatrix = std::array<WideVector, 3>;  ///< by rows
 
 /// R(q/|q|), each entry within 20 units of kWideEpsilon.
-WideMatrix wide_rotation(const Eigen::Quaterniond& q) noexcept;
+WideMatrix wide_rotation(const Quaternion& q) noexcept;
 
 /// R' v
 WideVector turned_back(const WideMatrix& r, const WideVector& v) noexcept;

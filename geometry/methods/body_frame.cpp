@@ -20,27 +20,45 @@ DoubleDoubleVector BodyFrame::to_space(const DoubleDoubleVector& v) const noexce
   return {dot(rotation_[0], v), dot(rotation_[1], v), dot(rotation_[2], v)};
 }
 
-SeenFromCentre seen_from_centre(const Ellipsoid& body, const Vec3& point) noexcept {
+namespace {
+
+/// @param separation  in units of 2^shift
+SeenFromCentre in_own_unit(const Ellipsoid& body, const DoubleDoubleVector& separation, int shift) {
   constexpr double kLeastAxis = 0x1p-200;
-  constexpr int kBelowOverflow = 2;
-  // The difference of two huge coordinates may overflow in the caller's unit.
-  const int shift = (point - body.centre()).allFinite() ? 0 : kBelowOverflow;
   SeenFromCentre seen;
   int exponent = -1100;
   for (int i = 0; i < 3; ++i) {
-    const DoubleDouble d = exact::two_sum(scaled_by_power(point[i], -shift),
-                                          -scaled_by_power(body.centre()[i], -shift));
-    seen.separation[static_cast<std::size_t>(i)] = d;
-    exponent = std::max({exponent, exponent_of(d.high), exponent_of(body.semi_axes()[i]) - shift});
+    exponent = std::max({exponent, exponent_of(separation[static_cast<std::size_t>(i)].high),
+                         exponent_of(body.semi_axes()[i]) - shift});
   }
-  for (DoubleDouble& d : seen.separation) {
-    d = {scaled_by_power(d.high, -exponent), scaled_by_power(d.low, -exponent)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const DoubleDouble& d = separation[i];
+    seen.separation[i] = {scaled_by_power(d.high, -exponent), scaled_by_power(d.low, -exponent)};
   }
   seen.exponent = exponent + shift;
   for (int i = 0; i < 3; ++i) {
     seen.semi_axes[i] = std::max(scaled_by_power(body.semi_axes()[i], -seen.exponent), kLeastAxis);
   }
   return seen;
+}
+
+}  // namespace
+
+SeenFromCentre seen_from_centre(const Ellipsoid& body, const Vec3& point) noexcept {
+  constexpr int kBelowOverflow = 2;
+  // The difference of two huge coordinates may overflow in the caller's unit.
+  const int shift = (point - body.centre()).allFinite() ? 0 : kBelowOverflow;
+  DoubleDoubleVector separation;
+  for (int i = 0; i < 3; ++i) {
+    separation[static_cast<std::size_t>(i)] = exact::two_sum(
+        scaled_by_power(point[i], -shift), -scaled_by_power(body.centre()[i], -shift));
+  }
+  return in_own_unit(body, separation, shift);
+}
+
+SeenFromCentre seen_from_centre(const Ellipsoid& body,
+                                const DoubleDoubleVector& separation) noexcept {
+  return in_own_unit(body, separation, 0);
 }
 
 }  // namespace tangency::methods

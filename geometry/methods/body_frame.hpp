@@ -34,5 +34,8 @@ struct SeenFromCentre {
   int exponent;
 };
 SeenFromCentre seen_from_centre(const Ellipsoid& body, const Vec3& point) noexcept;
+/// The same for a separation that is given, in the unit of the body.
+SeenFromCentre seen_from_centre(const Ellipsoid& body,
+                                const DoubleDoubleVector& separation) noexcept;
 
 }  // namespace tangency::methods

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/bounded.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -114,7 +113,6 @@ std::optional<ConicAnswer> filter_inside(const Body& a, const Body& b,
 }  // namespace
 
 std::optional<ConicAnswer> filter_meeting(const Ellipse& a, const Ellipse& b) noexcept {
-  if (!environment_is_default()) return std::nullopt;
   const Vec2 d = b.centre() - a.centre();
   if (!d.allFinite()) return std::nullopt;
   const double reach = d.cwiseAbs().maxCoeff();

@@ -9,8 +9,8 @@
 
 namespace tangency::methods {
 
-/// The answer where running error bounds prove it; nothing where they leave a doubt, where numbers
-/// overflow, and outside the default floating-point environment.
+/// The answer where running error bounds prove it; nothing where they leave a doubt and where
+/// numbers overflow. Requires the default floating-point environment.
 std::optional<exact::ConicAnswer> filter_meeting(const Ellipse& a, const Ellipse& b) noexcept;
 
 struct MeetingAnswer {

@@ -35,10 +35,10 @@ int exponent(const WideFloat& v) {
 DoubleDouble product(double a, double b, const DoubleDouble*) { return exact::two_product(a, b); }
 WideFloat product(double a, double b, const WideFloat*) { return WideFloat(a) * WideFloat(b); }
 
-exact::DoubleDoubleMatrix rotation(const Eigen::Quaterniond& q, const DoubleDouble*) {
+exact::DoubleDoubleMatrix rotation(const Quaternion& q, const DoubleDouble*) {
   return exact::double_double_rotation(q);
 }
-exact::WideMatrix rotation(const Eigen::Quaterniond& q, const WideFloat*) {
+exact::WideMatrix rotation(const Quaternion& q, const WideFloat*) {
   return exact::wide_rotation(q);
 }
 

@@ -4,7 +4,7 @@
 /// in which that bounds f: docs/derivations/gap-certificate.md, section 3.
 #pragma once
 
-#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/exact/double_double_vector.hpp>
 
 namespace tangency::methods {
 
@@ -30,33 +30,35 @@ struct Pair {
   }
 };
 
-/// (S) of the derivation: generously the rounding of curvatures and lengths in double.
+/// (S) of the derivation: generously the rounding of curvatures and lengths in double, but for what
+/// thin bodies amplify.
 inline constexpr double kRoundings = 0x1p-20;
 inline constexpr double kMore = 1.0 + kRoundings, kLess = 1.0 - kRoundings;
 
-/// The part of one body in the bending at a normal, along the two principal tangents.
+/// The part of one body in the bending at a normal, along the two principal tangents e. All but for
+/// 2^-40 of themselves.
 struct SideBend {
-  double h;             ///< support function
-  double curvature[2];  ///< e' Hess h e: a radius of curvature of the body's normal section
-  double stretch[2];    ///< |A' e|^2, A = R diag(a)
+  double h;             ///< support function, at most
+  double curvature[2];  ///< e' Hess h e, a radius of curvature of a normal section, at least
+  double stretch[2];    ///< |A' e|^2, A = R diag(a), at least
 };
 
-/// Principal tangents of Hess(h_A + h_B) at a normal, and its eigenvalues, each to a relative
-/// accuracy far below 2^-20 wherever their ratio is below 2^80.
+/// Principal tangents e1, e2 of H = Hess(h_A + h_B) at a normal, and bounds of H from below.
 struct Bend {
   Vec3 tangent[2];
-  double curvature[2];
-  double skew;  ///< |e1' Hess e2| over the root of the product of the eigenvalues: rounding
+  double curvature[2];  ///< c_i: H >= (1 - loss) (c_1 e1 e1' + c_2 e2 e2') in the tangent plane
+  double loss;          ///< (S) of the derivation: rounding, which thin bodies amplify
   SideBend a, b;
 };
 
-/// @param h_a, h_b  the support functions at the normal
-Bend bend_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& normal, double h_a,
-             double h_b) noexcept;
+/// A body at a normal, as evaluated in double-double.
+struct SideAt {
+  const exact::DoubleDoubleSide& side;
+  Vec3 point;  ///< support point, rounded
+};
 
-/// e' Hess h e for unit normal n, unit tangent e and m = n x e: by m' adj(M) m / h^3, which keeps
-/// its accuracy where M/h - x x'/h would cancel.
-double hessian_along(const Ellipsoid& body, double h, const Vec3& m) noexcept;
+/// @param normal  unit: what both sides were evaluated at
+Bend bend_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept;
 
 /// What is known of f at a normal to first order.
 struct Slope {

@@ -30,8 +30,10 @@ void settle_sign(Proof& proof, GapTier& tier, const Asked& asked, double distanc
     proof.low = std::min(proof.low, -kLeast);
     if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
   } else if (asked.relation() == Relation::external_touch) {
-    proof.gap = proof.low = proof.high = 0.0;
-    proof.global = true;
+    // Of a branch that is not known to be the global one the value 0 is not, nor that its normal
+    // is that of the touch: it stays `local`, and the error tells how far below 0 it is.
+    proof.low = proof.global ? 0.0 : std::min(proof.low, 0.0);
+    proof.gap = proof.high = 0.0;
   } else {
     // What is known of a branch below 0 says nothing about bodies that are apart.
     if (!proof.global) proof.high = distance;

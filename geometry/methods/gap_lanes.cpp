@@ -15,6 +15,7 @@ namespace tangency::methods::HWY_NAMESPACE {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-53;
+constexpr double kThinnest = 0x1p42;                      // of a/h: as for one pair, gap_proof.cpp
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // as for one pair: gap.cpp
 // Of u L, what a better normal may still gain; half of it is in doubt. Chosen: no more than
 // rounding is. With 4.0 following moderate shapes takes 15 % less time and errs twice as much.
@@ -90,8 +91,8 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const Pack value_error = u * multiply_add(all(10.8), size, roundings);
   const Pack ball = (at.gap - value_error) + (pair.a.least_radius + pair.b.least_radius);
   // (R)
-  const Pack radii = multiply_add(pair.a.largest * pair.a.largest, at.inverse_h_a,
-                                  (pair.b.largest * pair.b.largest) * at.inverse_h_b);
+  const Pack thin_a = pair.a.largest * at.inverse_h_a, thin_b = pair.b.largest * at.inverse_h_b;
+  const Pack radii = multiply_add(pair.a.largest, thin_a, pair.b.largest * thin_b);
   const Pack rest_error = u * multiply_add(all(8.01), radii, all(32.0) * (axes + size));
   const PackVec3 across = multiply_take(at.gap, n, at.rest);
   // (B), with room for the roughness of the inverse.
@@ -102,8 +103,8 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const auto within = [&](double roundings_of_size) HWY_ATTR {
     return multiply_add(all(roundings_of_size * kUnitRoundoff), pair.size, pair.tolerance);
   };
-  const PackMask settled =
-      (absolute(gap) > error) & (error <= within(kLaneErrorBound)) & (ball > above0);
+  const PackMask settled = (absolute(gap) > error) & (error <= within(kLaneErrorBound)) &
+                           (ball > above0) & (larger(thin_a, thin_b) <= all(kThinnest));
   return {gap, error, settled, settled & (above <= within(kEnough))};
 }
 

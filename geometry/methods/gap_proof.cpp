@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/methods/gap_proof.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <tangency/geometry/methods/both.hpp>
 
 namespace tangency::methods {
 namespace {
+
+constexpr double kThinnest = 0x1p42;  // of a/h: where terms of second order are below 2^-6 u a
 
 struct Sides {
   Both h;          ///< support functions
@@ -33,11 +36,12 @@ void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
   // n.d - h_A - h_B.
   const double gap = normal.dot(rest);
   const double axes = axis_a + axis_b, h = at.h[0] + at.h[1];
-  const double radii = axis_a * (axis_a / at.h[0]) + axis_b * (axis_b / at.h[1]);
+  const double thin_a = axis_a / at.h[0], thin_b = axis_b / at.h[1];
+  const double radii = axis_a * thin_a + axis_b * thin_b;
   // (V) of the derivation.
   const double value_error =
       kUnitRoundoff *
-      (6.71 * axes + 5.51 * h + 2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.61 * std::abs(gap));
+      (6.71 * axes + 5.51 * h + 2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.71 * std::abs(gap));
   proof.gap = gap;
   proof.low = gap - value_error;
   proof.normal = normal;
@@ -47,7 +51,8 @@ void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
   // (R): rounding, of which the radii of curvature amplify that of the normal.
   const double rest_error = kUnitRoundoff * (8.0 * radii + 32.0 * (axes + std::abs(gap)));
   const double reach2 = 1.01 * ((rest - gap * normal).squaredNorm() + rest_error * rest_error);
-  proof.global = ball > 0.0;
+  // Beyond kThinnest (V) and (R) do not hold: what low is then is not asked for.
+  proof.global = ball > 0.0 && std::max(thin_a, thin_b) <= kThinnest;
   // (B): the ball seen from the origin.
   proof.high = proof.global ? gap + (value_error + reach2 / ball) : GapProof::kUnproven;
 }

@@ -10,11 +10,13 @@ namespace tangency::methods {
 namespace {
 
 using exact::DoubleDouble;
+using exact::rounded;
 using Vector = exact::DoubleDoubleVector;
 
-constexpr double kValueError = 0x1p-92;  // (V2) of the derivation, of the size of the pair
-constexpr double kRestError = 0x1p-92;   // (R2), of size and largest radii of curvature
-constexpr double kNarrow = 0x1p-40;      // chosen
+constexpr double kValueError = 0x1p-92;    // (V2) of the derivation, of the size of the pair
+constexpr double kRestError = 0x1p-92;     // (R2), of size and largest radii of curvature
+constexpr double kTangentError = 0x1p-49;  // (R2), of the rest
+constexpr double kNarrow = 0x1p-40;        // chosen
 // Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more.
 constexpr int kMoves = 20;
 constexpr int kHalvings = 8;  // chosen, of one move
@@ -27,8 +29,6 @@ struct Local {
   Bend bend;
   Vec3 point_a, point_b;
 };
-
-Vec3 rounded(const Vector& v) { return {v[0].high, v[1].high, v[2].high}; }
 
 Local evaluate(const Pair& pair, const Vec3& normal) {
   const Vector n = {normal[0], normal[1], normal[2]};
@@ -48,11 +48,11 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
   const auto radius = [](const Ellipsoid& body, const exact::DoubleDoubleSide& side) {
     return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
   };
-  const Bend bend = bend_at(pair.a, pair.b, normal, a.support.high, b.support.high);
+  const Bend bend = bend_at({a, rounded(point_a)}, {b, rounded(point_b)}, normal);
   // A support point is never further off than its body is long.
   const double across = std::min(kRestError * (radius(pair.a, a) + radius(pair.b, b)),
                                  2.0 * (pair.a.largest_semi_axis() + pair.b.largest_semi_axis()));
-  const double error = 0x1p-50 * r.norm() + kRestError * pair.size + across;
+  const double error = kTangentError * r.norm() + kRestError * pair.size + across;
   return {normal,
           f,
           {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},

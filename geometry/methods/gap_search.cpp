@@ -14,6 +14,7 @@ namespace {
 constexpr double kEnough = kOrdinaryGapErrorBound * kUnitRoundoff;  // of the size
 constexpr std::size_t kMostPeaks = 16;                              // chosen: 2 to 6 are common
 constexpr std::size_t kMostPending = 256;  // four, and one more for each of some 220 halvings
+constexpr double kCapError = 64 * kUnitRoundoff;  // section 5 of the derivation, of a semi-axis
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays
 constexpr double kCapWidth = 1.0;  // chosen: caps as wide as the curvatures allow
 
@@ -21,7 +22,7 @@ constexpr double kCapWidth = 1.0;  // chosen: caps as wide as the curvatures all
 struct Peak {
   CapProof proof;
   Vec3 stretched_a, stretched_b;  ///< A' n
-  double width_a, width_b;        ///< of the cap; 0 where there is none
+  double width;                   ///< of the cap; 0 where there is none
   bool needed = false;            ///< did a patch rest on this cap?
 };
 
@@ -45,14 +46,7 @@ class SphereSearch {
     peak.proof = prove_gap_in_double_double(pair_, found.normal, kCapWidth);
     peak.stretched_a = factored_.factor_a().transpose() * peak.proof.normal;
     peak.stretched_b = factored_.factor_b().transpose() * peak.proof.normal;
-    const double width = peak.proof.cap.proven ? kLess * peak.proof.cap.width : 0.0;
-    // Less what rounding and slivers beside halved sides may be off by.
-    const auto reach = [&](const Vec3& stretched, const Ellipsoid& body) {
-      return std::max(0.0,
-                      width * stretched.norm() - 64.0 * kUnitRoundoff * body.largest_semi_axis());
-    };
-    peak.width_a = reach(peak.stretched_a, pair_.a);
-    peak.width_b = reach(peak.stretched_b, pair_.b);
+    peak.width = peak.proof.cap.proven ? kLess * peak.proof.cap.width : 0.0;
     if (count_ == 0 || peak.proof.gap > best().gap + kTieOfSize * size_) best_ = count_;
     ++count_;
   }
@@ -95,12 +89,16 @@ class SphereSearch {
   bool holds(const Peak& peak, const Vec3& v) const {
     const double c = v.dot(peak.proof.normal);
     // Above 0 a cap is bounded by the tilt as well: deep pairs have f < 0.
-    if (!(peak.width_a > 0.0) || !(peak.width_b > 0.0) || !(c > 0x1p-10) ||
-        !(peak.proof.high < 0.0))
-      return false;
-    const Vec3 a = factored_.factor_a().transpose() * v / c - peak.stretched_a;
-    const Vec3 b = factored_.factor_b().transpose() * v / c - peak.stretched_b;
-    return a.norm() <= peak.width_a && b.norm() <= peak.width_b;
+    if (!(peak.width > 0.0) || !(c > 0x1p-10) || !(peak.proof.high < 0.0)) return false;
+    // |A's| <= width h_A at s = v/c - n, times c, less what rounding and slivers beside halved
+    // sides may be off by.
+    const auto reaches = [&](const Mat3& factor, const Vec3& stretched, const Ellipsoid& body) {
+      const double off = kCapError * body.largest_semi_axis();
+      const double across = (factor.transpose() * v - c * stretched).norm();
+      return across + off <= c * peak.width * stretched.norm();
+    };
+    return reaches(factored_.factor_a(), peak.stretched_a, pair_.a) &&
+           reaches(factored_.factor_b(), peak.stretched_b, pair_.b);
   }
 
   /// A cap is convex on the sphere, so its corners speak for a triangle.

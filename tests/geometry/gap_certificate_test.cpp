@@ -16,9 +16,11 @@
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
+#include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
 namespace {
@@ -130,6 +132,60 @@ TEST(GapError, IsAtMostThePublishedConstantForAspectsTo100) {
   EXPECT_GT(largest, 0.5 * kOrdinaryGapErrorBound);  // a much better bound is to be published
 }
 
+// A flat face of aspect 1e16 on a sphere, and on what is not quite one: at the sphere a normal has
+// f = 4.93922345342781e-07, 50 times the error that was given above what was given.
+TEST(GapError, HoldsAtTheFaceOfABodyOfAspect1e16) {
+  const verify::RawEllipsoid disc{
+      {0, 0, 0},
+      {1, 0x1.6b1260e893c2bp-1, 0x1.bb5c232aac737p-57},
+      {-0x1.8274dae13223dp-1, -0x1.7289ec23675cep-3, 0x1.e39d7d8c041bep-1, 0x1.70a3f3d571b48p-1}};
+  const double r = 0x1.92cad67f16bbep-2;
+  verify::RawEllipsoid round{
+      {-0x1.a7fad9e162f94p-2, 0x1.186f42052c5bcp-4, 0x1.e0c6e31853078p-4},
+      {r, r, r},
+      {0x1.31a65d84e910ep+0, -0x1.1d24d0e932789p+1, 0x1.0ebdbb20af063p-9, 0x1.00cf13a540f24p-2}};
+  for (const double other : {r, std::nextafter(r, 1.0), 1.01 * r}) {
+    round.semi_axes[2] = other;
+    const verify::Real truth = verify::signed_gap(disc, round).gap;
+    const Ellipsoid a = to_ellipsoid(disc), b = to_ellipsoid(round);
+    for (const Gap& gap : {signed_gap(a, b), signed_gap(b, a)}) {
+      const double error = abs(truth - verify::Real(gap.gap)).convert_to<double>();
+      if (other == r) {
+        EXPECT_EQ(gap.status, GapStatus::ok);
+      }
+      if (gap.status == GapStatus::ok) {
+        EXPECT_LE(error, gap.gap_error) << other;
+      }
+      EXPECT_TRUE(verify::Real(gap.gap) - gap.gap_error <= truth) << other;
+    }
+  }
+}
+
+// A sphere in a thin body: what signed_gap(Sphere, Ellipsoid) proves is proven of the pair too.
+TEST(GapStatusOfSpheres, IsOkAtEveryDepthAndAspect) {
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  for (const double aspect : {10.0, 1e2, 1e4, 1e8, 1e16, 1e30, 1e150}) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 axes(1, std::pow(aspect, -uniform(0, 1)), 1 / aspect);
+      const Ellipsoid a({0, 0, 0}, axes,
+                        Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 0.2));
+      const Vec3 side(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      const Vec3 place = uniform(0, 1) * a.support_point(side);
+      const double radius = std::exp(uniform(-5, 0));
+      const Ellipsoid b(place, Vec3::Constant(radius));
+      const Gap gap = signed_gap(a, b), other = signed_gap(a, Sphere{place, radius});
+      ASSERT_EQ(gap.status, GapStatus::ok) << aspect << ' ' << i;
+      ASSERT_LE(std::abs(gap.gap - other.gap), gap.gap_error + other.gap_error) << aspect;
+      const Gap followed = follow_gap(a, b, place, gap.normal);
+      ASSERT_EQ(followed.status, GapStatus::ok) << aspect << ' ' << i;
+      ASSERT_LE(std::abs(followed.gap - other.gap), followed.gap_error + other.gap_error);
+    }
+  }
+}
+
 /// The greatest f on a fan of normals around the proof's, out to its cap's edge.
 RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   const testing::Pair p = *testing::pair_at(100, testing::uniform(0, 1));
@@ -143,7 +199,9 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   methods::prove_gap(pair, off, at);
   const Vec3 n = off;
   const double h_a = p.a.support(n), h_b = p.b.support(n);
-  const methods::Bend bend = methods::bend_at(p.a, p.b, n, h_a, h_b);
+  const exact::DoubleDoubleSide side_a(p.a, exact::exactly(n)), side_b(p.b, exact::exactly(n));
+  const methods::Bend bend =
+      methods::bend_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
   const Vec3 r = pair.d - at.arm_a + at.arm_b - at.gap * n;
   const methods::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
   const methods::Cap cap = methods::cap_around(bend, slope, 1.0);
@@ -219,10 +277,51 @@ TEST(GapSign, ThatTheProofLeavesOpenPutsTheGapInTheMiddleOfWhatIsLeft) {
   EXPECT_EQ(touch.low, 0.0);
   EXPECT_EQ(touch.gap, 0.0);
   EXPECT_EQ(touch.high, 0.0);
+  EXPECT_TRUE(touch.global);
   const auto apart = settled(-1e-17, Relation::separate);
   EXPECT_EQ(apart.low, 0.0);
   EXPECT_EQ(apart.gap, 1e-17);
   EXPECT_EQ(apart.high, 2e-17);
+}
+
+// A touch proves the value 0 of its own normal only: a deep branch keeps its normal and is no `ok`.
+TEST(GapSign, OfATouchDoesNotMakeABranchGlobalThatIsNotProvenToBe) {
+  methods::GapProof proof{-0.3, -0.31, -0.29, false, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+  GapTier tier = GapTier::factored;
+  methods::settle_sign(proof, tier, Told{Relation::external_touch}, 1.0);
+  EXPECT_EQ(proof.gap, 0.0);
+  EXPECT_FALSE(proof.global);
+  // What is left of the error bounds the distance to the branch's value.
+  EXPECT_EQ(proof.low, -0.31);
+  EXPECT_EQ(proof.high, 0.0);
+}
+
+// The bound of the curvatures at thin bodies, and what it is made of: docs/derivations/
+// gap-certificate.md, (S). A face of a/h = 2^k: the normal's own rounding would show in the roots
+// 2^k times as large.
+TEST(GapCap, CurvaturesOfThinFacesAreRightToTheirLoss) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 10; k <= 80; k += 5) {
+    const double thin = std::ldexp(1.0, -k);
+    const Eigen::Quaterniond q(any(random), any(random), any(random), any(random));
+    const Ellipsoid a({0, 0, 0}, {1, 0.7, thin}, q), b({0, 0, 0}, {0.4, 0.4, 0.4});
+    // At the face's own normal, which no double is: h and the roots are of what is stored.
+    const Vec3 n = a.rotation().col(2).normalized();
+    const exact::DoubleDoubleSide side_a(a, exact::exactly(n)), side_b(b, exact::exactly(n));
+    const methods::Bend bend =
+        methods::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+    // kappa kappa' of an ellipsoid is (h^2 / (a1 a2 a3))^2, exactly: det H_A of h's stored value.
+    const double h = side_a.support.high;
+    const double determinant = std::pow(0.7 * thin / (h * h), 2);
+    const double sum = bend.a.curvature[0] + bend.a.curvature[1];
+    // H = H_A + 0.4 I: its determinant is det H_A + 0.4 tr H_A + 0.16.
+    const double expected = determinant + 0.4 * sum + 0.16;
+    EXPECT_LE(std::abs(bend.curvature[0] * bend.curvature[1] - expected),
+              (4 * bend.loss + 1e-12) * expected)
+        << k;
+    EXPECT_LE(bend.loss, std::ldexp(1.0, k - 88) + 0x1p-45) << k;
+  }
 }
 
 TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <tangency/geometry/gap.hpp>
 #include <tangency/tests/support/conversions.hpp>
 #include <tangency/verify/oracles/gap.hpp>
+#include <tangency/verify/oracles/primitives.hpp>
 
 namespace {
 
@@ -82,11 +84,11 @@ double distance(const Vec3& v, const Real3& w) {
   return sqrt(square).convert_to<double>();
 }
 
-void compare(const RawPair& pair, const std::string& family, const Limits& limits, Tally& tally) {
+void compare(const RawPair& pair, const GapTruth& truth, const std::string& family,
+             const Limits& limits, Tally& tally) {
   const Ellipsoid a = tangency::testing::to_ellipsoid(pair.a);
   const Ellipsoid b = tangency::testing::to_ellipsoid(pair.b);
   const Gap gap = signed_gap(a, b);
-  const GapTruth truth = tangency::verify::signed_gap(pair.a, pair.b);
   const double axes = a.largest_semi_axis() + b.largest_semi_axis();
   const double size = (b.centre() - a.centre()).stableNorm() + axes;
   ++tally.pairs;
@@ -119,7 +121,7 @@ void compare(const RawPair& pair, const std::string& family, const Limits& limit
                         distance(gap.arm_b, truth.arm_b) <= bounds.arm_b;
     // Where two normals tie there is no one true normal: gap.hpp.
     const bool tie =
-        truth.gap < 0 && truth.global && !inside &&
+        truth.gap < 0 && truth.global && !inside && !a.is_sphere() && !b.is_sphere() &&
         tangency::verify::highest_gaps(tangency::verify::real(pair.a),
                                        tangency::verify::real(pair.b), 2 * gap.gap_error)
                 .size() > 1;
@@ -139,7 +141,100 @@ template <class Pairs, class Kind>
 Family make_family(const Kind& kind, const Limits& limits) {
   return {kind.name, 0, limits, [kind, limits](std::uint64_t seed, long count, Tally& tally) {
             Pairs pairs(kind, seed);
-            for (long i = 0; i < count; ++i) compare(pairs.next(), kind.name, limits, tally);
+            for (long i = 0; i < count; ++i) {
+              const RawPair pair = pairs.next();
+              compare(pair, tangency::verify::signed_gap(pair.a, pair.b), kind.name, limits, tally);
+            }
+          }};
+}
+
+/// A thin body whose flat face a round body touches, lies in or is inside of: where rounding the
+/// normal moves a support point most, and curvatures are products of a small and a large number.
+struct FaceFamily {
+  std::string name;
+  double least_aspect, largest_aspect;
+  bool sphere;  ///< is the round body one?
+};
+
+class FacePairs {
+ public:
+  FacePairs(const FaceFamily& family, std::uint64_t seed) : family_(family), random_(seed) {}
+
+  RawPair next() {
+    RawPair pair;
+    const double thin = 1 / log_uniform(family_.least_aspect, family_.largest_aspect);
+    const std::size_t across = random_() % 3;
+    for (std::size_t k = 0; k < 3; ++k) pair.a.semi_axes[k] = k == across ? thin : uniform(0.3, 1);
+    for (auto* body : {&pair.a, &pair.b}) {
+      for (double& q : body->orientation) q = uniform(-1, 1);
+    }
+    pair.a.centre = {0, 0, 0};
+    const double radius = log_uniform(1e-3, 10);
+    pair.b.semi_axes = {radius, radius, radius};
+    if (!family_.sphere) {
+      // From the neighbouring double to twice as long.
+      const double longer = random_() % 2 == 0 ? uniform(1, 2) : 1 + log_uniform(0x1p-52, 0.1);
+      pair.b.semi_axes[random_() % 3] *= longer;
+      pair.b.semi_axes[random_() % 3] *= longer;
+    }
+    const Ellipsoid a = tangency::testing::to_ellipsoid(pair.a);
+    const Vec3 n = a.rotation().col(static_cast<int>(across));
+    const double reach = tangency::testing::to_ellipsoid(pair.b).support(n);
+    // Apart or overlapping by 1e-18 to 0.1 of the radius; a sphere at any depth as well.
+    double height = reach + radius * (random_() % 2 == 0 ? 1 : -1) * log_uniform(1e-18, 0.1);
+    if (family_.sphere && random_() % 4 == 0) height = reach * uniform(-1, 1);
+    Vec3 centre = height * n;
+    for (int k = 0; k < 3; ++k) {
+      if (k != static_cast<int>(across))
+        centre += 0.7 * uniform(-1, 1) * a.semi_axes()[k] * a.rotation().col(k);
+    }
+    pair.b.centre = {centre[0], centre[1], centre[2]};
+    if (random_() % 2 == 0) std::swap(pair.a, pair.b);
+    return pair;
+  }
+
+ private:
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_() >> 11) * kU);
+  }
+  double log_uniform(double low, double high) {
+    return std::exp(uniform(std::log(low), std::log(high)));
+  }
+
+  FaceFamily family_;
+  std::mt19937_64 random_;
+};
+
+/// By the oracle of closest points, at any aspect.
+GapTruth truth_of_sphere(const RawPair& pair) {
+  const auto is_sphere = [](const tangency::verify::RawEllipsoid& e) {
+    return e.semi_axes[0] == e.semi_axes[1] && e.semi_axes[1] == e.semi_axes[2];
+  };
+  const bool sphere_is_a = is_sphere(pair.a);
+  const auto &sphere = sphere_is_a ? pair.a : pair.b, &body = sphere_is_a ? pair.b : pair.a;
+  const auto found =
+      tangency::verify::nearest(body, tangency::verify::from_centre(body, sphere.centre));
+  GapTruth truth{Real(found.distance) - sphere.semi_axes[0], {}, {}, {}, true, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Real n = sphere_is_a ? -Real(found.normal[i]) : Real(found.normal[i]);
+    const Real round = (sphere_is_a ? 1 : -1) * (sphere.semi_axes[0] * n);
+    truth.normal[i] = n;
+    truth.arm_a[i] = sphere_is_a ? round : Real(found.point[i]);
+    truth.arm_b[i] = sphere_is_a ? Real(found.point[i]) : round;
+  }
+  return truth;
+}
+
+Family make_family(const FaceFamily& kind, const Limits& limits) {
+  return {kind.name, 0, limits, [kind, limits](std::uint64_t seed, long count, Tally& tally) {
+            FacePairs pairs(kind, seed);
+            for (long i = 0; i < count; ++i) {
+              const RawPair pair = pairs.next();
+              compare(pair,
+                      kind.sphere ? truth_of_sphere(pair)
+                                  : tangency::verify::signed_gap(pair.a, pair.b),
+                      kind.name, limits, tally);
+            }
           }};
 }
 
@@ -159,6 +254,16 @@ std::vector<Family> make_families() {
     if (kind.aspect > 5 || kind.within == 0) limits.local_share = 0.01;
     if (kind.aspect > 20) limits.local_share = 1;
     families.push_back(make_family<tangency::families::DeepPairs>(kind, limits));
+  }
+  const FaceFamily faces[] = {{"faces on spheres, to 1e15", 1e9, 1e15, true},
+                              {"faces on spheres, 1e15 to 1e18", 1e15, 1e18, true},
+                              {"faces on spheres, 1e18 to 1e300", 1e18, 1e300, true},
+                              {"faces on round bodies, to 1e15", 1e9, 1e15, false},
+                              {"faces on round bodies, to 1e18", 1e15, 1e18, false}};
+  for (const FaceFamily& kind : faces) {
+    Limits limits;
+    if (!kind.sphere) limits.local_share = kind.largest_aspect > 1e15 ? 1 : 0.02;
+    families.push_back(make_family(kind, limits));
   }
   return families;
 }
