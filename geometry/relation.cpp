@@ -59,12 +59,12 @@ Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
   return methods::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
 }
 
-RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
-                                 const exact::IntegerPolynomial& quartic) {
+/// For a pair whose interiors meet.
+RelationAnswer exact_containment(const exact::PairPolynomials& pair) {
   using exact::Containment;
   constexpr Tier tier = Tier::exact;
-  if (exact::equal(a, b)) return {Relation::equal, Inner::none, tier};
-  switch (exact::containment(a, b, quartic)) {
+  if (exact::equal(pair)) return {Relation::equal, Inner::none, tier};
+  switch (exact::containment(pair)) {
     case Containment::interior:
       return {Relation::a_in_b, Inner::none, tier};
     case Containment::touching:
@@ -72,7 +72,7 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
     case Containment::none:
       break;
   }
-  switch (exact::containment(b, a, exact::pair_quartic(b, a))) {
+  switch (exact::containment(pair.exchanged())) {
     case Containment::interior:
       return {Relation::b_in_a, Inner::none, tier};
     case Containment::touching:
@@ -140,12 +140,12 @@ RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
     case Found::b_inside:
       return {Relation::b_in_a, Inner::none, Tier::filter};
     case Found::meeting:
-      return exact_containment(a, b, exact::pair_quartic(a, b));
+      return exact_containment(exact::pair_polynomials(a, b));
     case Found::unknown:
       break;
   }
-  const exact::IntegerPolynomial quartic = exact::pair_quartic(a, b);
-  switch (exact::position(quartic)) {
+  const exact::PairPolynomials pair = exact::pair_polynomials(a, b);
+  switch (exact::position(pair.quartic)) {
     case exact::Position::apart:
       return {Relation::separate, Inner::none, Tier::exact};
     case exact::Position::touching:
@@ -153,7 +153,7 @@ RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
     case exact::Position::interiors_meet:
       break;
   }
-  return exact_containment(a, b, quartic);
+  return exact_containment(pair);
 }
 
 }  // namespace tangency
