@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <tangency/geometry/contract.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
@@ -226,7 +227,7 @@ ContactBounds bounds(const Asked& asked, const Gap& gap) {
 }  // namespace
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
-  assert(separation.allFinite());
+  contract::require_finite("signed_gap", "separation", separation);
   return answer({a, b, &separation}, solve);
 }
 
@@ -236,7 +237,8 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept {
-  assert(separation.allFinite() && previous_normal != Vec3::Zero());
+  contract::require_finite("follow_gap", "separation", separation);
+  assert(previous_normal != Vec3::Zero());
   const Vec3 start = previous_normal.normalized();
   const Asked asked{a, b, &separation};
   return answer(asked, [&](const Pair& pair) { return follow(pair, start, asked); });
@@ -248,7 +250,7 @@ ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& 
 
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                              const Gap& gap) noexcept {
-  assert(separation.allFinite());
+  contract::require_finite("contact_bounds", "separation", separation);
   return bounds({a, b, &separation}, gap);
 }
 

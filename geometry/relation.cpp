@@ -83,13 +83,17 @@ RelationAnswer exact_containment(const exact::PairPolynomials& pair) {
   return {Relation::overlap, Inner::none, tier};
 }
 
+/// What both filters tell.
+Filtered filter_overlap(const Ellipsoid& a, const Ellipsoid& b) {
+  return filtered(a, b, Filtered::unknown,
+                  [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
+                    return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
+                  });
+}
+
 /// Whatever the filter in double does not tell at once.
 OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
-  const Filtered found =
-      filtered(a, b, Filtered::unknown,
-               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
-                 return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
-               });
+  const Filtered found = filter_overlap(a, b);
   if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   const exact::Position position = exact::position(exact::pair_quartic(a, b));
   return {position == exact::Position::interiors_meet, Tier::exact};
@@ -124,6 +128,12 @@ OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
     if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   }
   return doubtful_overlap(a, b);
+}
+
+std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  const Filtered found = filter_overlap(a, b);
+  if (found == Filtered::unknown) return std::nullopt;
+  return found == Filtered::interiors_meet;
 }
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {

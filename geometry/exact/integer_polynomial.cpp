@@ -85,17 +85,21 @@ void IntegerPolynomial::trim() {
   while (!coefficients_.empty() && coefficients_.back() == 0) coefficients_.pop_back();
 }
 
-// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i).
+// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i). Powers of two in d, mostly
+// all of it, are shifts.
 int IntegerPolynomial::sign_at(const mpq_class& x) const {
   if (is_zero()) return 0;
   const mpz_class& numerator = x.get_num();
-  const mpz_class& denominator = x.get_den();
-  mpz_class value = coefficients_.back();
-  mpz_class power = 1;
+  const mp_bitcnt_t shift = mpz_scan1(x.get_den_mpz_t(), 0);
+  const mpz_class denominator = x.get_den() >> shift;
+  mpz_class value = coefficients_.back(), power = 1, term;
+  mp_bitcnt_t shifted = 0;
   for (std::size_t i = coefficients_.size() - 1; i-- > 0;) {
-    power *= denominator;
+    shifted += shift;
     value *= numerator;
-    value += coefficients_[i] * power;
+    term = coefficients_[i] << shifted;
+    if (denominator != 1) term *= power *= denominator;
+    value += term;
   }
   return sgn(value);
 }
