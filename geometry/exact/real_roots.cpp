@@ -171,9 +171,10 @@ RealRoot::RealRoot(const IntegerPolynomial& p, mpq_class low, mpq_class high)
 void RealRoot::cut(const mpq_class& at) {
   assert(low_ < at && at < high_);
   const int sign = p_->sign_at(at);
+  if (before_ == 0) before_ = sign_after(*p_, low_);
   if (sign == 0) {
     low_ = high_ = mpq_class(at);
-  } else if (sign == sign_after(*p_, low_)) {
+  } else if (sign == before_) {
     low_ = at;
   } else {
     high_ = at;

@@ -50,6 +50,7 @@ class RealRoot {
   const IntegerPolynomial* p_;
   mpq_class low_, high_;
   unsigned long digits_ = 1;  ///< how many more narrow() tries for
+  int before_ = 0;            ///< p's sign between low and the root, once known
 };
 
 /// All of them, each refined until no double lies strictly inside its interval. They refer to
