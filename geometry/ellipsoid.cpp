@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <tangency/geometry/exact/double_double_vector.hpp>
@@ -121,11 +122,30 @@ double Ellipsoid::level(const Vec3& point) const noexcept {
   });
 }
 
+// h(e_i) = sqrt(M_ii), outwards by more than rounding: docs/derivations/bounding-box.md.
 Eigen::AlignedBox3d Ellipsoid::bounding_box() const noexcept {
-  const Mat3 factor = rotation_ * semi_axes_.asDiagonal();
-  const Vec3 half(factor.row(0).stableNorm(), factor.row(1).stableNorm(),
-                  factor.row(2).stableNorm());
-  return {centre_ - half, centre_ + half};
+  constexpr double kEpsilon = 0x1p-52, kShape = 10 * kEpsilon, kEntry = 0x1p-93;
+  const auto widened = [&](const Symmetric3& m) {
+    const Vec3 half = Vec3(m.xx, m.yy, m.zz).cwiseSqrt();
+    return Vec3(half + kShape * half);
+  };
+  return in_default_environment([&]() -> Eigen::AlignedBox3d {
+    Vec3 half;
+    if (moderate_) {
+      half = widened(shape_) + Vec3::Constant(kEntry * largest_);
+    } else {
+      const int power = exponent_of(largest_);
+      const auto scaled = [&](double axis) { return scaled_by_power(axis, -power); };
+      const Vec3 axes = semi_axes_.unaryExpr(scaled);
+      const Vec3 unit = widened(with_eigenvalues(rotation_, axes.cwiseAbs2()));
+      const auto back = [&](double h) {
+        return scaled_by_power(h + 2.0 * kEntry, power) + std::numeric_limits<double>::denorm_min();
+      };
+      half = unit.unaryExpr(back);
+    }
+    half += 2.0 * kEpsilon * centre_.cwiseAbs();
+    return {centre_ - half, centre_ + half};
+  });
 }
 
 }  // namespace tangency

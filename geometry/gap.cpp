@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <tangency/geometry/contract.hpp>
 #include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
@@ -282,10 +283,8 @@ ContactBounds bounds(const Asked& asked, const Gap& gap) {
 }  // namespace
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
-  return in_default_environment([&] {
-    assert(separation.allFinite());
-    return answer({a, b, &separation}, solve);
-  });
+  contract::require_finite("signed_gap", "separation", separation);
+  return in_default_environment([&] { return answer({a, b, &separation}, solve); });
 }
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
@@ -294,8 +293,9 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept {
+  contract::require_finite("follow_gap", "separation", separation);
   return in_default_environment([&] {
-    assert(separation.allFinite() && previous_normal != Vec3::Zero());
+    assert(previous_normal != Vec3::Zero());
     const Vec3 start = previous_normal.normalized();
     const Asked asked{a, b, &separation};
     return answer(asked, [&](const Pair& pair) { return follow(pair, start, asked); });
@@ -308,10 +308,8 @@ ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& 
 
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                              const Gap& gap) noexcept {
-  return in_default_environment([&] {
-    assert(separation.allFinite());
-    return bounds({a, b, &separation}, gap);
-  });
+  contract::require_finite("contact_bounds", "separation", separation);
+  return in_default_environment([&] { return bounds({a, b, &separation}, gap); });
 }
 
 }  // namespace tangency

@@ -5,7 +5,9 @@
 #include <bit>
 #include <cassert>
 #include <limits>
+#include <utility>
 
+#include <tangency/geometry/contract.hpp>
 #include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/gap_lanes.hpp>
 
@@ -52,6 +54,7 @@ struct Task {
   const BodyArray* bodies = nullptr;  ///< null: plain pairs
   const IndexedPair* pairs = nullptr;
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
+  const char* call = nullptr;
   const Vec3* separations = nullptr;
   const Vec3* previous_normals = nullptr;
   std::size_t count = 0;
@@ -60,7 +63,9 @@ struct Task {
   const Ellipsoid& a(std::size_t i) const { return bodies ? (*bodies)[pairs[i].a] : plain_a[i]; }
   const Ellipsoid& b(std::size_t i) const { return bodies ? (*bodies)[pairs[i].b] : plain_b[i]; }
 
+  /// What a lane cannot prove: a separation that is not finite is never proven by one.
   Gap single(std::size_t i, const Vec3* previous_normal) const {
+    require_finite_separation(i);
     if (previous_normal != nullptr) {
       const Vec3 d = separations ? separations[i] : Vec3(b(i).centre() - a(i).centre());
       return follow_gap(a(i), b(i), d, *previous_normal);
@@ -70,7 +75,42 @@ struct Task {
 
   bool overlaps(std::size_t i) const {
     if (separations == nullptr) return tangency::overlaps(a(i), b(i));
+    require_finite_separation(i);
     return tangency::overlaps(a(i).moved_to(Vec3::Zero()), b(i).moved_to(separations[i]));
+  }
+
+  std::optional<bool> overlaps_by_filter(std::size_t i) const {
+    if (separations == nullptr) return tangency::overlaps_by_filter(a(i), b(i));
+    require_finite_separation(i);
+    return tangency::overlaps_by_filter(a(i).moved_to(Vec3::Zero()), b(i).moved_to(separations[i]));
+  }
+
+  void require_finite_separation(std::size_t i) const {
+    if (separations != nullptr) contract::require_finite(call, "separation", separations[i]);
+  }
+
+  /// Are the bodies of pairs first to first + n in the array? The two indices of a pair are one
+  /// number p of 64 bits: where neither half has its highest bit, p + room has that of each half that
+  /// is no index. Four instructions a pair, or two where the compiler takes two at once.
+  void require_indices(std::size_t first, std::size_t n) const {
+    static_assert(sizeof(IndexedPair) == sizeof(std::uint64_t));
+    constexpr std::uint64_t kHalf = std::uint64_t{1} << 31, kBoth = (kHalf << 1) + 1;
+    const std::size_t size = bodies->size();
+    if (size > kHalf) return find_outside(first, n);
+    const std::uint64_t room = kBoth * (kHalf - size);
+    std::uint64_t outside = 0;
+    for (std::size_t i = first; i < first + n; ++i) {
+      const auto both = std::bit_cast<std::uint64_t>(pairs[i]);
+      outside |= (both + room) | both;
+    }
+    if ((outside & (kBoth * kHalf)) != 0) find_outside(first, n);
+  }
+  void find_outside(std::size_t first, std::size_t n) const {
+    const std::size_t size = bodies->size();
+    for (std::size_t i = first; i < first + n; ++i) {
+      if (pairs[i].a >= size) contract::outside(call, i, 'a', pairs[i].a, size);
+      if (pairs[i].b >= size) contract::outside(call, i, 'b', pairs[i].b, size);
+    }
   }
 };
 
@@ -119,6 +159,7 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
   if (task.bodies != nullptr) {
+    task.require_indices(first, count);
     block.bodies_a = block.bodies_b = task.bodies->lanes();
     block.shapes_a = block.shapes_b = task.bodies->shapes();
     block.pairs = block_of(task.pairs, first, count, work.pairs);
@@ -225,10 +266,14 @@ void run(const Task& task, const Write& write) noexcept {
   in_default_environment([&] { run_here(task, write); });
 }
 
-Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy = {}) {
+Task task_of(const char* call, const BodyArray& bodies, const PairList& list,
+             Accuracy accuracy = {}) {
   assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0);
-  assert(list.separations.empty() || list.separations.size() == list.pairs.size());
+  if (!list.separations.empty()) {
+    contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
+  }
   Task task;
+  task.call = call;
   task.bodies = &bodies;
   task.pairs = list.pairs.data();
   task.separations = list.separations.empty() ? nullptr : list.separations.data();
@@ -237,45 +282,75 @@ Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy = 
   return task;
 }
 
-Task task_of(const BodyArray& bodies, const PairList& list, Accuracy accuracy,
+Task task_of(const char* call, const BodyArray& bodies, const PairList& list, Accuracy accuracy,
              std::span<const Vec3> normals) {
-  assert(normals.size() == list.pairs.size());
-  Task task = task_of(bodies, list, accuracy);
+  contract::require_length(call, "previous_normals", normals.size(), list.pairs.size());
+  Task task = task_of(call, bodies, list, accuracy);
   task.previous_normals = normals.data();
   return task;
 }
 
-[[maybe_unused]] bool fits(const GapColumns& columns, std::size_t count) {
-  const auto fits_one = [&](const auto& c) { return c.empty() || c.size() == count; };
-  return fits_one(columns.gap) && fits_one(columns.gap_error) && fits_one(columns.normal) &&
-         fits_one(columns.arm_a) && fits_one(columns.arm_b) && fits_one(columns.status);
+void require_columns(const char* call, const GapColumns& columns, std::size_t count) {
+  const auto require = [&](const char* name, const auto& column) {
+    if (!column.empty()) contract::require_length(call, name, column.size(), count);
+  };
+  require("gap", columns.gap);
+  require("gap_error", columns.gap_error);
+  require("normal", columns.normal);
+  require("arm_a", columns.arm_a);
+  require("arm_b", columns.arm_b);
+  require("status", columns.status);
 }
 
-void overlaps_here(const Task& task, std::span<bool> answers) {
-  Workspace work;
-  for (std::size_t first = 0; first < task.count; first += kBlock) {
-    const std::size_t count = std::min(kBlock, task.count - first);
-    gather(task, first, count, work);
-    const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool decided = (lanes.decided >> i & 1) != 0;
-      answers[first + i] = decided ? (lanes.meet >> i & 1) != 0 : task.overlaps(first + i);
+/// Calls answer(i, yes) with what a lane proves and doubtful(i) for the other pairs.
+template <class Answer, class Doubtful>
+void run_overlaps(const Task& task, const Answer& answer, const Doubtful& doubtful) {
+  in_default_environment([&] {
+    Workspace work;
+    for (std::size_t first = 0; first < task.count; first += kBlock) {
+      const std::size_t count = std::min(kBlock, task.count - first);
+      gather(task, first, count, work);
+      const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
+      for (std::size_t i = 0; i < count; ++i) {
+        if ((lanes.decided >> i & 1) != 0) {
+          answer(first + i, (lanes.meet >> i & 1) != 0);
+        } else {
+          doubtful(first + i);
+        }
+      }
     }
-  }
+  });
 }
 
 }  // namespace
+
+BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
+    : BodyArray(std::span<const Ellipsoid>(bodies)) {
+  own_ = std::move(bodies);  // which leaves the ellipsoids where they are
+}
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
     : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
 }
 BodyArray::~BodyArray() = default;
-BodyArray::BodyArray(BodyArray&&) noexcept = default;
-BodyArray& BodyArray::operator=(BodyArray&&) noexcept = default;
+BodyArray::BodyArray(BodyArray&& other) noexcept
+    : own_(std::move(other.own_)),
+      bodies_(std::exchange(other.bodies_, {})),
+      lanes_(std::move(other.lanes_)),
+      shapes_(std::move(other.shapes_)) {}
+
+BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
+  BodyArray taken(std::move(other));
+  std::swap(own_, taken.own_);
+  std::swap(bodies_, taken.bodies_);
+  std::swap(lanes_, taken.lanes_);
+  std::swap(shapes_, taken.shapes_);
+  return *this;
+}
 
 void BodyArray::refresh(std::size_t i) noexcept {
-  assert(i < size());
+  if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
   in_default_environment([&] {
     fill(lanes_[i], bodies_[i]);
     fill(shapes_[i], bodies_[i]);
@@ -284,20 +359,22 @@ void BodyArray::refresh(std::size_t i) noexcept {
 
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy) noexcept {
-  assert(fits(answers, list.pairs.size()));
-  run(task_of(bodies, list, accuracy), ToColumns{answers});
+  require_columns("signed_gaps", answers, list.pairs.size());
+  run(task_of("signed_gaps", bodies, list, accuracy), ToColumns{answers});
 }
 
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
                  Accuracy accuracy) noexcept {
-  assert(answers.size() == list.pairs.size());
-  run(task_of(bodies, list, accuracy), ToGaps{answers});
+  contract::require_length("signed_gaps", "answers", answers.size(), list.pairs.size());
+  run(task_of("signed_gaps", bodies, list, accuracy), ToGaps{answers});
 }
 
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy) noexcept {
-  assert(a.size() == b.size() && answers.size() == a.size());
+  contract::require_length("signed_gaps", "b", b.size(), a.size());
+  contract::require_length("signed_gaps", "answers", answers.size(), a.size());
   Task task;
+  task.call = "signed_gaps";
   task.plain_a = a.data();
   task.plain_b = b.data();
   task.count = a.size();
@@ -308,21 +385,23 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy) noexcept {
-  assert(fits(answers, list.pairs.size()));
-  run(task_of(bodies, list, accuracy, previous_normals), ToColumns{answers});
+  require_columns("follow_gaps", answers, list.pairs.size());
+  run(task_of("follow_gaps", bodies, list, accuracy, previous_normals), ToColumns{answers});
 }
 
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
                  Accuracy accuracy) noexcept {
-  assert(answers.size() == list.pairs.size());
-  run(task_of(bodies, list, accuracy, previous_normals), ToGaps{answers});
+  contract::require_length("follow_gaps", "answers", answers.size(), list.pairs.size());
+  run(task_of("follow_gaps", bodies, list, accuracy, previous_normals), ToGaps{answers});
 }
 
 void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<const Gap> gaps,
                      std::span<GapDerivatives> answers) noexcept {
-  assert(gaps.size() == list.pairs.size() && answers.size() == list.pairs.size());
-  const Task task = task_of(bodies, list);
+  contract::require_length("gap_derivatives", "gaps", gaps.size(), list.pairs.size());
+  contract::require_length("gap_derivatives", "answers", answers.size(), list.pairs.size());
+  const Task task = task_of("gap_derivatives", bodies, list);
+  task.require_indices(0, task.count);
   for (std::size_t i = 0; i < task.count; ++i) {
     const Ellipsoid &a = task.a(i), &b = task.b(i);
     answers[i] = task.separations != nullptr ? gap_derivatives(a, b, task.separations[i], gaps[i])
@@ -331,9 +410,20 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
 }
 
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {
-  assert(answers.size() == list.pairs.size());
-  const Task task = task_of(bodies, list);
-  in_default_environment([&] { overlaps_here(task, answers); });
+  contract::require_length("overlaps", "answers", answers.size(), list.pairs.size());
+  const Task task = task_of("overlaps", bodies, list);
+  run_overlaps(
+      task, [&](std::size_t i, bool yes) { answers[i] = yes; },
+      [&](std::size_t i) { answers[i] = task.overlaps(i); });
+}
+
+void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
+                        std::span<std::optional<bool>> answers) noexcept {
+  contract::require_length("overlaps_by_filter", "answers", answers.size(), list.pairs.size());
+  const Task task = task_of("overlaps_by_filter", bodies, list);
+  run_overlaps(
+      task, [&](std::size_t i, bool yes) { answers[i] = yes; },
+      [&](std::size_t i) { answers[i] = task.overlaps_by_filter(i); });
 }
 
 }  // namespace tangency

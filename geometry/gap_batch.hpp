@@ -15,7 +15,11 @@
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
+#include <optional>
+#include <ranges>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <tangency/geometry/gap.hpp>
@@ -31,25 +35,45 @@ struct LaneBody;
 struct LaneShape;
 }  // namespace methods
 
+/// A temporary container of ellipsoids: one that a span of it would outlive.
+template <class T>
+concept TemporaryEllipsoids =
+    std::ranges::contiguous_range<T> && std::ranges::sized_range<T> &&
+    !std::is_lvalue_reference_v<T> && !std::ranges::borrowed_range<T> &&
+    std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
+
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
 /// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
-/// ellipsoids must outlive it and stay in place.
+/// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
+/// themselves. One that was moved from is empty.
 class BodyArray {
  public:
   explicit BodyArray(std::span<const Ellipsoid> bodies);
+  template <TemporaryEllipsoids T>
+  explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
   ~BodyArray();
   BodyArray(BodyArray&&) noexcept;
   BodyArray& operator=(BodyArray&&) noexcept;
 
   std::size_t size() const noexcept { return bodies_.size(); }
   const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
-  /// To be called after body i was changed. Different bodies may be refreshed by different threads.
+  /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed by different threads.
   void refresh(std::size_t i) noexcept;
 
   const methods::LaneBody* lanes() const noexcept { return lanes_.data(); }
   const methods::LaneShape* shapes() const noexcept { return shapes_.data(); }
 
  private:
+  struct Owned {};
+  BodyArray(Owned, std::vector<Ellipsoid> bodies);
+
+  template <class T>
+  static std::vector<Ellipsoid> owned(T& bodies) {
+    if constexpr (std::is_same_v<T, std::vector<Ellipsoid>>) return std::move(bodies);
+    return {std::ranges::begin(bodies), std::ranges::end(bodies)};
+  }
+
+  std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
   std::span<const Ellipsoid> bodies_;
   std::vector<methods::LaneBody, LargePages<methods::LaneBody>> lanes_;
   std::vector<methods::LaneShape, LargePages<methods::LaneShape>> shapes_;
@@ -91,7 +115,10 @@ struct GapColumns {
   std::span<GapStatus> status = {};
 };
 
-/// signed_gap() of every pair. Lengths that do not match are a broken contract (asserted).
+/// signed_gap() of every pair.
+///
+/// Here and below a length that does not match, an index that is none and a separation that is not
+/// finite end the process with one line on standard error, in every build.
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}) noexcept;
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
@@ -117,5 +144,10 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
 /// overlaps() of every pair: do the interiors meet? Exact for the stored doubles, in any
 /// floating-point environment; given separations are taken as they are.
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept;
+
+/// overlaps_by_filter() of every pair: nothing where only the exact tier would know. In bounded time,
+/// and allocates nothing.
+void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
+                        std::span<std::optional<bool>> answers) noexcept;
 
 }  // namespace tangency

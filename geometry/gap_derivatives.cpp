@@ -2,9 +2,9 @@
 #include <tangency/geometry/gap_derivatives.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/contract.hpp>
 #include <tangency/geometry/floating_point_environment.hpp>
 #include <tangency/geometry/methods/plane_tensor.hpp>
 #include <tangency/geometry/methods/scaled_pair.hpp>
@@ -192,8 +192,8 @@ GapDerivatives solve_scaled(const methods::ScaledPair& pair, const Gap& gap) {
 
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept {
+  contract::require_finite("gap_derivatives", "separation", separation);
   return in_default_environment([&] {
-    assert(separation.allFinite());
     const double largest =
         std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
     if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);

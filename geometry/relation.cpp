@@ -57,12 +57,12 @@ Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
   return methods::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
 }
 
-RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
-                                 const exact::IntegerPolynomial& quartic) {
+/// For a pair whose interiors meet.
+RelationAnswer exact_containment(const exact::PairPolynomials& pair) {
   using exact::Containment;
   constexpr Tier tier = Tier::exact;
-  if (exact::equal(a, b)) return {Relation::equal, Inner::none, tier};
-  switch (exact::containment(a, b, quartic)) {
+  if (exact::equal(pair)) return {Relation::equal, Inner::none, tier};
+  switch (exact::containment(pair)) {
     case Containment::interior:
       return {Relation::a_in_b, Inner::none, tier};
     case Containment::touching:
@@ -70,7 +70,7 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
     case Containment::none:
       break;
   }
-  switch (exact::containment(b, a, exact::pair_quartic(b, a))) {
+  switch (exact::containment(pair.exchanged())) {
     case Containment::interior:
       return {Relation::b_in_a, Inner::none, tier};
     case Containment::touching:
@@ -81,13 +81,17 @@ RelationAnswer exact_containment(const Ellipsoid& a, const Ellipsoid& b,
   return {Relation::overlap, Inner::none, tier};
 }
 
+/// What both filters tell.
+Filtered filter_overlap(const Ellipsoid& a, const Ellipsoid& b) {
+  return filtered(a, b, Filtered::unknown,
+                  [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
+                    return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
+                  });
+}
+
 /// Whatever the filter in double does not tell at once.
 OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
-  const Filtered found =
-      filtered(a, b, Filtered::unknown,
-               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
-                 return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
-               });
+  const Filtered found = filter_overlap(a, b);
   if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   const exact::Position position = exact::position(exact::pair_quartic(a, b));
   return {position == exact::Position::interiors_meet, Tier::exact};
@@ -107,12 +111,12 @@ RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
     case Found::b_inside:
       return {Relation::b_in_a, Inner::none, Tier::filter};
     case Found::meeting:
-      return exact_containment(a, b, exact::pair_quartic(a, b));
+      return exact_containment(exact::pair_polynomials(a, b));
     case Found::unknown:
       break;
   }
-  const exact::IntegerPolynomial quartic = exact::pair_quartic(a, b);
-  switch (exact::position(quartic)) {
+  const exact::PairPolynomials pair = exact::pair_polynomials(a, b);
+  switch (exact::position(pair.quartic)) {
     case exact::Position::apart:
       return {Relation::separate, Inner::none, Tier::exact};
     case exact::Position::touching:
@@ -120,7 +124,7 @@ RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
     case exact::Position::interiors_meet:
       break;
   }
-  return exact_containment(a, b, quartic);
+  return exact_containment(pair);
 }
 
 }  // namespace
@@ -153,6 +157,12 @@ OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
     if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   }
   return in_default_environment([&] { return doubtful_overlap(a, b); });
+}
+
+std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  const Filtered found = in_default_environment([&] { return filter_overlap(a, b); });
+  if (found == Filtered::unknown) return std::nullopt;
+  return found == Filtered::interiors_meet;
 }
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <tangency/bench/families/support.hpp>
@@ -162,6 +163,59 @@ RawPair DeepPairs::next() {
   const Real depth = uniform(random_, family_.least_depth, family_.largest_depth);
   for (std::size_t i = 0; i < 3; ++i)
     pair.b.centre[i] = static_cast<double>(depth * (point_a[i] + point_b[i]));
+  return pair;
+}
+
+HeaviestPairs::HeaviestPairs(std::uint64_t seed, int range) : random_(seed), range_(range) {}
+
+double HeaviestPairs::magnitude() {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const auto exponent = static_cast<int>(uniform(random_, -range_, std::min(range_, 1023)));
+  const auto mantissa = static_cast<double>(uniform(random_, 1, 2));
+  return std::max(least, std::ldexp(mantissa, exponent));
+}
+
+double HeaviestPairs::number() { return random_() % 2 == 0 ? magnitude() : -magnitude(); }
+
+RawEllipsoid HeaviestPairs::body() {
+  RawEllipsoid e;
+  for (double& c : e.centre) c = number();
+  for (double& r : e.semi_axes) r = magnitude();
+  for (double& q : e.orientation) q = number();
+  return e;
+}
+
+RawPair HeaviestPairs::next() {
+  constexpr double most = std::numeric_limits<double>::max();
+  const auto nudged = [&](double x) { return std::nextafter(x, random_() % 2 == 0 ? most : -most); };
+  RawPair pair;
+  pair.a = pair.b = body();
+  RawEllipsoid& b = pair.b;
+  switch (kind_++ % 6) {
+    case 0:
+      b = body();
+      break;
+    case 1:
+      for (double& c : b.centre) c = random_() % 2 == 0 ? c : nudged(c);
+      break;
+    case 2:
+      b.semi_axes[random_() % 3] *= 1 + 0x1p-52;
+      break;
+    case 3:
+      for (double& r : b.semi_axes) {
+        const auto growth = static_cast<int>(random_() % 300);
+        if (random_() % 2 == 0) r = std::min(most, std::ldexp(r, growth));
+      }
+      break;
+    case 4: {
+      double& q = b.orientation[random_() % 4];
+      q = random_() % 2 == 0 ? nudged(q) : q / 2;
+      break;
+    }
+    default:
+      for (double& r : b.semi_axes) r = std::min(most, 2 * r);
+      b.centre[0] = std::clamp(b.centre[0] + b.semi_axes[0] / 4, -most, most);
+  }
   return pair;
 }
 

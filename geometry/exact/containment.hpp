@@ -4,24 +4,27 @@
 ///
 /// S-lemma, Q < 0 inside: A is in the interior of B <=> some t > 0 makes t Q_A - Q_B positive
 /// definite; A is in B, touching its boundary <=> semidefinite for some t > 0, never definite (and
-/// the two not proportional). With P(l) = det(l Q_A + Q_B) and R(t) = P(-t) = det(t Q_A - Q_B):
-/// a definite member makes all roots of R real, and lies between the two largest distinct positive
-/// ones, since of t Q_A - Q_B's four eigenvalues exactly one is negative for large t and it is the
-/// one that the largest root lets through; a semidefinite member that is never definite is the
-/// largest root itself (docs/derivations/relation-filter.md, section 5).
+/// the two not proportional). With P(l) and D(l) of pair_quartic.hpp, R(t) = P(-t) and
+/// C(t) = -D(-t), which up to a factor > 0 are the determinants of t Q_A - Q_B and of its block
+/// t M_A^-1 - M_B^-1, only the largest roots r of R and m of C matter:
+///
+///   r > m: interior where r is a simple root of R, touching where it is a double one;
+///   r = m: touching where it is of higher multiplicity in R than in C, else none;
+///   r < m, or R with complex roots: none.
+///
+/// docs/derivations/relation-filter.md, section 5.
 #pragma once
 
-#include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/exact/integer_polynomial.hpp>
+#include <tangency/geometry/exact/pair_quartic.hpp>
 
 namespace tangency::exact {
 
 enum class Containment { none, touching, interior };
 
-/// Does B contain A? Requires two bodies that are not equal, and their quartic pair_quartic(a, b).
-Containment containment(const Ellipsoid& a, const Ellipsoid& b, const IntegerPolynomial& quartic);
+/// Does B contain A? Requires the polynomials of (A, B), whose interiors meet and who are not equal.
+Containment containment(const PairPolynomials& pair);
 
-/// Are they the same point set?
-bool equal(const Ellipsoid& a, const Ellipsoid& b);
+/// Are A and B the same point set?
+bool equal(const PairPolynomials& pair);
 
 }  // namespace tangency::exact

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <utility>
 
 namespace tangency::exact {
@@ -41,6 +42,38 @@ int quartic_discriminant_sign(std::span<const mpz_class> coefficients) {
   return sgn(mpz_class(4 * i * i * i - j * j));
 }
 
+/// Arithmetic modulo the prime 2^61 - 1.
+constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
+
+std::uint64_t modular_product(std::uint64_t a, std::uint64_t b) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(Wide{a} * b % kPrime);
+}
+
+std::vector<std::uint64_t> modular(const IntegerPolynomial& p) {
+  std::vector<std::uint64_t> residues;
+  for (const mpz_class& c : p.coefficients()) {
+    residues.push_back(mpz_fdiv_ui(c.get_mpz_t(), kPrime));
+  }
+  return residues;
+}
+
+/// Euclid's algorithm, each remainder up to a factor: is the last one a constant other than 0?
+/// Requires leading coefficients that are not 0.
+bool modular_coprime(std::vector<std::uint64_t> a, std::vector<std::uint64_t> b) {
+  for (;;) {
+    if (a.size() < b.size()) std::swap(a, b);
+    if (b.size() <= 1) return !b.empty();
+    const std::size_t shift = a.size() - b.size();
+    const std::uint64_t weight = a.back(), factor = b.back();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const std::uint64_t taken = i < shift ? 0 : modular_product(weight, b[i - shift]);
+      a[i] = (modular_product(factor, a[i]) + (kPrime - taken)) % kPrime;
+    }
+    while (!a.empty() && a.back() == 0) a.pop_back();
+  }
+}
+
 }  // namespace
 
 IntegerPolynomial::IntegerPolynomial(std::vector<mpz_class> coefficients)
@@ -52,17 +85,21 @@ void IntegerPolynomial::trim() {
   while (!coefficients_.empty() && coefficients_.back() == 0) coefficients_.pop_back();
 }
 
-// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i).
+// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i). Powers of two in d, mostly
+// all of it, are shifts.
 int IntegerPolynomial::sign_at(const mpq_class& x) const {
   if (is_zero()) return 0;
   const mpz_class& numerator = x.get_num();
-  const mpz_class& denominator = x.get_den();
-  mpz_class value = coefficients_.back();
-  mpz_class power = 1;
+  const mp_bitcnt_t shift = mpz_scan1(x.get_den_mpz_t(), 0);
+  const mpz_class denominator = x.get_den() >> shift;
+  mpz_class value = coefficients_.back(), power = 1, term;
+  mp_bitcnt_t shifted = 0;
   for (std::size_t i = coefficients_.size() - 1; i-- > 0;) {
-    power *= denominator;
+    shifted += shift;
     value *= numerator;
-    value += coefficients_[i] * power;
+    term = coefficients_[i] << shifted;
+    if (denominator != 1) term *= power *= denominator;
+    value += term;
   }
   return sgn(value);
 }
@@ -166,6 +203,14 @@ IntegerPolynomial gcd(IntegerPolynomial a, IntegerPolynomial b) {
   return a.sign_at_plus_infinity() < 0 ? -a : a;
 }
 
+// A common root would be a common factor, whose leading coefficient divides both leading ones: where
+// these are not 0 modulo a prime the factor keeps its degree there.
+bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b) {
+  const std::vector<std::uint64_t> ra = modular(a), rb = modular(b);
+  if (ra.back() != 0 && rb.back() != 0 && modular_coprime(ra, rb)) return true;
+  return gcd(a, b).degree() < 1;
+}
+
 IntegerPolynomial exact_quotient(IntegerPolynomial a, const IntegerPolynomial& b) {
   assert(!b.is_zero());
   if (a.is_zero()) return {};
@@ -185,6 +230,18 @@ IntegerPolynomial square_free_part(const IntegerPolynomial& p) {
   if (p.degree() < 1) return p.primitive_part();
   const IntegerPolynomial primitive = p.primitive_part();
   return exact_quotient(primitive, gcd(primitive, primitive.derivative()));
+}
+
+int sign_changes(const IntegerPolynomial& p) noexcept {
+  int count = 0;
+  int previous = 0;
+  for (const mpz_class& c : p.coefficients()) {
+    const int sign = sgn(c);
+    if (sign == 0) continue;
+    if (sign == -previous) ++count;
+    previous = sign;
+  }
+  return count;
 }
 
 int discriminant_sign(const IntegerPolynomial& p) {

@@ -7,6 +7,7 @@
 /// (3) square_free_part(p) has the roots of p, each once.
 /// (4) SturmSequence(p).roots_between(a, b) + roots_between(b, c) = roots_between(a, c).
 /// (5) discriminant_sign(p) = 0 if and only if p has a multiple root, real or complex.
+/// (6) coprime(p, q) if and only if gcd(p, q) is constant.
 #pragma once
 
 #include <gmpxx.h>
@@ -61,12 +62,20 @@ IntegerPolynomial positive_pseudo_remainder(IntegerPolynomial a, const IntegerPo
 /// Primitive, with a leading coefficient > 0; zero where both are zero.
 IntegerPolynomial gcd(IntegerPolynomial a, IntegerPolynomial b);
 
+/// Have they no common root, real or complex? Requires two that are not zero. Quick where the answer
+/// is yes.
+bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b);
+
 /// a / b. Requires that b != 0 divides a in integers (by Gauss' lemma enough: b is primitive and
 /// divides a over the rationals).
 IntegerPolynomial exact_quotient(IntegerPolynomial a, const IntegerPolynomial& b);
 
 /// Primitive, a leading coefficient of p's sign; zero for zero.
 IntegerPolynomial square_free_part(const IntegerPolynomial& p);
+
+/// Changes of sign from coefficient to coefficient, zeros skipped: by Descartes' rule the number of
+/// positive roots, each as often as its multiplicity, where all roots are real.
+int sign_changes(const IntegerPolynomial& p) noexcept;
 
 /// Sign of the discriminant, lc^(2n-2) times the product of the squared differences of the roots,
 /// in closed form. Requires degree 1 (sign +1) to 4.

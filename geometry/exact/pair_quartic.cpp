@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include <tangency/geometry/exact/ellipsoid_form.hpp>
 #include <tangency/geometry/exact/integer_forms.hpp>
@@ -39,8 +41,8 @@ struct Body {
 
 Body body(const Ellipsoid& e, int exponent) {
   const Quaternion orientation = e.orientation();
-  const std::array<double, 4> q = {orientation.w(), orientation.x(), orientation.y(),
-                                   orientation.z()};
+  std::array<double, 4> q = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
+  if (e.is_sphere()) q = {1.0, 0.0, 0.0, 0.0};  // any is as good: the shortest numbers
   const int unit = common_exponent(q);
   const mpz_class w = to_integer(q[0], unit), x = to_integer(q[1], unit);
   const mpz_class y = to_integer(q[2], unit), z = to_integer(q[3], unit);
@@ -74,9 +76,23 @@ Body body(const Ellipsoid& e, int exponent) {
   return body;
 }
 
+/// Divided by the largest power of two that divides all.
+IntegerPolynomial without_powers_of_two(std::vector<mpz_class> coefficients) {
+  mp_bitcnt_t common = ~mp_bitcnt_t{0};
+  for (const mpz_class& c : coefficients) {
+    if (c != 0) common = std::min(common, mpz_scan1(c.get_mpz_t(), 0));
+  }
+  for (mpz_class& c : coefficients) c >>= common;
+  return IntegerPolynomial(std::move(coefficients));
+}
+
+IntegerPolynomial reversed(const IntegerPolynomial& p) {
+  return IntegerPolynomial({p.coefficients().rbegin(), p.coefficients().rend()});
+}
+
 }  // namespace
 
-IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b) {
+PairPolynomials pair_polynomials(const Ellipsoid& a, const Ellipsoid& b) {
   const int unit = std::min(length_exponent(a), length_exponent(b));
   const Body ba = body(a, unit), bb = body(b, unit);
   std::array<mpz_class, 3> d;
@@ -87,14 +103,19 @@ IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b) {
   const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2],
                         d[1] * d[2], d[2] * d[0], d[0] * d[1]};
 
-  // |q_A|^4 |q_B|^4 (l N - (1 + l) D)
+  // |q_A|^4 |q_B|^4 D and |q_A|^4 |q_B|^4 (l N - (1 + l) D)
   const mpz_class norms = ba.norm2 * bb.norm2;
   const mpz_class n0 = bb.norm2 * form(ba.adjugate, dd), n2 = ba.norm2 * form(bb.adjugate, dd);
   const mpz_class n1 = form(mixed_adjugate(ba.shape, bb.shape), dd);
   const mpz_class d0 = norms * ba.determinant, d3 = norms * bb.determinant;
   const mpz_class d1 = trace_of_product(ba.adjugate, bb.shape);
   const mpz_class d2 = trace_of_product(bb.adjugate, ba.shape);
-  return IntegerPolynomial({-d0, n0 - d1 - d0, n1 - d2 - d1, n2 - d3 - d2, -d3});
+  return {without_powers_of_two({-d0, n0 - d1 - d0, n1 - d2 - d1, n2 - d3 - d2, -d3}),
+          without_powers_of_two({d0, d1, d2, d3})};
+}
+
+PairPolynomials PairPolynomials::exchanged() const {
+  return {reversed(quartic), reversed(shapes)};
 }
 
 Position position(const IntegerPolynomial& quartic) {
@@ -104,7 +125,11 @@ Position position(const IntegerPolynomial& quartic) {
   const int discriminant = discriminant_sign(quartic);
   if (discriminant > 0) return Position::apart;
   if (discriminant < 0) return Position::interiors_meet;
-  switch (SturmSequence(quartic).roots_above(0)) {
+  const IntegerPolynomial distinct = square_free_part(quartic);
+  // One real root is the negative one that is double, by identity (2).
+  if (distinct.degree() == 3 && discriminant_sign(distinct) < 0) return Position::interiors_meet;
+  // All roots are real: by Descartes' rule they change the sign once for each that is positive.
+  switch (sign_changes(distinct)) {
     case 0:
       return Position::interiors_meet;
     case 1:

@@ -10,6 +10,7 @@
 /// (2) P has at least two negative roots, counted with multiplicity [WangWangKim2001].
 /// (3) The solids are apart <=> P has two distinct positive roots; they touch from outside <=> one
 ///     (double) positive root; their interiors meet <=> none [WangWangKim2001].
+/// (4) pair_polynomials(b, a) is pair_polynomials(a, b).exchanged().
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
@@ -17,8 +18,20 @@
 
 namespace tangency::exact {
 
-/// Coefficients from the constant upwards, degree 4.
-IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b);
+/// What an exact question about a pair is asked of, each up to a factor > 0.
+struct PairPolynomials {
+  IntegerPolynomial quartic;  ///< P(l), of degree 4
+  IntegerPolynomial shapes;   ///< D(l) = det(M_A + l M_B), of degree 3
+
+  /// Those of (B, A).
+  PairPolynomials exchanged() const;
+};
+
+PairPolynomials pair_polynomials(const Ellipsoid& a, const Ellipsoid& b);
+
+inline IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b) {
+  return pair_polynomials(a, b).quartic;
+}
 
 enum class Position { apart, touching, interiors_meet };
 

@@ -139,7 +139,9 @@ PencilInvariants pencil_invariants(const IntegerForm<4>& a, const IntegerForm<4>
 
 std::vector<PencilMember> pencil_members(const IntegerForm<4>& a, const IntegerForm<4>& b) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const PencilInvariants invariants = pencil_invariants(a, b);
+  PencilInvariants invariants = pencil_invariants(a, b);
+  // Their contents are many times as long as what is left, and tell nothing.
+  for (IntegerPolynomial& invariant : invariants) invariant = invariant.primitive_part();
   Roots all_roots(invariants);
   std::vector<Root>& roots = all_roots.sorted();
   const std::vector<mpq_class> between = samples(roots);

@@ -82,6 +82,24 @@ long root_bound(std::span<const mpz_class> coefficients, const mpz_class& leadin
   return static_cast<long>(largest) - static_cast<long>(mpz_sizeinbase(leading.get_mpz_t(), 2)) + 2;
 }
 
+/// 2^shift x for a dyadic x. Requires that this is an integer.
+mpz_class scaled(const mpq_class& x, mp_bitcnt_t shift) {
+  return x.get_num() << (shift - mpz_scan1(x.get_den_mpz_t(), 0));
+}
+
+/// 2^(n shift) p(x / 2^shift), n the degree: Horner's rule.
+mpz_class value_at(const IntegerPolynomial& p, const mpz_class& x, mp_bitcnt_t shift) {
+  const auto c = p.coefficients();
+  mpz_class value = p.leading();
+  mp_bitcnt_t shifted = 0;
+  for (std::size_t i = c.size() - 1; i-- > 0;) {
+    value *= x;
+    shifted += shift;
+    value += c[i] << shifted;
+  }
+  return value;
+}
+
 /// Sign of the square-free p immediately above x, which may be a root.
 int sign_after(const IntegerPolynomial& p, const mpq_class& x) {
   const int sign = p.sign_at(x);
@@ -93,13 +111,19 @@ int roots_inside(const SturmSequence& sturm, const mpq_class& low, const mpq_cla
   return sturm.roots_between(low, high) - (sturm.square_free().sign_at(high) == 0 ? 1 : 0);
 }
 
+/// A lower bound on the magnitudes of all roots but 0.
+mpq_class least_root(const IntegerPolynomial& p) {
+  const auto coefficients = p.coefficients();
+  const auto lowest = std::find_if(coefficients.begin(), coefficients.end(),
+                                   [](const mpz_class& c) { return c != 0; });
+  return power_of_two(-root_bound(coefficients, *lowest));
+}
+
 class Isolation {
  public:
-  explicit Isolation(const SturmSequence& sturm) : sturm_(sturm) {
+  explicit Isolation(const SturmSequence& sturm)
+      : sturm_(sturm), least_(least_root(sturm.square_free())) {
     const auto coefficients = sturm.square_free().coefficients();
-    const auto lowest = std::find_if(coefficients.begin(), coefficients.end(),
-                                     [](const mpz_class& c) { return c != 0; });
-    least_ = power_of_two(-root_bound(coefficients, *lowest));
     most_ = power_of_two(root_bound(coefficients, coefficients.back()));
   }
 
@@ -147,16 +171,41 @@ RealRoot::RealRoot(const IntegerPolynomial& p, mpq_class low, mpq_class high)
 void RealRoot::cut(const mpq_class& at) {
   assert(low_ < at && at < high_);
   const int sign = p_->sign_at(at);
+  if (before_ == 0) before_ = sign_after(*p_, low_);
   if (sign == 0) {
     low_ = high_ = mpq_class(at);
-  } else if (sign == sign_after(*p_, low_)) {
+  } else if (sign == before_) {
     low_ = at;
   } else {
     high_ = at;
   }
 }
 
-void RealRoot::halve() { cut((low_ + high_) / 2); }
+void RealRoot::halve() { cut(halfway(low_, high_, least_root(*p_))); }
+
+// Quadratic interval refinement: where the chord between the ends crosses 0, an interval
+// 2^-digits as wide; as many digits again where the root is in it.
+void RealRoot::narrow() {
+  if (is_exact()) return;
+  const bool same_scale = low_ > 0 ? high_ <= 4 * low_ : high_ < 0 && low_ >= 4 * high_;
+  const mp_bitcnt_t shift = digits_ + std::max(mpz_scan1(low_.get_den_mpz_t(), 0),
+                                               mpz_scan1(high_.get_den_mpz_t(), 0));
+  const mpz_class low = scaled(low_, shift), high = scaled(high_, shift);
+  const mpz_class at_low = value_at(*p_, low, shift), at_high = value_at(*p_, high, shift);
+  if (!same_scale || sgn(at_low) * sgn(at_high) >= 0) return halve();
+
+  const mpz_class part = (high - low) >> digits_;
+  const mpz_class before = (at_low << digits_) / (at_low - at_high);  // parts, below 2^digits
+  for (const mpz_class& at : {mpz_class(low + before * part), mpz_class(low + (before + 1) * part)}) {
+    mpq_class end = at;
+    end >>= shift;
+    if (low_ < end && end < high_) cut(end);
+  }
+  if (is_exact()) return;
+  const bool inside = (high_ - low_) * mpq_class(mpz_class(1) << shift) == part;
+  digits_ = inside ? 2 * digits_ : std::max<mp_bitcnt_t>(1, digits_ / 2);
+  if (!inside) halve();
+}
 
 double RealRoot::below() const { return double_below(low_); }
 double RealRoot::above() const { return double_above(high_); }
@@ -180,8 +229,10 @@ int compare(RealRoot& a, RealRoot& b) {
   const auto apart = [&] { return a.high_ <= b.low_ || b.high_ <= a.low_; };
   if (!apart() && !a.is_exact() && !b.is_exact()) {
     const mpq_class low = std::max(a.low_, b.low_), high = std::min(a.high_, b.high_);
-    const IntegerPolynomial common = gcd(*a.p_, *b.p_);
-    if (common.degree() > 0 && roots_inside(SturmSequence(common), low, high) != 0) return 0;
+    if (!coprime(*a.p_, *b.p_) &&
+        roots_inside(SturmSequence(gcd(*a.p_, *b.p_)), low, high) != 0) {
+      return 0;
+    }
   }
   while (!apart()) {
     if (b.is_exact()) {
@@ -189,8 +240,8 @@ int compare(RealRoot& a, RealRoot& b) {
     } else if (a.is_exact()) {
       b.cut(a.low_);
     } else {
-      a.halve();
-      if (!apart()) b.halve();
+      // The wider one, or the other would gain digits that tell nothing.
+      (a.high_ - a.low_ < b.high_ - b.low_ ? b : a).narrow();
     }
   }
   if (a.is_exact() && b.is_exact()) return cmp(a.low_, b.low_);
@@ -199,7 +250,7 @@ int compare(RealRoot& a, RealRoot& b) {
 
 mpq_class sample_between(RealRoot& left, RealRoot& right) {
   while (left.high() == right.low() && (left.is_exact() || right.is_exact())) {
-    (left.is_exact() ? right : left).halve();
+    (left.is_exact() ? right : left).narrow();
   }
   if (left.high() == right.low()) return left.high();
   const mpq_class middle = (left.high() + right.low()) / 2;

@@ -31,8 +31,11 @@ class RealRoot {
   /// Keeps the side of the cut that holds the root, or finds that the root is the cut.
   /// Requires low < cut < high.
   void cut(const mpq_class& at);
-  /// Requires an inexact root.
+  /// In the exponent where the ends are far apart, which beyond the range of doubles they may be by
+  /// thousands. Requires an inexact root.
   void halve();
+  /// At least halved; in the end each time by twice as many digits as before.
+  void narrow();
 
   /// The largest double <= the root and the smallest >= it, once refined; infinite where there is
   /// no finite one.
@@ -46,6 +49,8 @@ class RealRoot {
  private:
   const IntegerPolynomial* p_;
   mpq_class low_, high_;
+  unsigned long digits_ = 1;  ///< how many more narrow() tries for
+  int before_ = 0;            ///< p's sign between low and the root, once known
 };
 
 /// All of them, each refined until no double lies strictly inside its interval. They refer to

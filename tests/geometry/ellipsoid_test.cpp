@@ -4,9 +4,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <random>
 #include <string>
+#include <vector>
 
+#include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
@@ -129,11 +135,102 @@ RC_GTEST_PROP(EllipsoidProperty, SolidDependsOnNeitherSignNorLengthOfTheQuaterni
   RC_ASSERT(std::abs(half_turned.support(n) - e.support(n)) <= bound);
 }
 
+/// The square of the half width along axis i, in units of 2^exponent, as a fraction: M_ii with
+/// R = R~ / |q|^2.
+struct Fraction {
+  mpz_class numerator, denominator;
+};
+
+Fraction squared_half_width(const Ellipsoid& e, int i, int exponent) {
+  const Quaterniond q = e.orientation();
+  const std::array<double, 4> stored{q.w(), q.x(), q.y(), q.z()};
+  const int unit = exact::common_exponent(stored);
+  std::array<mpz_class, 4> z;
+  for (std::size_t k = 0; k < 4; ++k) z[k] = exact::to_integer(stored[k], unit);
+  const mpz_class &w = z[0], &x = z[1], &y = z[2], &v = z[3];
+  const std::array<std::array<mpz_class, 3>, 3> r{
+      {{w * w + x * x - y * y - v * v, 2 * (x * y - w * v), 2 * (x * v + w * y)},
+       {2 * (x * y + w * v), w * w - x * x + y * y - v * v, 2 * (y * v - w * x)},
+       {2 * (x * v - w * y), 2 * (y * v + w * x), w * w - x * x - y * y + v * v}}};
+  mpz_class sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const mpz_class term =
+        r[static_cast<std::size_t>(i)][k] * exact::to_integer(e.semi_axes()[static_cast<int>(k)], exponent);
+    sum += term * term;
+  }
+  const mpz_class norm = w * w + x * x + y * y + v * v;
+  return {sum, norm * norm};
+}
+
+/// Is the side, at a distance (side - centre) sign from the centre, no nearer than the solid reaches?
+bool encloses(const Ellipsoid& e, int i, double side, int sign) {
+  if (!std::isfinite(side)) return side == sign * kInf;
+  const Vec3 &c = e.centre(), &r = e.semi_axes();
+  const std::array<double, 5> lengths{c[i], side, r[0], r[1], r[2]};
+  const int unit = exact::common_exponent(lengths);
+  const mpz_class distance =
+      sign * (exact::to_integer(side, unit) - exact::to_integer(c[i], unit));
+  const Fraction h2 = squared_half_width(e, i, unit);
+  return distance > 0 && distance * distance * h2.denominator >= h2.numerator;
+}
+
+// Against exact arithmetic: ordinary bodies far and near, needles and discs, and every number over the
+// whole range of exponents.
+TEST(Ellipsoid, BoundingBoxEnclosesOnEachOfAHundredThousandSides) {
+  std::mt19937_64 random(20261122);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  const auto any = [&](double range) { return std::exp2(uniform(-range, range)); };
+  const auto centre = [&](double range) { return (random() & 1) != 0 ? any(range) : -any(range); };
+  int inside = 0;
+  for (int n = 0; n < 16700; ++n) {
+    const double range = n % 8 == 0 ? 1022 : n % 8 == 1 ? 300 : n % 2 == 0 ? 30 : 3;
+    const double turn = n % 16 == 0 ? 1000 : 3;
+    const Ellipsoid e({centre(range), centre(range), n % 3 == 0 ? 0.0 : centre(range)},
+                      {any(range), any(range), any(range)},
+                      {centre(turn), centre(turn), centre(turn), centre(turn)});
+    const auto box = e.bounding_box();
+    for (int i = 0; i < 3; ++i) {
+      inside += !encloses(e, i, box.max()[i], 1) + !encloses(e, i, box.min()[i], -1);
+    }
+  }
+  EXPECT_EQ(inside, 0);
+}
+
+TEST(Ellipsoid, BoundingBoxEnclosesInEveryRoundingModeAndAmongSubnormals) {
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  std::vector<Ellipsoid> bodies{Ellipsoid({0, tiny, -tiny}, {tiny, 3 * tiny, 0x1p-1040}, {1, 2, 3, 4}),
+                                Ellipsoid({1, 1e300, -1e-300}, {tiny, 1e-300, 5}, {1, 2, 3, 4}),
+                                Ellipsoid({0.1, 0.7, -3}, {0.1, 0.3, 0.7}, {0.1, 0.2, 0.3, 0.4})};
+  for (const auto& environment : testing::all_environments()) {
+    for (const Ellipsoid& built : bodies) {
+      std::array<double, 6> sides;
+      {
+        const testing::EnvironmentGuard guard(environment);
+        const Ellipsoid e(built.centre(), built.semi_axes(), built.orientation());
+        const auto box = e.bounding_box();
+        for (std::size_t i = 0; i < 3; ++i) {
+          sides[i] = box.max()[static_cast<int>(i)];
+          sides[i + 3] = box.min()[static_cast<int>(i)];
+        }
+      }
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(encloses(built, i, sides[static_cast<std::size_t>(i)], 1)) << environment.name;
+        EXPECT_TRUE(encloses(built, i, sides[static_cast<std::size_t>(i) + 3], -1))
+            << environment.name;
+      }
+    }
+  }
+}
+
 RC_GTEST_PROP(EllipsoidProperty, BoundingBoxTouchesTheSolidOnAllSixSides, ()) {
   const Ellipsoid e = *testing::ellipsoid(1e3);
   const auto box = e.bounding_box();
-  const double bound = 16 * kU * (e.largest_semi_axis() + e.centre().norm());
   for (int i = 0; i < 3; ++i) {
+    // 40 u are promised, 8 u are for support().
+    const double bound =
+        kU * (40 * (e.support(Vec3::Unit(i)) + std::abs(e.centre()[i])) + 8 * e.largest_semi_axis());
     const Vec3 unit = Vec3::Unit(i);
     RC_ASSERT(std::abs(box.max()[i] - (e.centre()[i] + e.support(unit))) <= bound);
     RC_ASSERT(std::abs(box.min()[i] - (e.centre()[i] - e.support(unit))) <= bound);

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -359,6 +362,125 @@ TEST(GapBatch, BodiesBeyondTheRangeOfTheBoundsAreAnsweredOneByOne) {
     signed_gaps(a, b, gaps);
     for (const Gap& g : gaps) ASSERT_TRUE(same_bits(g, signed_gap(a[0], b[0])));
   });
+}
+
+/// Two bodies, and one pair more than fits into a block.
+struct Few {
+  Few() : bodies(two), pairs(65, IndexedPair{0, 1}), gaps(65), separations(65, Vec3(3, 0, 0)) {}
+  std::vector<Ellipsoid> two{Ellipsoid(Vec3(0, 0, 0), Vec3(1, 2, 3)),
+                             Ellipsoid(Vec3(3, 0, 0), Vec3(1, 2, 1))};
+  BodyArray bodies;
+  std::vector<IndexedPair> pairs;
+  std::vector<Gap> gaps;
+  std::vector<Vec3> separations;
+  std::array<bool, 65> yes{};
+  std::array<std::optional<bool>, 65> known{};
+};
+
+TEST(BrokenContract, OfLengthsEndsTheProcessAndNamesThem) {
+  Few f;
+  std::vector<Gap> few(64);
+  std::vector<double> numbers(64);
+  std::vector<Vec3> vectors(64);
+  std::vector<GapDerivatives> derivatives(65);
+  EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, few),
+               "tangency: signed_gaps: answers: 64 entries, and there are 65 pairs");
+  EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, vectors}, f.gaps), "signed_gaps: separations: 64");
+  EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, {.gap_error = numbers}),
+               "signed_gaps: gap_error: 64");
+  EXPECT_DEATH(signed_gaps(f.two, std::span(f.two).first(1), few), "signed_gaps: b: 1");
+  EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, {}}, vectors, f.gaps),
+               "follow_gaps: previous_normals: 64");
+  EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, {}}, f.separations, {.normal = vectors}),
+               "follow_gaps: normal: 64");
+  EXPECT_DEATH(gap_derivatives(f.bodies, {f.pairs, {}}, few, derivatives),
+               "gap_derivatives: gaps: 64");
+  EXPECT_DEATH(overlaps(f.bodies, {f.pairs, {}}, std::span(f.yes).first(3)), "overlaps: answers: 3");
+}
+
+TEST(BrokenContract, OfAnIndexEndsTheProcessAndNamesThePair) {
+  for (const std::uint32_t bad : {2u, 0x7fffffffu, 0x80000000u, 0x80000002u, 0xffffffffu}) {
+    Few f;
+    f.pairs[64].b = bad;
+    EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, f.gaps),
+                 "tangency: signed_gaps: pairs.64..b = " + std::to_string(bad) +
+                     ", and there are 2 bodies");
+    f.pairs[64].b = 1;
+    f.pairs[3].a = bad;
+    EXPECT_DEATH(overlaps(f.bodies, {f.pairs, {}}, f.yes), "overlaps: pairs.3..a = ");
+  }
+  Few f;
+  std::vector<GapDerivatives> derivatives(65);
+  f.pairs[7] = {0, 2};
+  EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, {}}, f.separations, f.gaps), "follow_gaps: pairs.7.");
+  EXPECT_DEATH(gap_derivatives(f.bodies, {f.pairs, {}}, f.gaps, derivatives),
+               "gap_derivatives: pairs.7.");
+  EXPECT_DEATH(overlaps_by_filter(f.bodies, {f.pairs, {}}, f.known), "overlaps_by_filter: pairs.7.");
+  EXPECT_DEATH(f.bodies.refresh(2), "BodyArray::refresh: body 2, and there are 2 bodies");
+}
+
+TEST(BrokenContract, OfASeparationThatIsNotFiniteEndsTheProcess) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {nan, infinity, -infinity}) {
+      Few f;
+      f.separations[5][axis] = bad;
+      const PairList list{f.pairs, f.separations};
+      EXPECT_DEATH(signed_gaps(f.bodies, list, f.gaps), "signed_gaps: separation = .*: must be finite");
+      EXPECT_DEATH(follow_gaps(f.bodies, list, f.separations, f.gaps), "follow_gaps: separation");
+      EXPECT_DEATH(overlaps(f.bodies, list, f.yes), "overlaps: separation");
+      EXPECT_DEATH(signed_gap(f.two[0], f.two[1], f.separations[5]), "signed_gap: separation");
+    }
+  }
+}
+
+TEST(BodyArray, ThatWasMovedFromIsEmptyAndRefusesEveryIndex) {
+  Few f;
+  BodyArray moved(std::move(f.bodies));
+  EXPECT_EQ(moved.size(), 2u);
+  EXPECT_EQ(f.bodies.size(), 0u);  // NOLINT: what is left of it is promised
+  EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, f.gaps), "and there are 0 bodies");
+  signed_gaps(moved, {f.pairs, {}}, f.gaps);
+  EXPECT_TRUE(same_bits(f.gaps[64], signed_gap(f.two[0], f.two[1])));
+  BodyArray assigned{{}};
+  assigned = std::move(moved);
+  EXPECT_EQ(assigned.size(), 2u);
+  EXPECT_EQ(moved.size(), 0u);
+}
+
+TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
+  const Few f;
+  BodyArray of_vector(std::vector<Ellipsoid>{f.two});
+  const BodyArray of_array(std::array<Ellipsoid, 2>{f.two[0], f.two[1]});
+  const BodyArray moved(std::move(of_vector));
+  const BodyArray of_lvalue(f.two), of_span((std::span<const Ellipsoid>(f.two)));
+  EXPECT_EQ(&of_lvalue[0], f.two.data());
+  EXPECT_EQ(&of_span[0], f.two.data());
+  for (const BodyArray* bodies : {&moved, &of_array}) {
+    ASSERT_EQ(bodies->size(), 2u);
+    EXPECT_NE(&(*bodies)[0], f.two.data());
+    std::vector<Gap> gaps(65);
+    signed_gaps(*bodies, {f.pairs, {}}, gaps);
+    EXPECT_TRUE(same_bits(gaps[0], signed_gap(f.two[0], f.two[1])));
+  }
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#define GUIDE_EXAMPLE(number)                                                                    \
+  void guide_example_##number(const Ellipsoid& a, const Ellipsoid& b,                            \
+                              std::vector<Ellipsoid>& ellipsoids,                                \
+                              const std::vector<IndexedPair>& pairs,                             \
+                              const std::vector<Vec3>& separations)
+#include "guide_examples.inc"
+#pragma GCC diagnostic pop
+
+TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
+  Few f;
+  guide_example_1(f.two[0], f.two[1], f.two, f.pairs, f.separations);
+  guide_example_2(f.two[0], f.two[1], f.two, f.pairs, f.separations);
 }
 
 TEST(GapBatch, ARefreshedBodyIsTheChangedOne) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <set>
 
+#include <tangency/geometry/exact/largest_root.hpp>
+
 namespace tangency::exact {
 namespace {
 
@@ -123,6 +125,95 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheDiscriminantIsPositiveForRealRootsZe
   const int expected = repeated ? 0 : pairs % 2 == 0 ? 1 : -1;
   RC_ASSERT(discriminant_sign(f.polynomial) == expected);
   RC_TAG(f.polynomial.degree(), expected);
+}
+
+// geometry/exact/integer_polynomial.hpp (6)
+RC_GTEST_PROP(IntegerPolynomialProperty, CoprimeIsWhatHasAConstantDivisor, ()) {
+  const Factored f = factored(3, 1), g = factored(3, 1);
+  const bool expected = gcd(f.polynomial, g.polynomial).degree() < 1;
+  RC_ASSERT(coprime(f.polynomial, g.polynomial) == expected);
+  RC_TAG(expected);
+}
+
+TEST(IntegerPolynomial, IsCoprimeAlsoWhereAPrimeDividesItsLeadingCoefficients) {
+  const mpz_class prime = (mpz_class(1) << 61) - 1;
+  const IntegerPolynomial f({mpz_class(-1), prime}), g({mpz_class(-2), prime});
+  EXPECT_TRUE(coprime(f, g));
+  EXPECT_FALSE(coprime(f * g, f));
+}
+
+/// A polynomial all of whose roots are positive, over binary places that doubles do not have, some
+/// so close together that only hundreds of digits tell them apart; and its greatest root.
+struct Positive {
+  IntegerPolynomial polynomial = IntegerPolynomial({mpz_class(1)});
+  std::vector<mpq_class> roots;
+
+  int times_largest() const {
+    const mpq_class largest = *std::max_element(roots.begin(), roots.end());
+    return static_cast<int>(std::count(roots.begin(), roots.end(), largest));
+  }
+};
+
+mpq_class scaled(const mpq_class& x, int exponent) {
+  mpq_class result = x;
+  if (exponent >= 0) result <<= static_cast<mp_bitcnt_t>(exponent);
+  if (exponent < 0) result >>= static_cast<mp_bitcnt_t>(-exponent);
+  return result;
+}
+
+Positive positive(const std::vector<mpq_class>& choice, int most, bool repeated) {
+  Positive p;
+  const int degree = *rc::gen::inRange(1, most + 1);
+  while (static_cast<int>(p.roots.size()) < degree) {
+    const mpq_class root = choice[*rc::gen::inRange<std::size_t>(0, choice.size())];
+    if (!repeated && std::count(p.roots.begin(), p.roots.end(), root) != 0) continue;
+    p.roots.push_back(root);
+    p.polynomial = p.polynomial * IntegerPolynomial({-root.get_num(), root.get_den()});
+  }
+  return p;
+}
+
+std::vector<mpq_class> clustered_roots() {
+  std::vector<mpq_class> roots;
+  for (int i = 0; i < 3; ++i) {
+    mpq_class base(*rc::gen::inRange(1, 9), *rc::gen::inRange(1, 4));
+    base.canonicalize();
+    base = scaled(base, *rc::gen::inRange(-3000, 3000));
+    roots.push_back(base);
+    for (int k = 0; k < 2; ++k) {
+      roots.push_back(base + scaled(base, -*rc::gen::inRange(1, 4000)));
+    }
+  }
+  return roots;
+}
+
+// geometry/exact/largest_root.hpp (1)
+RC_GTEST_PROP(LargestRootProperty, ComparisonIsThatOfTheNumbersHoweverCloseTheyAre, ()) {
+  const std::vector<mpq_class> choice = clustered_roots();
+  const Positive f = positive(choice, 4, false), g = positive(choice, 4, false);
+  const mpq_class most_f = *std::max_element(f.roots.begin(), f.roots.end());
+  const mpq_class most_g = *std::max_element(g.roots.begin(), g.roots.end());
+  const int expected = cmp(most_f, most_g);
+  RC_ASSERT(compare_largest_roots(f.polynomial, -g.polynomial) ==
+            (expected > 0) - (expected < 0));
+  RC_TAG((expected > 0) - (expected < 0));
+}
+
+// geometry/exact/largest_root.hpp (2)
+RC_GTEST_PROP(LargestRootProperty, MultiplicityIsHowOftenItOccurs, ()) {
+  const Positive f = positive(clustered_roots(), 4, true);
+  RC_ASSERT(multiplicity_of_largest_root(f.polynomial) == f.times_largest());
+  RC_ASSERT(multiplicity_of_largest_root(f.polynomial * f.polynomial) == 2 * f.times_largest());
+  RC_TAG(f.times_largest());
+}
+
+// geometry/exact/largest_root.hpp (3)
+RC_GTEST_PROP(LargestRootProperty, ExceedsOneWhereSomeRootDoes, ()) {
+  const std::vector<mpq_class> choice{1, scaled(1, -3) + 1, mpq_class(1) - scaled(1, -900),
+                                      scaled(1, -900) + 1, scaled(7, -20)};
+  const Positive f = positive(choice, 4, true);
+  const bool expected = *std::max_element(f.roots.begin(), f.roots.end()) > 1;
+  RC_ASSERT(largest_root_exceeds_one(f.polynomial) == expected);
 }
 
 TEST(IntegerPolynomial, ZeroHasNoDegreeAndNoSign) {

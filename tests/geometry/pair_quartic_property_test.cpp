@@ -61,6 +61,14 @@ RC_GTEST_PROP(PairQuarticProperty, PositiveRootsTellThePosition, ()) {
   }
 }
 
+// geometry/exact/pair_quartic.hpp (4)
+RC_GTEST_PROP(PairQuarticProperty, ExchangingTheBodiesReversesThePolynomials, ()) {
+  const Pair p = *tangency::testing::any_pair();
+  const PairPolynomials forth = pair_polynomials(p.a, p.b), back = pair_polynomials(p.b, p.a);
+  RC_ASSERT(back.quartic == forth.exchanged().quartic);
+  RC_ASSERT(back.shapes == forth.exchanged().shapes);
+}
+
 std::vector<int> multiplicities(Meeting meeting) {
   switch (meeting) {
     case Meeting::equal:

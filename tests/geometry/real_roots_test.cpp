@@ -89,6 +89,22 @@ TEST(RealRoots, CommonRootsOfTwoPolynomialsCompareEqualAndNearOnesDoNot) {
   EXPECT_EQ(compare(of_c[0], of_a[0]), -1);
 }
 
+// Steps that halve an interval would need thousands each; no time is measured, a search that did
+// not converge would not end.
+TEST(RealRoots, RootsThousandsOfBinaryPlacesApartOrAlikeAreCompared) {
+  const mpz_class far = power_of_two(200000);
+  for (const auto& scale : {mpq_class(far), mpq_class(1, far)}) {
+    const mpz_class &n = scale.get_num(), &d = scale.get_den();
+    const SturmSequence a(polynomial({-2 * n * n, 0, d * d}));
+    const SturmSequence b(polynomial({-2 * n * n * far - 1, 0, d * d * far}));
+    const SturmSequence c(polynomial({-n * n, 0, d * d * far}));
+    auto of_a = isolate_real_roots(a), of_b = isolate_real_roots(b), of_c = isolate_real_roots(c);
+    EXPECT_EQ(compare(of_a[1], of_b[1]), -1);
+    EXPECT_EQ(compare(of_b[1], of_c[1]), 1);
+    EXPECT_EQ(compare(of_a[0], of_b[0]), 1);
+  }
+}
+
 /// Polynomials with small rational roots, which meet each other's roots and dyadic cuts often.
 IntegerPolynomial random_polynomial(std::set<mpq_class>& roots) {
   IntegerPolynomial p = polynomial({*rc::gen::element(1, -3)});

@@ -42,6 +42,16 @@ RC_GTEST_PROP(RelationProperty, OverlapsIsTheRelationsYesOrNo, ()) {
   RC_TAG(std::string(to_string(r.relation)));
 }
 
+// geometry/relation.hpp (6)
+RC_GTEST_PROP(RelationProperty, WhatTheFilterAnswersIsTheAnswer, ()) {
+  const Pair p = *testing::any_pair();
+  const std::optional<bool> known = overlaps_by_filter(p.a, p.b);
+  const OverlapAnswer answer = overlap_answer(p.a, p.b);
+  RC_ASSERT(known.has_value() == (answer.tier == Tier::filter));
+  if (known) RC_ASSERT(*known == answer.overlaps);
+  RC_TAG(known.has_value());
+}
+
 // geometry/relation.hpp (3)
 RC_GTEST_PROP(RelationProperty, ScalingBothByAPowerOfTwoLeavesIt, ()) {
   const Pair p = *testing::any_pair();

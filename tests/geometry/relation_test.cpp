@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include <tangency/bench/families/adversarial.hpp>
+#include <tangency/bench/families/extreme.hpp>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency {
 namespace {
@@ -82,6 +85,21 @@ TEST(Relation, HoldsAtTheEndsOfTheRangeOfDoubles) {
   expect_relation(sphere({0, 0, 0}, tiny), sphere({0, 0, 0}, huge), Relation::a_in_b);
 }
 
+// Near copies of bodies of extreme numbers: what the exact tier finds hardest.
+TEST(Relation, OfTheHeaviestPairsIsTheOracles) {
+  std::set<Relation> seen;
+  families::HeaviestPairs pairs(20261122, 100);  // the oracle needs a second at 1074
+  for (int i = 0; i < 60; ++i) {
+    const families::RawPair p = pairs.next();
+    const RelationAnswer answer = relation(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b));
+    const verify::ExactRelation truth = verify::exact_relation(p.a, p.b);
+    ASSERT_EQ(to_string(answer.relation), verify::name(truth.relation)) << i;
+    ASSERT_EQ(static_cast<int>(answer.inner), static_cast<int>(truth.inner)) << i;
+    seen.insert(answer.relation);
+  }
+  EXPECT_GE(seen.size(), 5u);
+}
+
 TEST(Relation, OfGenericPairsComesFromTheFilter) {
   for (const auto& family : families::contact_classes()) {
     families::ManufacturedContacts contacts(family, 20261122);
@@ -91,6 +109,7 @@ TEST(Relation, OfGenericPairsComesFromTheFilter) {
       const OverlapAnswer answer = overlap_answer(a, b);
       ASSERT_EQ(answer.tier, Tier::filter) << family.name << ' ' << i;
       ASSERT_EQ(answer.overlaps, c.gap < 0) << family.name << ' ' << i;
+      ASSERT_EQ(overlaps_by_filter(a, b), answer.overlaps) << family.name << ' ' << i;
     }
   }
 }
@@ -116,6 +135,9 @@ TEST(Relation, OfExactTouchesComesFromTheExactTier) {
     const auto answer = relation(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b));
     ASSERT_EQ(answer.tier, Tier::exact) << p.family;
     ASSERT_EQ(answer.relation, Relation::external_touch) << p.family;
+    ASSERT_EQ(overlaps_by_filter(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b)),
+              std::nullopt)
+        << p.family;
   });
   EXPECT_GT(touches, 100);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <tangency/bench/families/adversarial.hpp>
+#include <tangency/bench/families/extreme.hpp>
 #include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/conversions.hpp>
@@ -23,13 +25,21 @@ namespace {
 using tangency::Tier;
 using tangency::verify::RawEllipsoid;
 
+double processor_time() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 struct Tally {
+  double slowest = 0.0;  ///< s of one relation()
   long pairs = 0;
   long disagreements = 0;
   long overlaps_filter = 0;
   long relation_filter = 0;
 
   void add(const Tally& other) {
+    slowest = std::max(slowest, other.slowest);
     pairs += other.pairs;
     disagreements += other.disagreements;
     overlaps_filter += other.overlaps_filter;
@@ -48,7 +58,9 @@ void print_hex(const RawEllipsoid& e) {
 void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_view family,
              Tallies& tallies) {
   const auto a = tangency::testing::to_ellipsoid(raw_a), b = tangency::testing::to_ellipsoid(raw_b);
+  const double before = processor_time();
   const auto relation = tangency::relation(a, b);
+  const double taken = processor_time() - before;
   const auto overlap = tangency::overlap_answer(a, b);
   const auto truth = tangency::verify::exact_relation(raw_a, raw_b);
 
@@ -65,6 +77,7 @@ void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_v
   if (found == tallies.end()) found = tallies.emplace(family, Tally{}).first;
   Tally& tally = found->second;
   ++tally.pairs;
+  tally.slowest = std::max(tally.slowest, taken);
   tally.overlaps_filter += overlap.tier == Tier::filter;
   tally.relation_filter += relation.tier == Tier::filter;
   if (agree) return;
@@ -81,12 +94,21 @@ void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_v
 
 /// One part of the work, whose outcome depends on nothing but its own seed and count.
 struct Job {
-  const tangency::families::ContactFamily* family;  ///< none: adversarial pairs
+  const tangency::families::ContactFamily* family;  ///< none: adversarial or heaviest pairs
+  bool heaviest;
   std::uint64_t seed;
   long count;
 };
 
 void run(const Job& job, Tallies& tallies) {
+  if (job.heaviest) {
+    tangency::families::HeaviestPairs pairs(job.seed, 1074);
+    for (long i = 0; i < job.count; ++i) {
+      const auto pair = pairs.next();
+      compare(pair.a, pair.b, "heaviest", tallies);
+    }
+    return;
+  }
   if (job.family == nullptr) {
     tangency::verify::for_each_adversarial_pair(
         job.seed, static_cast<std::size_t>(job.count),
@@ -104,22 +126,28 @@ void run(const Job& job, Tallies& tallies) {
 
 int main(int argc, char** argv) {
   CLI::App app("Hold the kernel's exact relation against the oracle's");
-  long per_class = 1'000'000, adversarial = 100'000;
+  long per_class = 1'000'000, adversarial = 100'000, heaviest = 0;
   std::uint64_t seed = 20261122;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("--per-class", per_class, "random pairs of each class")->capture_default_str();
   app.add_option("--adversarial", adversarial, "adversarial pairs")->capture_default_str();
+  app.add_option("--heaviest", heaviest,
+                 "pairs of numbers over the whole range of doubles; the oracle takes a second a pair")
+      ->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   app.add_option("--threads", threads)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   constexpr long kPart = 10'000;
   std::vector<Job> jobs;
-  const auto split = [&](const tangency::families::ContactFamily* family, long count) {
-    for (long done = 0; done < count; done += kPart) {
-      jobs.push_back({family, seed + jobs.size(), std::min(kPart, count - done)});
+  const auto split = [&](const tangency::families::ContactFamily* family, long count,
+                         bool heavy = false) {
+    const long part = heavy ? kPart / 100 : kPart;
+    for (long done = 0; done < count; done += part) {
+      jobs.push_back({family, heavy, seed + jobs.size(), std::min(part, count - done)});
     }
   };
+  split(nullptr, heaviest, true);
   split(nullptr, adversarial);
   for (const auto& family : tangency::families::contact_classes()) split(&family, per_class);
 
@@ -140,17 +168,18 @@ int main(int argc, char** argv) {
   for (std::thread& thread : pool) thread.join();
 
   Tally all;
-  std::printf("seed %llu\n%-28s %9s %13s %16s %16s\n", static_cast<unsigned long long>(seed),
-              "family", "pairs", "disagreements", "overlaps filter", "relation filter");
+  std::printf("seed %llu\n%-28s %9s %13s %16s %16s %11s\n", static_cast<unsigned long long>(seed),
+              "family", "pairs", "disagreements", "overlaps filter", "relation filter", "slowest");
   const auto print = [](const char* name, const Tally& t) {
-    std::printf("%-28s %9ld %13ld %14.3f %% %14.3f %%\n", name, t.pairs, t.disagreements,
+    std::printf("%-28s %9ld %13ld %14.3f %% %14.3f %% %8.3f ms\n", name, t.pairs, t.disagreements,
                 100.0 * static_cast<double>(t.overlaps_filter) / static_cast<double>(t.pairs),
-                100.0 * static_cast<double>(t.relation_filter) / static_cast<double>(t.pairs));
+                100.0 * static_cast<double>(t.relation_filter) / static_cast<double>(t.pairs),
+                1e3 * t.slowest);
   };
   for (const auto& [family, tally] : total) {
     print(family.c_str(), tally);
     all.add(tally);
   }
   print("all", all);
-  return all.disagreements == 0 && all.pairs == adversarial + 3 * per_class ? 0 : 1;
+  return all.disagreements == 0 && all.pairs == heaviest + adversarial + 3 * per_class ? 0 : 1;
 }
