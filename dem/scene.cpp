@@ -367,9 +367,9 @@ class Reader {
   double largest_change(const Growth& growth) const {
     double largest = 0.0;
     for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
-      largest = std::max(
-          largest, growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
-                                         scene_.dimensions));
+      largest = std::max(largest,
+                         growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
+                                               scene_.dimensions));
     return largest;
   }
 

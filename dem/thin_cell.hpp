@@ -6,9 +6,8 @@
 ///
 /// (1) While the shortest period is at least LeastCell::free_period no contact is doubled, wherever
 ///     the particles are and however they are turned.
-/// (2) Below LeastCell::period there are places, for particles that are turned in some way the
-///     longest one beside an image of its own, or however they are turned two of them, where a
-///     contact is doubled.
+/// (2) Below LeastCell::period one can be: between two particles at some places, however they are
+///     turned, or of the longest particle with its own image, where it is turned along the period.
 /// (3) Walls have no images. Nearer to each other than LeastCell::wall_distance they leave no place
 ///     for the thickest particle, however it is turned.
 #pragma once
@@ -21,7 +20,8 @@
 
 namespace tangency::dem {
 
-/// The least lengths of a cell by the particles in it.
+/// The least lengths of a cell by the particles in it; a_1 >= a_2 the largest of their largest
+/// semi-axes, c_1 >= c_2 of their smallest.
 class LeastCell {
  public:
   void add(const Vec3& semi_axes, std::size_t count = 1);
@@ -41,7 +41,7 @@ LeastCell least_cell_of(const Particles& particles);
 
 /// A length of a cell, and the least that is allowed.
 struct ThinPlace {
-  std::string what;  ///< "the cell's period along z, 3.99 m, is below 4 m: ..."
+  std::string what;  ///< "the cell's period along z, 3.99 m, is below 4 m, where ..."
   double length, least;
 };
 

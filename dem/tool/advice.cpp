@@ -83,23 +83,34 @@ std::string earlier_end(const Simulation& simulation) {
 
 }  // namespace
 
-std::string advice_on_gravity(const Scene& scene) {
-  std::string borne, walls;
+std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share) {
+  const Scene& scene = simulation.scene();
+  const Particles& particles = simulation.state().particles;
+  std::string unborne, walls;
+  Vec3 along = scene.gravity;
   for (std::size_t k = 0; k < 3; ++k) {
-    const bool unborne = scene.gravity[static_cast<int>(k)] != 0.0 && !scene.walled[k];
-    if (unborne) borne += "xyz"[k];
-    if (unborne || scene.walled[k]) walls += "xyz"[k];
+    if (scene.walled[k]) along[static_cast<int>(k)] = 0.0;
+    const bool pulls = along[static_cast<int>(k)] != 0.0;
+    if (pulls) unborne += "xyz"[k];
+    if (pulls || scene.walled[k]) walls += "xyz"[k];
   }
-  if (borne.empty()) return "";
-  return "gravity along " + borne + " acts where no wall bears it; set cell.walls to \"" + walls +
-         "\", or motion.gravity to 0 along " + borne;
+  double mass = 0.0;
+  for (const double one : particles.mass) mass += one;
+  const double weight = mass / static_cast<double>(particles.size()) * along.norm();
+  if (unborne.empty() || weight < share * seen.balance.mean_contact_force) return "";
+  return "gravity along " + unborne + " acts where no wall bears it; set cell.walls to \"" + walls +
+         "\", or motion.gravity to 0 along " + unborne;
 }
 
 std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound) {
   const Drive& stage = *simulation.stage().drive;
   const double fraction = seen.balance.inertial_fraction;
-  if (const std::string gravity = advice_on_gravity(simulation.scene()); !gravity.empty())
-    return gravity;
+  const std::string gravity = advice_on_gravity(simulation, seen, 0.5 * fraction);
+  if (!gravity.empty()) return gravity;
+  // What ends in balance was asked for no more of it: the mean is at most the largest.
+  const std::string loose = "it is not in balance yet; lower ";
+  if (simulation.stage().growth) return loose + "max_inertial_fraction to " + rounded_down(sound);
+  if (stage.max_unbalanced_ratio) return loose + "max_unbalanced_ratio to " + rounded_down(sound);
   const auto keys = slower_rates(stage, sound / fraction, simulation.scene().dimensions);
   if (!keys.empty())
     return "the motion is too fast for its stresses to be static ones; lower " +

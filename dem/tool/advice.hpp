@@ -11,7 +11,8 @@
 namespace tangency::dem {
 
 /// For an inertial fraction above `sound`: "the motion is too fast ...; lower max_strain_rate to
-/// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs.
+/// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs; where a
+/// stage ends in balance, how much of it to ask for.
 std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound);
 
 /// "lower time_step_factor to 0.2", a share of what it is.
@@ -26,7 +27,8 @@ std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& p
 /// For a stage that is to have so many more cycles than have been: "raise max_cycles to 12000".
 std::string advice_on_cycles(const Simulation& simulation, double more);
 
-/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it.
-std::string advice_on_gravity(const Scene& scene);
+/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's mean
+/// weight along such axes is below that share of the mean contact force.
+std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share);
 
 }  // namespace tangency::dem

@@ -170,9 +170,9 @@ class Run {
     const Stage& stage = simulation_.stage();
     std::ostringstream text;
     text << "stage " << stage.name << " cannot end within max_cycles = " << stage.drive->max_cycles
-         << ": its " << key << " needs " << std::fixed << std::setprecision(0) << cycles
-         << (simulation_.state().stage_cycle > 0 ? " more cycles; " : " cycles; ")
-         << advice_on_cycles(simulation_, cycles);
+         << ": it needs " << std::fixed << std::setprecision(0) << cycles
+         << (simulation_.state().stage_cycle > 0 ? " more" : "") << " cycles for its " << key
+         << "; " << advice_on_cycles(simulation_, cycles);
     warn(text.str());
   }
 
@@ -249,8 +249,9 @@ class Run {
     std::string text = "stage " + simulation_.stage().name +
                        " did not end within max_cycles = " + std::to_string(stage.max_cycles);
     for (const std::string& one : unmet) text += (&one == &unmet.front() ? ": " : ", ") + one;
-    const std::string gravity =
-        stage.max_unbalanced_ratio ? advice_on_gravity(simulation_.scene()) : std::string();
+    std::string gravity;  // that keeps it out of balance
+    if (stage.max_unbalanced_ratio)
+      gravity = advice_on_gravity(simulation_, seen, *stage.max_unbalanced_ratio);
     return text + "; " + (gravity.empty() ? advice_on_cycles(simulation_, more_cycles()) : gravity);
   }
 
