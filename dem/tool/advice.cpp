@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <tangency/dem/tool/advice.hpp>
 #include <vector>
@@ -8,16 +9,23 @@
 namespace tangency::dem {
 namespace {
 
-std::string two_digits(double x, double (*round)(double)) {
-  if (x == 0.0 || !std::isfinite(x)) return "0";
+/// A number, two digits of it left.
+double two_digits(double x, double (*round)(double)) {
+  if (x == 0.0 || !std::isfinite(x)) return 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1.0);
+  return std::copysign(round(std::abs(x) / unit * (1.0 - 1e-12)) * unit, x);
+}
+std::string text_of(double x, int digits) {
   std::ostringstream text;
-  text.precision(x >= 1000.0 ? 15 : 2);
-  text << std::copysign(round(std::abs(x) / unit * (1.0 - 1e-12)) * unit, x);
+  text << std::setprecision(digits) << x;
   return text.str();
 }
-std::string rounded_down(double x) { return two_digits(x, std::floor); }
-std::string rounded_up(double x) { return two_digits(x, std::ceil); }
+std::string rounded_down(double x) { return text_of(two_digits(x, std::floor), 2); }
+std::string rounded_up(double x) { return text_of(two_digits(x, std::ceil), 2); }
+/// An integer's text, without an exponent.
+std::string whole_up(double x) {
+  return text_of(std::round(two_digits(std::ceil(x), std::ceil)), 17);
+}
 
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {
   std::string text;
@@ -54,7 +62,7 @@ std::string advice_on_count(const Scene& scene, double times) {
     return "take " + rounded_up(times) + " times as many particles of each type";
   const ParticleType& type = scene.particle_types.front();
   return "raise particles." + type.name + ".count to " +
-         rounded_up(times * static_cast<double>(type.batch.count));
+         whole_up(times * static_cast<double>(type.batch.count));
 }
 
 /// How many times the particles would fill a cube, or a square, of that edge without a pore.
@@ -74,7 +82,8 @@ std::string earlier_end(const Simulation& simulation) {
     return strain > 0.0 ? "lower axial_strain to " + rounded_down(strain) : "";
   }
   if (stage.drive->duration)
-    return state.stage_cycle > 0 ? "lower duration to " + std::to_string(state.stage_cycle) : "";
+    return state.stage_cycle > 1 ? "lower duration to " + std::to_string(state.stage_cycle - 1)
+                                 : "";
   if (!stage.growth || state.increments == 0) return "";
   const Shape shape = simulation.scene().shape_in(0, state.stage, state.increments);
   return "lower elongation to " + rounded_down(shape.elongation) +
@@ -121,7 +130,7 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
   if (!(a_cycle > 0.0)) return still + "raise damping to 0.5";
   const double more = std::log(fraction / sound) / a_cycle;
   return still + "raise duration to " +
-         rounded_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
+         whole_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
 }
 
 std::string advice_on_step(const Simulation& simulation, double share) {
@@ -158,20 +167,25 @@ std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& p
   const Drive& stage = *simulation.stage().drive;
   std::vector<std::string> ways;
   if (const std::string end = earlier_end(simulation); !end.empty()) ways.push_back(end);
-  if (!stage.duration) {
-    const double left =
-        stage.axial_strain ? *stage.axial_strain - simulation.observe().axial_strain : 0.0;
-    const double thicker = std::pow(place.least / place.length * std::exp(left), scene.dimensions);
-    ways.push_back(advice_on_count(
-        scene, std::max(thicker, left > 0.0 ? 0.0 : times_to_fill(simulation, place.least))));
+  const int dimensions = scene.dimensions;
+  const double filled = times_to_fill(simulation, place.least);
+  if (stage.axial_strain) {
+    const double left = *stage.axial_strain - simulation.observe().axial_strain;
+    ways.push_back(
+        advice_on_count(scene, std::pow(place.least / place.length * std::exp(left), dimensions)));
+  } else if (!stage.duration && filled > 1.0) {
+    ways.push_back(advice_on_count(scene, filled));
+  } else if (!stage.duration && scene.cell_size) {
+    const double edge = std::pow(scene.cell_size->head(dimensions).prod(), 1.0 / dimensions);
+    ways.push_back("set cell.size to " + text_of({edge, edge, dimensions == 3 ? edge : 1.0}));
   }
-  if (ways.empty()) ways.push_back("take a larger cell.size, or other rates and stresses");
+  if (ways.empty()) ways.push_back(advice_on_count(scene, 2.0));
   return joined(ways, ", or ");
 }
 
 std::string advice_on_cycles(const Simulation& simulation, double more) {
   return "raise max_cycles to " +
-         rounded_up(static_cast<double>(simulation.state().stage_cycle) + more);
+         whole_up(static_cast<double>(simulation.state().stage_cycle) + more);
 }
 
 }  // namespace tangency::dem

@@ -241,6 +241,9 @@ class Run {
     for (const Target& target : stage.loading.targets)
       compare(target.name, target.measured(seen.stress), target.wanted);
     if (stage.axial_strain) compare("axial strain", seen.axial_strain, *stage.axial_strain);
+    if (stage.duration)
+      compare("duration", static_cast<double>(simulation_.state().stage_cycle),
+              static_cast<double>(*stage.duration));
     if (stage.max_unbalanced_ratio) {
       compare("largest unbalanced force", seen.balance.largest_unbalanced_ratio,
               *stage.max_unbalanced_ratio);
@@ -255,13 +258,16 @@ class Run {
     return text + "; " + (gravity.empty() ? advice_on_cycles(simulation_, more_cycles()) : gravity);
   }
 
-  /// What the stage still needs, by its rates or else by the share of it that is done: at most ten
-  /// times what it had, since the latter is a guess.
+  /// What the stage still needs: by its rates, or where it waits for a stress by the share of it
+  /// that is done. Of balance that share is a guess, and so is at most ten times what it had.
   double more_cycles() const {
-    const double had = static_cast<double>(simulation_.state().stage_cycle);
-    if (const double known = simulation_.cycles_needed().cycles; known > 0.0) return known;
-    const double done = std::clamp(simulation_.stage_fraction(), 1.0 / 11.0, 0.9);
-    return had * (1.0 - done) / done;
+    const double known = simulation_.cycles_needed().cycles;
+    const Drive& stage = *simulation_.stage().drive;
+    if (!stage.stress_tolerance) return known;
+    const double least = stage.max_unbalanced_ratio ? 0.1 : 0.001;
+    const double done = std::clamp(simulation_.stage_fraction(), least, 0.9);
+    return std::max(known,
+                    static_cast<double>(simulation_.state().stage_cycle) * (1.0 - done) / done);
   }
 
   int give_up(const std::string& why) {
