@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <tangency/dem/cell.hpp>
+#include <vector>
 
 namespace tangency::dem {
 namespace {
@@ -11,6 +13,44 @@ namespace {
 Eigen::SelfAdjointEigenSolver<Mat3> squared_stretch(const Mat3& before, const Mat3& now) {
   const Mat3 gradient = now * before.inverse();
   return Eigen::SelfAdjointEigenSolver<Mat3>(gradient * gradient.transpose());
+}
+
+/// A period as a sum of edges.
+struct Period {
+  Image image;
+  Vec3 along;
+
+  Period plus(const Period& other, double times) const {
+    Period sum{image, along + times * other.along};
+    for (std::size_t k = 0; k < 3; ++k)
+      sum.image[k] += static_cast<std::int32_t>(times) * other.image[k];
+    return sum;
+  }
+  /// Takes the other's place if it is shorter by more than rounding.
+  bool shorten_to(const Period& other) {
+    const bool shorter = other.along.squaredNorm() < (1.0 - 1e-12) * along.squaredNorm();
+    if (shorter) *this = other;
+    return shorter;
+  }
+};
+
+/// One round of a reduction: is a period shorter than before?
+bool shorten(std::vector<Period>& basis) {
+  bool shorter = false;
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    for (std::size_t j = 0; j < basis.size(); ++j) {
+      if (j == k) continue;
+      const Vec3& by = basis[j].along;
+      const double times = std::round(basis[k].along.dot(by) / by.squaredNorm());
+      shorter = basis[k].shorten_to(basis[k].plus(basis[j], -times)) || shorter;
+    }
+    if (basis.size() < 3) continue;
+    const Period &one = basis[(k + 1) % 3], &other = basis[(k + 2) % 3];
+    for (const double s : {-1.0, 1.0})
+      for (const double t : {-1.0, 1.0})
+        shorter = basis[k].shorten_to(basis[k].plus(one, s).plus(other, t)) || shorter;
+  }
+  return shorter;
 }
 
 }  // namespace
@@ -27,6 +67,27 @@ double Cell::volume() const {
 Vec3 Cell::heights() const {
   if (is_box()) return edges.diagonal();
   return edges.inverse().rowwise().norm().cwiseInverse();
+}
+
+Image Cell::shortest_period() const {
+  std::vector<Period> basis;
+  for (int axis = 0; axis < dimensions; ++axis) {
+    if (walled[static_cast<std::size_t>(axis)]) continue;
+    Image image{};
+    image[static_cast<std::size_t>(axis)] = 1;
+    basis.push_back({image, edges.col(axis)});
+  }
+  if (basis.empty()) return {};
+  // Where no round shortens a period the basis is Minkowski-reduced: its shortest period is that of
+  // the lattice (docs/derivations/thin-cells.md).
+  if (!is_box())
+    while (shorten(basis)) {
+    }
+  return std::min_element(basis.begin(), basis.end(),
+                          [](const Period& a, const Period& b) {
+                            return a.along.squaredNorm() < b.along.squaredNorm();
+                          })
+      ->image;
 }
 
 Vec3 Cell::reduced(const Vec3& x) const {

@@ -35,6 +35,9 @@ struct Cell {
   double volume() const;
   /// Distances between opposite faces.
   Vec3 heights() const;
+  /// The image nearest to its particle, one of them where several are: the shortest period of the
+  /// axes without walls, in whole edges. {} where all axes have walls.
+  Image shortest_period() const;
 
   /// The translation that takes a particle to its image.
   Vec3 translation(const Image& image) const { return edges * Vec3(image[0], image[1], image[2]); }

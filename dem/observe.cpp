@@ -55,8 +55,8 @@ double friction_angle_deg(const Mat3& stress, int dimensions) {
   return std::asin(sine) * 180.0 / std::numbers::pi;
 }
 
-Balance balance_of(const Particles& particles, const Contacts& contacts,
-                   const NeighbourList& list) {
+Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list,
+                   const Vec3& gravity) {
   Balance balance;
   double contact_sum = 0.0;
   std::int64_t touching = 0;
@@ -68,10 +68,12 @@ Balance balance_of(const Particles& particles, const Contacts& contacts,
   const auto counts = contact_counts(particles.size(), contacts, list);
   double sum = 0.0;
   std::int64_t with_contacts = 0;
+  const std::int64_t least_contacts = gravity.isZero(0.0) ? 2 : 1;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    balance.rattlers += counts[i] < 2 ? 1 : 0;
+    balance.rattlers += counts[i] < least_contacts ? 1 : 0;
     if (counts[i] == 0) continue;
-    const double force = contacts.resultants().force[i].norm();
+    const Vec3 weight = particles.mass[i] * gravity;
+    const double force = (contacts.resultants().force[i] + weight).norm();
     const double moment =
         contacts.resultants().moment[i].norm() / particles.semi_axes[i].maxCoeff();
     balance.largest_unbalanced_ratio = std::max(balance.largest_unbalanced_ratio, force);
@@ -127,7 +129,7 @@ double elastic_energy(const Contacts& contacts) {
 }
 
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
-                    const NeighbourList& list) {
+                    const NeighbourList& list, const Vec3& gravity) {
   Observation seen{};
   const Mat3 strain = cell.logarithmic_strain();
   const int axial = cell.dimensions - 1;
@@ -151,7 +153,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   double solid = 0.0;
   for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes, particles.dimensions);
   seen.porosity = 1.0 - solid / cell.volume();
-  seen.balance = balance_of(particles, contacts, list);
+  seen.balance = balance_of(particles, contacts, list, gravity);
   seen.kinetic_energy = kinetic_energy(particles);
   seen.elastic_energy = elastic_energy(contacts);
   return seen;

@@ -36,7 +36,8 @@ Stress stress_of(const Contacts& contacts, const Cell& cell);
 double friction_angle_deg(const Mat3& stress, int dimensions = 3);
 
 /// How far the particles are from equilibrium. A particle is out of balance by the resultant of
-/// its contact forces; ratios are to the mean length of a contact force, 0 without contacts.
+/// all forces on it, of its contacts and its weight; ratios are to the mean length of a contact
+/// force, 0 without contacts.
 struct Balance {
   double mean_contact_force = 0.0;
   /// Mean resultant of the particles that have contacts, over the mean contact force.
@@ -45,10 +46,13 @@ struct Balance {
   double largest_unbalanced_ratio = 0.0;
   /// Largest moment about the centre over the particle's largest semi-axis, alike.
   double largest_unbalanced_moment_ratio = 0.0;
-  /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton2000].
+  /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton2000];
+  /// under gravity with none, since one can bear a weight.
   std::int64_t rattlers = 0;
 };
-Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list);
+/// @param gravity  acceleration, length/time^2
+Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list,
+                   const Vec3& gravity = Vec3::Zero());
 
 /// A step that is stable for the contacts as they are: 2 / sqrt(2 s), s the largest stiffness over
 /// inertia of any particle, shifts and turns together. No assembly's frequency is above sqrt(2 s),
@@ -92,7 +96,7 @@ struct Observation {
   double energy_error = 0.0;
 };
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
-                    const NeighbourList& list);
+                    const NeighbourList& list, const Vec3& gravity = Vec3::Zero());
 
 /// A named value of a history row or of a summary.
 struct Field {

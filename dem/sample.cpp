@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 #include <tangency/dem/sample.hpp>
+#include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -194,10 +195,23 @@ Quaternion uniform_rotation(std::mt19937_64& random, int dimensions) {
 }
 
 void check_room(const std::vector<Batch>& batches, const Placement& how) {
-  if (how.arrangement == Arrangement::random) room_for(batches, how);
-  if (how.arrangement == Arrangement::lattice) lattice_for(batches, how);
   if (how.arrangement == Arrangement::explicit_bodies && !how.cell_size)
     throw DoesNotFit("an explicit arrangement needs cell.size");
+  const Vec3 edges = how.arrangement == Arrangement::random    ? room_for(batches, how)
+                     : how.arrangement == Arrangement::lattice ? lattice_for(batches, how).edges
+                                                               : *how.cell_size;
+  LeastCell least;
+  for (const Batch& batch : batches) least.add(batch.shape.semi_axes(how.dimensions), batch.count);
+  const auto thin = thin_place(Cell::box(edges, how.dimensions, how.walled), least);
+  if (!thin) return;
+  std::ostringstream text;
+  text << thin->what;
+  if (!how.cell_size) {
+    const double most =
+        how.bounding_fraction * std::pow(thin->length / thin->least, how.dimensions);
+    text << "; bounding_fraction can be " << std::floor(1e3 * most) / 1e3;
+  }
+  throw DoesNotFit(text.str());
 }
 
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {

@@ -44,7 +44,8 @@ struct Placement {
   std::span<const Body> bodies{};  ///< of an explicit arrangement, which needs a cell_size
 };
 
-/// A cell without room, or with too many sites: what() says how much room there is.
+/// A cell without room, too thin for its particles (thin_cell.hpp), or with too many sites: what()
+/// says how much room there is.
 class DoesNotFit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -349,17 +349,28 @@ class Reader {
     check_flatness(section);
     Growth growth{section.real("elongation"), section.optional_real("flatness"),
                   section.integer("increments"), section.real("max_inertial_fraction")};
-    double change = 0.0;
-    for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
-      change =
-          std::max(change, growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
-                                                 scene_.dimensions));
-    if (change > largest_growth_of_an_increment)
+    const double change = largest_change(growth);
+    if (change > largest_growth_of_an_increment) {
+      Growth enough = growth;
+      while (largest_change(enough) > largest_growth_of_an_increment)
+        enough.increments += (enough.increments + 99) / 100;
       section.refuse("increments", growth.increments,
-                     "more: an increment would change a semi-axis by " + short_text(change) +
-                         " of itself, and at most " + short_text(largest_growth_of_an_increment) +
-                         " is allowed");
+                     std::to_string(enough.increments) +
+                         " or more: an increment would change a semi-axis by " +
+                         short_text(change) + " of itself, and at most " +
+                         short_text(largest_growth_of_an_increment) + " is allowed");
+    }
     return growth;
+  }
+
+  /// Of any type's semi-axes in one increment, in the last stage so far.
+  double largest_change(const Growth& growth) const {
+    double largest = 0.0;
+    for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
+      largest = std::max(largest,
+                         growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
+                                               scene_.dimensions));
+    return largest;
   }
 
   const toml::table& root_;

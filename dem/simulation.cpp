@@ -20,9 +20,19 @@ constexpr double skin_ratio = 0.2;
 /// disks.
 constexpr double jamming_porosity(int dimensions) { return dimensions == 2 ? 0.16 : 0.36; }
 
+/// The share of a cell that bounding spheres (circles) fill where an assembly begins to bear
+/// stress, at the loosest, so that compaction takes at least as long as to there. Chosen: below
+/// 0.55 and 0.77, the loosest packings of spheres and of disks that stand [Onoda1990].
+constexpr double loosest_packing(int dimensions) { return dimensions == 2 ? 0.7 : 0.5; }
+
 /// Relative difference of two descriptions of one particle: the semi-axes of another machine's
 /// libm are a few roundings off. Chosen: far below any change that someone makes.
 constexpr double same_particle = 1e-9;
+
+/// @throws CellTooThin
+void require_thickness(const Cell& cell, const LeastCell& least) {
+  if (auto thin = thin_place(cell, least, most_squeezed)) throw CellTooThin(std::move(*thin));
+}
 
 void require_equal(const std::string& key, double in_state, double in_scene) {
   if (std::abs(in_state - in_scene) <= same_particle * in_scene) return;
@@ -74,6 +84,7 @@ Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   renew_list();
   update_contacts(0.0);
   next_stage();
+  require_single_contacts();
   state_.energy = {};
   state_.energy.start = kinetic_energy_now() + elastic_energy(state_.contacts);
 }
@@ -108,6 +119,7 @@ void Simulation::prepare_stage() {
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
   turns_ = anything_turns();
+  least_ = least_cell_of(state_.particles);
 }
 
 /// Smooth spheres at rest never turn. (In the plane a turn costs next to nothing.)
@@ -154,11 +166,11 @@ double Simulation::kinetic_energy_now() const {
 
 void Simulation::step() {
   assert(!finished());
+  require_single_contacts();
   if (state_.stage_cycle == 0) state_.cell.reference_edges = state_.cell.edges;
   if (!is_grown() && is_relaxed()) grow();
   const double dt = time_step();
-  const Stress stress = stress_of(state_.contacts, state_.cell);
-  state_.cell.rate = stage().drive->loading.rate(stress, dt, state_.servos);
+  state_.cell.rate = next_rate(dt);
 
   const MotionWork work =
       move(state_.particles, state_.cell, state_.contacts.resultants(), motion(), dt);
@@ -170,6 +182,23 @@ void Simulation::step() {
   ++state_.cycle;
   ++state_.stage_cycle;
   state_.time += dt;
+}
+
+void Simulation::require_single_contacts() const {
+  if (auto doubled = doubled_contact(state_.contacts, state_.list, state_.cell, least_))
+    throw CellTooThin(std::move(*doubled));
+}
+
+/// The cell's rate for the coming step. @throws CellTooThin
+Mat3 Simulation::next_rate(double dt) {
+  std::vector<ServoMemory> servos = state_.servos;
+  const Stress stress = stress_of(state_.contacts, state_.cell);
+  Cell next = state_.cell;
+  next.rate = stage().drive->loading.rate(stress, dt, servos);
+  next.strain(dt);
+  require_thickness(next, least_);
+  state_.servos = std::move(servos);
+  return next.rate;
 }
 
 void Simulation::update_contacts(double dt) {
@@ -196,7 +225,8 @@ bool Simulation::is_relaxed() const {
     return false;
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
-  const Balance balance = balance_of(state_.particles, state_.contacts, state_.list);
+  const Balance balance =
+      balance_of(state_.particles, state_.contacts, state_.list, scene_.gravity);
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;
@@ -217,11 +247,16 @@ bool Simulation::is_grown() const {
 }
 
 void Simulation::grow() {
-  ++state_.increments;
   std::vector<Vec3> axes;
-  for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
-    axes.push_back(
-        scene_.shape_in(type, state_.stage, state_.increments).semi_axes(state_.cell.dimensions));
+  LeastCell least;
+  for (std::size_t type = 0; type < scene_.particle_types.size(); ++type) {
+    const Shape shape = scene_.shape_in(type, state_.stage, state_.increments + 1);
+    axes.push_back(shape.semi_axes(state_.cell.dimensions));
+    least.add(axes.back(), scene_.particle_types[type].batch.count);
+  }
+  require_thickness(state_.cell, least);
+  least_ = least;
+  ++state_.increments;
   Particles& particles = state_.particles;
   const auto energy = [&] { return elastic_energy(state_.contacts) + kinetic_energy_now(); };
   const double before = energy();
@@ -239,6 +274,39 @@ StageStatus Simulation::status() const {
   if (is_grown() && is_at_its_end() && is_relaxed()) return StageStatus::done;
   return state_.stage_cycle < stage().drive->max_cycles ? StageStatus::running
                                                         : StageStatus::out_of_cycles;
+}
+
+/// Cycles of straining as fast as allowed to where bounding spheres could bear stress.
+double Simulation::cycles_to_a_packing() const {
+  const Drive& stage = *this->stage().drive;
+  double bounding = 0.0;
+  for (const Vec3& axes : state_.particles.semi_axes)
+    bounding += volume_of(Vec3::Constant(axes.maxCoeff()), state_.cell.dimensions);
+  const double to_strain =
+      std::log(state_.cell.volume() * loosest_packing(scene_.dimensions) / bounding);
+  const double a_cycle =
+      -std::log1p(-stage.loading.servo.max_strain_rate * time_step()) * scene_.dimensions;
+  return std::max(0.0, to_strain / a_cycle);
+}
+
+CyclesNeeded Simulation::cycles_needed() const {
+  const Drive& stage = *this->stage().drive;
+  CyclesNeeded most;
+  const auto needs = [&](double cycles, const char* key) {
+    if (cycles > most.cycles) most = {std::ceil(cycles), key};
+  };
+  if (stage.duration) needs(static_cast<double>(*stage.duration - state_.stage_cycle), "duration");
+  if (stage.axial_strain) {
+    const int axial = state_.cell.dimensions - 1;
+    const double done =
+        state_.stage_cycle > 0 ? -state_.cell.logarithmic_strain()(axial, axial) : 0.0;
+    const double a_cycle = -std::log1p(stage.loading.strain_rate(axial, axial) * time_step());
+    needs((*stage.axial_strain - done) / a_cycle, "axial_strain");
+  }
+  if (stage.stress_tolerance) needs(cycles_to_a_packing(), "mean_stress");
+  if (const auto& growth = this->stage().growth)
+    needs(static_cast<double>(growth->increments - state_.increments), "increments");
+  return most;
 }
 
 double Simulation::stage_fraction() const {
@@ -267,7 +335,8 @@ double Simulation::stage_fraction() const {
 }
 
 Observation Simulation::observe() const {
-  Observation seen = dem::observe(state_.particles, state_.cell, state_.contacts, state_.list);
+  Observation seen =
+      dem::observe(state_.particles, state_.cell, state_.contacts, state_.list, scene_.gravity);
   seen.account = state_.energy;
   seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
   return seen;

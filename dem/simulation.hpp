@@ -8,6 +8,7 @@
 
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/scene.hpp>
+#include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::dem {
 
@@ -32,10 +33,17 @@ enum class StageStatus {
   out_of_cycles,  ///< the stage's max_cycles are spent and its criterion is not met
 };
 
+/// Cycles, and the key of the stage that needs so many.
+struct CyclesNeeded {
+  double cycles = 0.0;
+  const char* key = "";
+};
+
 class Simulation {
  public:
   /// Places the particles: the scene's first stage.
-  /// @throws DoesNotFit  where random placement has bad luck
+  /// @throws DoesNotFit   where random placement has bad luck
+  /// @throws CellTooThin  where a particle touches two images of another, or one of its own
   explicit Simulation(const Scene& scene);
 
   /// Continues from a saved state.
@@ -50,6 +58,7 @@ class Simulation {
 
   /// One cycle of the current stage. Requires !finished().
   /// @throws Diverged
+  /// @throws CellTooThin  where the cell is, or would be after this cycle: the state is as it was
   void step();
 
   /// Where the current stage is. Requires !finished().
@@ -65,6 +74,11 @@ class Simulation {
   /// even where nothing blows up.
   double time_step_ratio() const;
 
+  /// The fewest cycles in which the rest of the current stage can be done: what its rate of shear,
+  /// its duration, its increments, or the way to a packing that bears stress need. Of all else
+  /// nothing is known before: 0. Requires !finished().
+  CyclesNeeded cycles_needed() const;
+
   /// A guess at how much of the current stage is done, in [0, 1]: for progress bars only.
   double stage_fraction() const;
 
@@ -77,6 +91,9 @@ class Simulation {
   bool is_grown() const;
   bool is_at_its_end() const;
   void grow();
+  void require_single_contacts() const;
+  Mat3 next_rate(double dt);
+  double cycles_to_a_packing() const;
   void renew_list();
   void update_contacts(double dt);
   Motion motion() const;
@@ -86,6 +103,7 @@ class Simulation {
   State state_;
   ContactLaws laws_;   ///< the scene's, with the current stage's friction
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
+  LeastCell least_;    ///< of the particles as they are
 };
 
 }  // namespace tangency::dem

@@ -55,8 +55,8 @@ logarithmic and count from the start of the stage:
   contacts              number of touching pairs
   mean_normal_force     N, of a contact; a push is positive
   mean_overlap          m, of a contact
-  inertial_fraction     mean unbalanced force of a particle that has contacts, over the
-                        mean contact force
+  inertial_fraction     mean unbalanced force (of contacts and weight) of a particle that has
+                        contacts, over the mean contact force
   kinetic_energy        J, of the motion relative to the cell, half a step ago
   elastic_energy        J, stored by the contacts
   boundary_work gravity_work growth_work branch_work
@@ -73,7 +73,7 @@ More keys of summary.json:
   ns_per_listed_pair_per_cycle, listed_pairs
                         an entry of the neighbour list, each pair once
   state_hash            of final.state; the same at every number of threads
-  rattlers              particles with fewer than two contacts
+  rattlers              particles with fewer than two contacts; under gravity with none
   peak_friction_angle_deg, strain_at_peak_friction
                         of the last stage of kind shear: the largest of its rows, and its axial
                         strain
@@ -92,7 +92,8 @@ the results of an earlier one in DIR.
 
 Exit status:
   0          the run is complete
-  1          a stage did not reach its criterion within max_cycles, or the run blew up
+  1          a stage did not reach its criterion within max_cycles, the cell became too thin for
+             its particles, or the run blew up
   2          the scene, the state or the command line was refused, and earlier results are
              untouched; or a file could not be written
   128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM

@@ -35,15 +35,16 @@ bool Progress::is_due() const {
                      Clock::now() - last_ >= (on_terminal_ ? bar_interval : line_interval));
 }
 
-void Progress::show(double fraction, const std::string& note) {
+void Progress::show(double fraction, const std::string& note, double most_left) {
   if (quiet_) return;
   last_ = Clock::now();
   if (first_fraction_ < 0.0) first_fraction_ = fraction;
   const double spent = std::chrono::duration<double>(last_ - start_).count();
   const double done = fraction - first_fraction_;
-  const std::string left = done > 0.0 && fraction < 1.0
-                               ? ", about " + time_left(spent * (1.0 - fraction) / done)
-                               : std::string();
+  const std::string left =
+      done > 0.0 && fraction < 1.0
+          ? ", about " + time_left(std::min(most_left, spent * (1.0 - fraction) / done))
+          : std::string();
   if (on_terminal_) {
     const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * bar_width);
     std::cerr << "\r[" << std::string(filled, '#') << std::string(bar_width - filled, ' ') << "] "

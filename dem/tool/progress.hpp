@@ -4,12 +4,14 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <string>
 
 namespace tangency::dem {
 
 /// On a terminal a bar that is drawn over itself; elsewhere a plain line now and then; or nothing.
-/// The time left is what the fraction done took so far, carried on: a guess.
+/// The time left is what the fraction done took so far, carried on, and at most what the run has:
+/// a guess.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -19,7 +21,9 @@ class Progress {
 
   /// @param fraction  of the whole run, in [0, 1]
   /// @param note      one short line: stage, cycle, stress
-  void show(double fraction, const std::string& note);
+  /// @param most_left  seconds after which the run ends in any case
+  void show(double fraction, const std::string& note,
+            double most_left = std::numeric_limits<double>::infinity());
 
   /// Ends the bar's line. Call before other messages.
   void finish();

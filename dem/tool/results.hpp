@@ -17,6 +17,7 @@ struct RunCost {
   /// Of this process, output included: what ran before a resumption is not in it.
   double wall_seconds = 0.0;
   double cycle_seconds = 0.0;       ///< of the cycles alone
+  std::int64_t cycles = 0;          ///< of this process
   double listed_pair_cycles = 0.0;  ///< sum over this run's cycles of the pairs listed
   int threads = 1;
 };

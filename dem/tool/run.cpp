@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/progress.hpp>
 #include <tangency/dem/tool/results.hpp>
@@ -96,8 +98,11 @@ class Run {
           continue;
         }
         if (caught_signal != 0) return interrupt();
+        if (cost_.cycles == 0 || simulation_.state().stage_cycle == 0) warn_of_too_many_cycles();
         cycle();
       }
+    } catch (const CellTooThin& error) {
+      return give_up(thin_cell(error.place));
     } catch (const Diverged& error) {
       warn(error.what());
       results_.finish_without_state();
@@ -118,6 +123,7 @@ class Run {
     const auto before = Clock::now();
     simulation_.step();
     cost_.cycle_seconds += seconds_since(before);
+    ++cost_.cycles;
     cost_.listed_pair_cycles += static_cast<double>(simulation_.state().list.pairs().size());
 
     const OutputIntervals& every = simulation_.scene().output;
@@ -137,7 +143,37 @@ class Run {
   void show_progress() {
     const double stages = static_cast<double>(simulation_.scene().stages.size());
     const double done = static_cast<double>(simulation_.state().stage);
-    progress_.show((done - 1.0 + simulation_.stage_fraction()) / (stages - 1.0), where());
+    progress_.show((done - 1.0 + simulation_.stage_fraction()) / (stages - 1.0), where(),
+                   most_cycles_left() * seconds_since(start_) / static_cast<double>(cost_.cycles));
+  }
+
+  /// The cycles that the run has at most: those that its stages' max_cycles leave. It ends with a
+  /// stage that needs more.
+  double most_cycles_left() const {
+    const auto& stages = simulation_.scene().stages;
+    double left = cycles_allowed();
+    if (simulation_.cycles_needed().cycles > left) return left;
+    for (std::size_t k = simulation_.state().stage + 1; k < stages.size(); ++k)
+      left += static_cast<double>(stages[k].drive->max_cycles);
+    return left;
+  }
+
+  /// Of the current stage.
+  double cycles_allowed() const {
+    return static_cast<double>(simulation_.stage().drive->max_cycles -
+                               simulation_.state().stage_cycle);
+  }
+
+  void warn_of_too_many_cycles() {
+    const auto [cycles, key] = simulation_.cycles_needed();
+    if (!(cycles > cycles_allowed())) return;
+    const Stage& stage = simulation_.stage();
+    std::ostringstream text;
+    text << "stage " << stage.name << " cannot end within max_cycles = " << stage.drive->max_cycles
+         << ": it needs " << std::fixed << std::setprecision(0) << cycles
+         << (simulation_.state().stage_cycle > 0 ? " more" : "") << " cycles for its " << key
+         << "; " << advice_on_cycles(simulation_, cycles);
+    warn(text.str());
   }
 
   std::string where() const {
@@ -159,25 +195,40 @@ class Run {
     const double fraction = seen.balance.inertial_fraction;
     if (fraction > sound_inertial_fraction)
       warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
-           short_text(sound_inertial_fraction) +
-           ": the motion is too fast for its stresses to be static ones; lower max_strain_rate");
+           short_text(sound_inertial_fraction) + ": " +
+           advice_on_motion(simulation_, seen, sound_inertial_fraction));
     const double step = simulation_.time_step_ratio();
     if (step > sound_time_step_ratio)
       warn(ended + "time step " + short_text(step) + " of the critical one, above " +
            short_text(sound_time_step_ratio) +
-           ": what it computed may be wrong without looking it; lower time_step_factor");
+           ": what it computed may be wrong without looking it; " +
+           advice_on_step(simulation_, 1.0 / step));
     const EnergyAccount& account = seen.account;
     const double through = account.start + std::abs(account.boundary) + std::abs(account.gravity) +
                            std::abs(account.growth) + std::abs(account.branch);
+    // An error of second order in the step; halved at least, since what is large may not be so yet.
+    const double error = std::abs(seen.energy_error) / through;
     if (std::abs(seen.energy_error) > sound_energy_error * through)
       warn(ended + "an energy error of " + short_text(seen.energy_error / through) +
            " of the work done, beyond " + short_text(sound_energy_error) +
-           ": the step makes or loses energy; lower time_step_factor");
+           ": the step makes or loses energy; " +
+           advice_on_step(simulation_, std::min(0.5, std::sqrt(sound_energy_error / error))));
     const double overlap = seen.mean_overlap / mean_radius(simulation_.scene());
     if (overlap > sound_overlap || seen.porosity < 0.0)
       warn(ended + "mean overlap " + short_text(overlap) + " of the mean radius and porosity " +
            short_text(seen.porosity) + "; sound are at most " + short_text(sound_overlap) +
-           " and at least 0: the particles are too soft for mean_stress; raise normal_stiffness");
+           " and at least 0: the particles are too soft for what they bear; " +
+           advice_on_stiffness(simulation_, std::max(2.0, overlap / sound_overlap)));
+  }
+
+  /// Why the run ends, and where.
+  std::string thin_cell(const ThinPlace& place) const {
+    const Observation seen = simulation_.observe();
+    return "stage " + simulation_.stage().name + " stopped in cycle " +
+           std::to_string(simulation_.state().cycle) + " at axial strain " +
+           short_text(seen.axial_strain) + " and volumetric strain " +
+           short_text(seen.volumetric_strain) + ": " + place.what + "; " +
+           advice_on_thickness(simulation_, place);
   }
 
   std::string unmet_criterion() const {
@@ -190,6 +241,9 @@ class Run {
     for (const Target& target : stage.loading.targets)
       compare(target.name, target.measured(seen.stress), target.wanted);
     if (stage.axial_strain) compare("axial strain", seen.axial_strain, *stage.axial_strain);
+    if (stage.duration)
+      compare("duration", static_cast<double>(simulation_.state().stage_cycle),
+              static_cast<double>(*stage.duration));
     if (stage.max_unbalanced_ratio) {
       compare("largest unbalanced force", seen.balance.largest_unbalanced_ratio,
               *stage.max_unbalanced_ratio);
@@ -198,7 +252,22 @@ class Run {
     std::string text = "stage " + simulation_.stage().name +
                        " did not end within max_cycles = " + std::to_string(stage.max_cycles);
     for (const std::string& one : unmet) text += (&one == &unmet.front() ? ": " : ", ") + one;
-    return text;
+    std::string gravity;  // that keeps it out of balance
+    if (stage.max_unbalanced_ratio)
+      gravity = advice_on_gravity(simulation_, seen, *stage.max_unbalanced_ratio);
+    return text + "; " + (gravity.empty() ? advice_on_cycles(simulation_, more_cycles()) : gravity);
+  }
+
+  /// What the stage still needs: by its rates, or where it waits for a stress by the share of it
+  /// that is done. Of balance that share is a guess, and so is at most ten times what it had.
+  double more_cycles() const {
+    const double known = simulation_.cycles_needed().cycles;
+    const Drive& stage = *simulation_.stage().drive;
+    if (!stage.stress_tolerance) return known;
+    const double least = stage.max_unbalanced_ratio ? 0.1 : 0.001;
+    const double done = std::clamp(simulation_.stage_fraction(), least, 0.9);
+    return std::max(known,
+                    static_cast<double>(simulation_.state().stage_cycle) * (1.0 - done) / done);
   }
 
   int give_up(const std::string& why) {
@@ -242,6 +311,8 @@ Simulation simulation_of(const RunOptions& options) {
   read_bodies(scene, options.scene);
   try {
     if (!options.resume) return Simulation(scene);
+  } catch (const CellTooThin& error) {
+    throw SceneError(options.scene.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
     throw SceneError(options.scene.string() + ": " + error.what());
   }

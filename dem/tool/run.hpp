@@ -19,7 +19,7 @@ struct RunOptions {
 /// What the program returns. A run that a signal ended returns 128 + the signal, as shells do.
 enum ExitStatus : int {
   success = 0,
-  not_reached = 1,  ///< a stage's criterion was not met, or the run blew up
+  not_reached = 1,  ///< a stage did not end, the cell became too thin, or the run blew up
   refused = 2,      ///< bad scene, state or command line: nothing was written; or a failed write
 };
 

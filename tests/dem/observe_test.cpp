@@ -99,6 +99,21 @@ TEST(Observe, BalanceCountsRattlersApartAndTakesTheWorstOfAllWithContacts) {
   EXPECT_NEAR(balance.largest_unbalanced_moment_ratio, 0.0, 1e-13);
 }
 
+// Along x the contacts push the first sphere by -50, the second by 25 and the third by 25.
+TEST(Observe, BalanceCountsTheWeightOfEachParticle) {
+  Particles particles = row_of_spheres();
+  particles.mass = {2.0, 1.0, 0.5, 9.0};
+  const Seen seen(particles, cube(10.0));
+  const Vec3 gravity(25.0, 0.0, 0.0);
+  const Balance balance = balance_of(particles, seen.contacts, seen.list, gravity);
+  EXPECT_NEAR(balance.largest_unbalanced_ratio, 50.0 / 37.5, 1e-13);
+  EXPECT_NEAR(balance.inertial_fraction, (0.0 + 50.0 + 37.5) / 3.0 / 37.5, 1e-13);
+  EXPECT_EQ(balance.rattlers, 1) << "one contact can bear a weight";
+  EXPECT_EQ(
+      observe(particles, cube(10.0), seen.contacts, seen.list, gravity).balance.inertial_fraction,
+      balance.inertial_fraction);
+}
+
 TEST(Observe, RowHasTheAssemblysNumbers) {
   Particles particles = row_of_spheres();
   particles.velocity[0] = {3.0, 0.0, 4.0};

@@ -257,7 +257,7 @@ TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.err,
             "tangency-dem: stage compress did not end within max_cycles = 9: mean stress 0 of "
-            "1e+07\n");
+            "1e+07; raise max_cycles to 2200\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path("out") + "/summary.json"));
   EXPECT_TRUE(std::filesystem::exists(folder.path("out") + "/checkpoint.state"));
 }

@@ -129,4 +129,101 @@ TEST(Walls, BearATiltedEllipsoidOnItsFlatSideInTheEnd) {
   EXPECT_NEAR(floor_of(state).overlap, weight / 1e6, 1e-6 * weight / 1e6);
 }
 
+/// Balls of two densities between walls along z, under gravity, whose weights are as large as what
+/// presses them: compacted, relaxed, grown and unloaded.
+std::string pressed_by_their_weight() {
+  const std::string motion =
+      "stress_tolerance = 0.1\nservo_gain = 0.02\nmax_strain_rate = 2.0\n"
+      "time_step_factor = 0.3\ndamping = 0.1\nmax_cycles = 20000\n";
+  return "schema = 1\n[cell]\nsize = [6.0, 6.0, 12.0]\nwalls = \"z\"\n[motion]\n"
+         "gravity = [0.0, 0.0, -10.0]\n"
+         "[particles.light]\ncount = 12\nmean_radius = 1.0\ndensity = 1000.0\n"
+         "[particles.heavy]\ncount = 12\nmean_radius = 0.9\ndensity = 5000.0\n"
+         "[contact]\nnormal_stiffness = 5e7\n[contact.light-wall]\n[contact.heavy-wall]\n"
+         "[[stage]]\nkind = \"place\"\narrangement = \"random\"\n"
+         "[[stage]]\nkind = \"relax\"\nmean_stress = 100e3\nmax_unbalanced_ratio = 0.03\n" +
+         motion +
+         "[[stage]]\nkind = \"grow\"\nelongation = 1.05\nincrements = 5\n"
+         "max_inertial_fraction = 0.02\nmean_stress = 100e3\n" +
+         motion +
+         "[[stage]]\nkind = \"unload\"\nmean_stress = 60e3\nmax_unbalanced_ratio = 0.03\n" + motion;
+}
+
+/// The largest force out of balance over the mean contact force, and the mean, from the records of
+/// the contacts and the weights: none of the simulator's sums.
+struct Unbalanced {
+  double largest = 0.0, mean = 0.0, without_weights = 0.0;
+  std::int64_t without_contacts = 0;
+
+  explicit Unbalanced(const Simulation& simulation) {
+    const State& state = simulation.state();
+    const Particles& p = state.particles;
+    std::vector<Vec3> force(p.size(), Vec3::Zero());
+    std::vector<int> touching(p.size(), 0);
+    double contact_force = 0.0;
+    int contacts = 0, bodies = 0;
+    for (std::size_t k = 0; k < state.list.pairs().size(); ++k) {
+      const Contact& contact = state.contacts.records()[k];
+      if (!contact.touches()) continue;
+      contact_force += contact.force.norm();
+      ++contacts;
+      const auto a = static_cast<std::size_t>(state.list.pairs()[k].a);
+      const auto b = static_cast<std::size_t>(state.list.pairs()[k].b);
+      force[a] -= contact.force;
+      ++touching[a];
+      if (b >= p.size()) continue;
+      force[b] += contact.force;
+      ++touching[b];
+    }
+    const double scale = contact_force / contacts;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (touching[i] == 0) {
+        ++without_contacts;
+        continue;
+      }
+      const double off = (force[i] + p.mass[i] * simulation.scene().gravity).norm() / scale;
+      largest = std::max(largest, off);
+      mean += off;
+      without_weights = std::max(without_weights, force[i].norm() / scale);
+      ++bodies;
+    }
+    mean /= bodies;
+  }
+};
+
+TEST(Gravity, CountsInTheBalanceOfRelaxingGrowingAndUnloadingBetweenWalls) {
+  Simulation simulation(parse_scene(pressed_by_their_weight(), "scene.toml"));
+  int increments = 0;
+  while (!simulation.finished()) {
+    const StageStatus status = simulation.status();
+    ASSERT_NE(status, StageStatus::out_of_cycles) << simulation.stage().name;
+    if (status == StageStatus::done) {
+      const Unbalanced off(simulation);
+      const Balance balance = simulation.observe().balance;
+      EXPECT_GT(off.without_weights, 0.2) << "there was a weight to count";
+      EXPECT_NEAR(balance.largest_unbalanced_ratio, off.largest, 1e-9);
+      EXPECT_NEAR(balance.inertial_fraction, off.mean, 1e-9);
+      EXPECT_EQ(balance.rattlers, off.without_contacts);
+      if (simulation.stage().growth) {
+        EXPECT_LE(off.mean, 0.02);
+      } else {
+        EXPECT_LE(off.largest, 0.03);
+      }
+      simulation.next_stage();
+      continue;
+    }
+    if (simulation.stage().growth) {
+      const Unbalanced before(simulation);
+      const std::int64_t made = simulation.state().increments;
+      simulation.step();
+      if (simulation.state().increments == made) continue;
+      EXPECT_LE(before.mean, 0.02) << "an increment waits for the balance";
+      ++increments;
+    } else {
+      simulation.step();
+    }
+  }
+  EXPECT_EQ(increments, 5);
+}
+
 }  // namespace

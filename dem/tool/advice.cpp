@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <tangency/dem/tool/advice.hpp>
+#include <vector>
+
+namespace tangency::dem {
+namespace {
+
+/// A number, two digits of it left.
+double two_digits(double x, double (*round)(double)) {
+  if (x == 0.0 || !std::isfinite(x)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1.0);
+  return std::copysign(round(std::abs(x) / unit * (1.0 - 1e-12)) * unit, x);
+}
+std::string text_of(double x, int digits) {
+  std::ostringstream text;
+  text << std::setprecision(digits) << x;
+  return text.str();
+}
+std::string rounded_down(double x) { return text_of(two_digits(x, std::floor), 2); }
+std::string rounded_up(double x) { return text_of(two_digits(x, std::ceil), 2); }
+/// An integer's text, without an exponent.
+std::string whole_up(double x) {
+  return text_of(std::round(two_digits(std::ceil(x), std::ceil)), 17);
+}
+
+std::string joined(const std::vector<std::string>& parts, const std::string& between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
+/// "[ 0.1, 0, -0.2 ]", as in the scene.
+std::string text_of(const Vec3& v) {
+  return "[ " + rounded_down(v[0]) + ", " + rounded_down(v[1]) + ", " + rounded_down(v[2]) + " ]";
+}
+
+/// Keys of the stage that strain it, each with `share` of what it is.
+std::vector<std::string> slower_rates(const Drive& stage, double share, int dimensions) {
+  std::vector<std::string> keys;
+  const Mat3 rate = -share * stage.loading.strain_rate;
+  const int axial = dimensions - 1;
+  if (stage.axial_strain) {
+    keys.push_back("axial_strain_rate to " + rounded_down(rate(axial, axial)));
+  } else {
+    const Vec3 strain = rate.diagonal(), shear(rate(0, 1), rate(1, 2), rate(2, 0));
+    if (!strain.isZero(0.0)) keys.push_back("strain_rate to " + text_of(strain));
+    if (!shear.isZero(0.0)) keys.push_back("shear_rate to " + text_of(shear));
+  }
+  if (!stage.loading.targets.empty())
+    keys.push_back("max_strain_rate to " +
+                   rounded_down(share * stage.loading.servo.max_strain_rate));
+  return keys;
+}
+
+/// So many times the particles.
+std::string advice_on_count(const Scene& scene, double times) {
+  if (scene.particle_types.size() > 1)
+    return "take " + rounded_up(times) + " times as many particles of each type";
+  const ParticleType& type = scene.particle_types.front();
+  return "raise particles." + type.name + ".count to " +
+         whole_up(times * static_cast<double>(type.batch.count));
+}
+
+/// How many times the particles would fill a cube, or a square, of that edge without a pore.
+double times_to_fill(const Simulation& simulation, double edge) {
+  const Particles& particles = simulation.state().particles;
+  double volume = 0.0;
+  for (const Vec3& axes : particles.semi_axes) volume += volume_of(axes, particles.dimensions);
+  return std::pow(edge, particles.dimensions) / volume;
+}
+
+/// Where the stage would have ended before: "" where nothing of it can.
+std::string earlier_end(const Simulation& simulation) {
+  const Stage& stage = simulation.stage();
+  const State& state = simulation.state();
+  if (stage.drive->axial_strain) {
+    const double strain = simulation.observe().axial_strain;
+    return strain > 0.0 ? "lower axial_strain to " + rounded_down(strain) : "";
+  }
+  if (stage.drive->duration)
+    return state.stage_cycle > 1 ? "lower duration to " + std::to_string(state.stage_cycle - 1)
+                                 : "";
+  if (!stage.growth || state.increments == 0) return "";
+  const Shape shape = simulation.scene().shape_in(0, state.stage, state.increments);
+  return "lower elongation to " + rounded_down(shape.elongation) +
+         (stage.growth->flatness ? " and flatness to " + rounded_down(shape.flatness) : "");
+}
+
+}  // namespace
+
+std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share) {
+  const Scene& scene = simulation.scene();
+  const Particles& particles = simulation.state().particles;
+  std::string unborne, walls;
+  Vec3 along = scene.gravity;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (scene.walled[k]) along[static_cast<int>(k)] = 0.0;
+    const bool pulls = along[static_cast<int>(k)] != 0.0;
+    if (pulls) unborne += "xyz"[k];
+    if (pulls || scene.walled[k]) walls += "xyz"[k];
+  }
+  double mass = 0.0;
+  for (const double one : particles.mass) mass += one;
+  const double weight = mass / static_cast<double>(particles.size()) * along.norm();
+  if (unborne.empty() || weight < share * seen.balance.mean_contact_force) return "";
+  return "gravity along " + unborne + " acts where no wall bears it; set cell.walls to \"" + walls +
+         "\", or motion.gravity to 0 along " + unborne;
+}
+
+std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound) {
+  const Drive& stage = *simulation.stage().drive;
+  const double fraction = seen.balance.inertial_fraction;
+  const std::string gravity = advice_on_gravity(simulation, seen, 0.5 * fraction);
+  if (!gravity.empty()) return gravity;
+  // What ends in balance was asked for no more of it: the mean is at most the largest.
+  const std::string loose = "it is not in balance yet; lower ";
+  if (simulation.stage().growth) return loose + "max_inertial_fraction to " + rounded_down(sound);
+  if (stage.max_unbalanced_ratio) return loose + "max_unbalanced_ratio to " + rounded_down(sound);
+  const auto keys = slower_rates(stage, sound / fraction, simulation.scene().dimensions);
+  if (!keys.empty())
+    return "the motion is too fast for its stresses to be static ones; lower " +
+           joined(keys, " and ");
+  // Velocities decay by damping times the step a cycle, contacts that swing at half that rate.
+  const std::string still = "particles still move though nothing strains them; ";
+  const double a_cycle = 0.5 * stage.damping * stage.time_step_factor;
+  if (!(a_cycle > 0.0)) return still + "raise damping to 0.5";
+  const double more = std::log(fraction / sound) / a_cycle;
+  return still + "raise duration to " +
+         whole_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
+}
+
+std::string advice_on_step(const Simulation& simulation, double share) {
+  return "lower time_step_factor to " +
+         rounded_down(share * simulation.stage().drive->time_step_factor);
+}
+
+std::string advice_on_stiffness(const Simulation& simulation, double times) {
+  const std::vector<ContactLaw>& laws = simulation.scene().laws.law;
+  const ContactLaw& first = laws.front();
+  const bool hertz = first.hertz.has_value();
+  const auto value = [](const ContactLaw& law) {
+    return law.hertz ? law.hertz->young_modulus : law.normal_stiffness;
+  };
+  const auto like_first = [&](const ContactLaw& law) {
+    return law.hertz.has_value() == hertz && value(law) == value(first);
+  };
+  // Measured: overlaps fall with the power 0.5 to 0.6 of the stiffness, linear or Hertz, since a
+  // packing that overlaps less has fewer contacts.
+  const double factor = times * times;
+  const std::string key = hertz ? "young_modulus" : "normal_stiffness";
+  if (std::all_of(laws.begin(), laws.end(), like_first))
+    return "raise " + key + " to " + rounded_up(factor * value(first));
+  std::vector<std::string> keys;
+  for (const bool of_hertz : {false, true})
+    if (std::any_of(laws.begin(), laws.end(),
+                    [&](const ContactLaw& law) { return law.hertz.has_value() == of_hertz; }))
+      keys.push_back(of_hertz ? "young_modulus" : "normal_stiffness");
+  return "raise every " + joined(keys, " and every ") + " " + rounded_up(factor) + "-fold";
+}
+
+std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& place) {
+  const Scene& scene = simulation.scene();
+  const Drive& stage = *simulation.stage().drive;
+  std::vector<std::string> ways;
+  if (const std::string end = earlier_end(simulation); !end.empty()) ways.push_back(end);
+  const int dimensions = scene.dimensions;
+  const double filled = times_to_fill(simulation, place.least);
+  if (stage.axial_strain) {
+    const double left = *stage.axial_strain - simulation.observe().axial_strain;
+    ways.push_back(
+        advice_on_count(scene, std::pow(place.least / place.length * std::exp(left), dimensions)));
+  } else if (!stage.duration && filled > 1.0) {
+    ways.push_back(advice_on_count(scene, filled));
+  } else if (!stage.duration && scene.cell_size) {
+    const double edge = std::pow(scene.cell_size->head(dimensions).prod(), 1.0 / dimensions);
+    ways.push_back("set cell.size to " + text_of({edge, edge, dimensions == 3 ? edge : 1.0}));
+  }
+  if (ways.empty()) ways.push_back(advice_on_count(scene, 2.0));
+  return joined(ways, ", or ");
+}
+
+std::string advice_on_cycles(const Simulation& simulation, double more) {
+  return "raise max_cycles to " +
+         whole_up(static_cast<double>(simulation.state().stage_cycle) + more);
+}
+
+}  // namespace tangency::dem

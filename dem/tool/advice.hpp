@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What to change where a stage went wrong or cannot go on: keys that its kind of stage has, or
+/// that the scene has, and the values to give them. Values are estimates from what was seen,
+/// rounded to two digits to the safe side.
+#pragma once
+
+#include <string>
+#include <tangency/dem/simulation.hpp>
+
+namespace tangency::dem {
+
+/// For an inertial fraction above `sound`: "the motion is too fast ...; lower max_strain_rate to
+/// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs; where a
+/// stage ends in balance, how much of it to ask for.
+std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound);
+
+/// "lower time_step_factor to 0.2", a share of what it is.
+std::string advice_on_step(const Simulation& simulation, double share);
+
+/// For overlaps `times` as large as sound ones: "raise contact.normal_stiffness to 2e9".
+std::string advice_on_stiffness(const Simulation& simulation, double times);
+
+/// For a cell that is too thin: where the stage should end, or how many particles it takes.
+std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& place);
+
+/// For a stage that is to have so many more cycles than have been: "raise max_cycles to 12000".
+std::string advice_on_cycles(const Simulation& simulation, double more);
+
+/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's mean
+/// weight along such axes is below that share of the mean contact force.
+std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share);
+
+}  // namespace tangency::dem

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a run says when something is wrong: by which keys of that stage it can be put right, and
+/// that it then is; and what it says of a stage that cannot end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <tangency/dem/scene_keys.hpp>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace tangency::test {
+namespace {
+
+Finished run_of(const TemporaryFolder& folder, const std::string& scene,
+                const Process::Place& place = {}, bool quiet = true) {
+  std::vector<std::string> arguments{
+      "run", folder.write("scene.toml", scene), "--out", folder.path("out"), "--threads", "1"};
+  if (quiet) arguments.push_back("--quiet");
+  return run_tool(arguments, "", place);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string line_with(const std::string& text, const std::string& part) {
+  for (const std::string& line : lines_of(text))
+    if (line.find(part) != line.npos) return line;
+  return "";
+}
+
+/// Every word of a line's advice, what stands after its last semicolon, that is a key of a scene
+/// has to be one that this kind of stage, or a section but the stages, has.
+void expect_keys_of(const std::string& kind, const std::string& line) {
+  ASSERT_NE(line.rfind(';'), line.npos) << line;
+  std::string advice = line.substr(line.rfind(';'));
+  std::replace_if(
+      advice.begin(), advice.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; },
+      ' ');
+  std::istringstream words(advice);
+  int named = 0;
+  for (std::string word; words >> word;) {
+    bool is_key = false, is_of_kind = false;
+    for (const dem::Key& key : dem::scene_keys())
+      if (key.name == word) {
+        is_key = true;
+        is_of_kind = is_of_kind || key.section != "stage" || dem::is_among(kind, key.kinds);
+      }
+    if (is_key) {
+      EXPECT_TRUE(is_of_kind) << word << " in: " << line;
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 0) << line;
+}
+
+std::string test_scene(const std::string& name) {
+  return read_file(std::string(TANGENCY_TEST_DATA) + "/scenes/" + name);
+}
+
+TEST(RestUnderGravity, IsInBalanceAndGivesNoWarning) {
+  const TemporaryFolder folder;
+  const Finished run = run_of(folder, test_scene("rest-under-gravity.toml"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  const auto summary = nlohmann::json::parse(read_file(folder.path("out/summary.json")));
+  EXPECT_LT(summary["inertial_fraction"].get<double>(), 1e-6);
+  EXPECT_LT(summary["largest_unbalanced_ratio"].get<double>(), 1e-6);
+  EXPECT_EQ(summary["rattlers"], 0);
+  const auto rows = lines_of(read_file(folder.path("out/history.csv")));
+  std::istringstream names(rows.front()), last(rows.back());
+  std::string name, value;
+  while (std::getline(names, name, ',') && std::getline(last, value, ','))
+    if (name == "inertial_fraction") {
+      EXPECT_LT(std::stod(value), 1e-6);
+    }
+}
+
+// It falls by half a radius, and is given the time that the advice names.
+TEST(Advice, OnABodyThatStillMovesIsADurationThatIsLongEnough) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      with(with(test_scene("rest-under-gravity.toml"), "5.0, 1.0]\n", "5.0, 1.5]\n"),
+           "duration = 20000", "duration = 700");
+  const Finished moving = run_of(folder, scene);
+  EXPECT_EQ(moving.status, 0);
+  const std::string line = line_with(moving.err, "inertial fraction");
+  expect_keys_of("servo", line);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      line, found,
+      std::regex("particles still move though nothing strains them; raise duration to (\\d+)$")))
+      << line;
+  const Finished longer =
+      run_of(folder, with(scene, "duration = 700", "duration = " + found[1].str()));
+  EXPECT_EQ(longer.err, "");
+}
+
+/// small_scene() without its relaxation, and a last stage.
+std::string pressed_then(const std::string& stage) {
+  return with(small_scene(),
+              "[[stage]]\nkind = \"relax\"\nmean_stress = 10e6\n"
+              "max_strain_rate = 0.05\n",
+              stage);
+}
+
+TEST(Advice, OnFastMotionNamesTheRatesOfTheStage) {
+  struct Case {
+    const char* kind;
+    std::string stage, advice;
+  };
+  const std::vector<Case> cases{
+      {"shear", "axial_strain_rate = 0.5\naxial_strain = 0.02\n",
+       "; lower axial_strain_rate to 0."},
+      {"shear",
+       "axial_strain_rate = 0.5\naxial_strain = 0.02\nmean_stress = 10e6\nmax_strain_rate = 0.3\n",
+       " and max_strain_rate to 0."},
+      {"servo", "duration = 100\nstrain_rate = [0.0, 0.5, -0.25]\n",
+       "; lower strain_rate to [ 0, 0."},
+      {"servo", "duration = 100\nshear_rate = [0.5, 0.0, 0.0]\n", "; lower shear_rate to [ 0."},
+      {"servo", "duration = 100\nmean_stress = 30e6\nmax_strain_rate = 0.5\n",
+       "; lower max_strain_rate to 0."}};
+  for (const Case& one : cases) {
+    const TemporaryFolder folder;
+    const Finished run =
+        run_of(folder, pressed_then(std::string("[[stage]]\nkind = \"") + one.kind +
+                                    "\"\nname = \"last\"\n" + one.stage));
+    const std::string line = line_with(run.err, "stage last ended with inertial fraction");
+    EXPECT_NE(line.find(one.advice), line.npos) << run.err;
+    expect_keys_of(one.kind, line);
+  }
+}
+
+TEST(Advice, OnGravityThatNoWallBearsNamesTheWallsThatWould) {
+  const TemporaryFolder folder;
+  const Finished run =
+      run_of(folder, with(with(small_scene(), "[cell]\n",
+                               "[cell]\nwalls = \"x\"\n[motion]\ngravity = [0.0, 0.0, -3e6]\n"),
+                          "kind = \"relax\"", "kind = \"relax\"\nmax_cycles = 300"));
+  EXPECT_EQ(run.status, 1);
+  const std::string line = line_with(run.err, "stage relax did not end");
+  EXPECT_NE(line.find("; gravity along z acts where no wall bears it; set cell.walls to \"xz\", or "
+                      "motion.gravity to 0 along z"),
+            line.npos)
+      << run.err;
+}
+
+TEST(Advice, OnSoftParticlesIsAStiffnessThatIsEnough) {
+  const std::string linear = with(small_scene(), "stiffness = 1.5e10", "stiffness = 1e9");
+  const std::string hertz =
+      with(linear, "normal_stiffness = 1e9", "law = \"hertz\"\nyoung_modulus = 5e8");
+  for (const auto& [scene, key] :
+       {std::pair(linear, "normal_stiffness"), std::pair(hertz, "young_modulus")}) {
+    const TemporaryFolder folder;
+    const Finished soft = run_of(folder, scene);
+    const std::string line = line_with(soft.err, "stage relax ended with mean overlap");
+    ASSERT_NE(line, "") << soft.err;
+    expect_keys_of("relax", line);
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(
+        line, found,
+        std::regex("too soft for what they bear; raise " + std::string(key) + " to ([0-9.e+]+)$")))
+        << line;
+    const Finished stiff =
+        run_of(folder, std::regex_replace(scene, std::regex(std::string(key) + " = [0-9.e+]+"),
+                                          std::string(key) + " = " + found[1].str()));
+    EXPECT_EQ(line_with(stiff.err, "stage relax ended with mean overlap"), "") << stiff.err;
+  }
+}
+
+/// A ball held by twenty heavy ones all around it.
+TEST(Advice, OnALongStepIsAShorterOne) {
+  std::string scene =
+      "schema = 1\n[cell]\nsize = [9.0, 9.0, 9.0]\n[particles.ball]\ncount = 1\n"
+      "mean_radius = 1.0\n[particles.stone]\ncount = 20\nmean_radius = 1.0\ndensity = 1e12\n"
+      "[contact]\nnormal_stiffness = 1e6\nfriction_coefficient = 1.0\n"
+      "[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\n"
+      "[[body]]\ntype = \"ball\"\nposition = [4.0, 4.0, 4.0]\n";
+  for (int k = 0; k < 20; ++k) {
+    const double z = 1.0 - (2.0 * k + 1.0) / 20.0, across = std::sqrt(1.0 - z * z);
+    scene += "[[body]]\ntype = \"stone\"\nposition = [" +
+             std::to_string(4.0 + 1.9 * across * std::cos(2.4 * k)) + ", " +
+             std::to_string(4.0 + 1.9 * across * std::sin(2.4 * k)) + ", " +
+             std::to_string(4.0 + 1.9 * z) + "]\n";
+  }
+  scene += "[[stage]]\nkind = \"servo\"\nduration = 1\ntime_step_factor = 0.3\n";
+  const TemporaryFolder folder;
+  const std::string line = line_with(run_of(folder, scene).err, "of the critical one");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(line, found, std::regex("; lower time_step_factor to (0[0-9.]+)$")))
+      << line;
+  expect_keys_of("servo", line);
+  const Finished shorter =
+      run_of(folder, with(scene, "factor = 0.3", "factor = " + found[1].str()));
+  EXPECT_EQ(line_with(shorter.err, "of the critical one"), "") << shorter.err;
+}
+
+/// Two balls far from each other, and a stage of its own length.
+std::string far_apart(const std::string& stage) {
+  return "schema = 1\n[cell]\nsize = [40.0, 40.0, 40.0]\n[particles.ball]\ncount = 2\n"
+         "mean_radius = 1.0\n[contact]\nnormal_stiffness = 1e6\n[[stage]]\nkind = \"place\"\n"
+         "[[stage]]\n" +
+         stage + "[output]\nframe_interval = 0\n";
+}
+
+TEST(StageThatCannotEnd, SaysSoAtItsFirstCycleWithWhatItNeeds) {
+  struct Case {
+    std::string stage, says, enough;
+    bool ends = true;
+  };
+  const std::vector<Case> cases{
+      {"kind = \"servo\"\nduration = 201\nmax_cycles = 200\n",
+       "stage servo cannot end within max_cycles = 200: it needs 201 cycles for its duration; "
+       "raise "
+       "max_cycles to 210\n",
+       "210"},
+      {"kind = \"shear\"\naxial_strain_rate = 0.025\naxial_strain = 0.1\nmax_cycles = 200\n",
+       "stage shear cannot end within max_cycles = 200: it needs 309 cycles for its axial_strain; "
+       "raise max_cycles to 310\n",
+       "310"},
+      {"kind = \"grow\"\nelongation = 1.5\nincrements = 900\nmean_stress = 1e3\n"
+       "max_strain_rate = 0.5\nmax_cycles = 200\n",
+       "stage grow cannot end within max_cycles = 200: it needs 900 cycles for its increments; "
+       "raise max_cycles to 900\n",
+       "900", false},
+      {"kind = \"compress\"\nmean_stress = 1e3\nmax_strain_rate = 0.05\nmax_cycles = 200\n",
+       "stage compress cannot end within max_cycles = 200: it needs 4247 cycles for its "
+       "mean_stress; "
+       "raise max_cycles to 4300\n",
+       "4300", false}};
+  for (const Case& one : cases) {
+    const TemporaryFolder folder;
+    const Finished run = run_of(folder, far_apart(one.stage));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.err.find("tangency-dem: " + one.says), 0u) << run.err;
+    const auto lines = lines_of(run.err);
+    ASSERT_EQ(lines.size(), 2u) << run.err;
+    EXPECT_NE(lines[1].find(" did not end within max_cycles = 200"), lines[1].npos);
+    EXPECT_NE(lines[1].find("; raise max_cycles to "), lines[1].npos) << lines[1];
+    const Finished more = run_of(
+        folder, far_apart(with(one.stage, "max_cycles = 200", "max_cycles = " + one.enough)));
+    EXPECT_EQ(more.err.find("cannot end"), more.err.npos) << more.err;
+    if (one.ends) {
+      EXPECT_EQ(more.status, 0) << more.err;
+    }
+  }
+}
+
+// A shear that takes 1e9 cycles ends with its 40,000: seconds, where it was said to take hours.
+TEST(TimeLeft, IsAtMostWhatMaxCyclesLeaves) {
+  const TemporaryFolder folder;
+  Process::Place terminal;
+  terminal.error_is_terminal = true;
+  const Finished run =
+      run_of(folder,
+             far_apart("kind = \"servo\"\nduration = 100000000000\nmax_cycles = 40000\n") +
+                 "history_interval = 100000\n",
+             terminal, false);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("\r[  "), run.err.npos);
+  EXPECT_EQ(run.err.find(" h left"), run.err.npos);
+  EXPECT_EQ(run.err.find(" min left"), run.err.npos);
+}
+
+}  // namespace
+}  // namespace tangency::test
