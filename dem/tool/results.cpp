@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
@@ -28,12 +29,15 @@ fs::path usable(const fs::path& directory) {
     made = at;
   fs::create_directories(directory, error);
   const fs::path probe = directory / ".writable";
+  errno = 0;
   const bool writable = !error && std::ofstream(probe).put('.').flush().good();
+  // A directory in which no file can be made: its disk is full, or it is another's.
+  const std::string why = error || errno == 0 ? "a directory, or a place for one"
+                                              : std::generic_category().message(errno);
   fs::remove(probe, error);
   if (writable) return directory;
   if (!made.empty()) fs::remove_all(made, error);
-  throw OutputError("--out " + directory.string() +
-                    ": cannot be written: a directory, or a place for one");
+  throw OutputError("--out " + directory.string() + ": cannot be written: " + why);
 }
 
 /// Held until it is closed, and by no second run meanwhile. No file is made for it.
@@ -47,7 +51,7 @@ csv::Descriptor locked(const fs::path& directory) {
 
 std::string header_line() {
   std::string line;
-  for (const Field& field : history_fields(0, 0.0, "", Observation{}))
+  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{}))
     line += (line.empty() ? "" : ",") + field.name;
   return line + "\n";
 }
@@ -72,7 +76,7 @@ std::vector<Field> row_of(const Simulation& simulation) {
   const State& state = simulation.state();
   const auto& stages = simulation.scene().stages;
   const std::string& stage = state.cycle == 0 ? stages.front().name : simulation.stage().name;
-  return history_fields(state.cycle, state.time, stage, simulation.observe());
+  return history_fields(state.cycle, state.time, stage, state.stage_cycle, simulation.observe());
 }
 
 /// The peaks of the scene's last stage of kind shear, if the history has it.

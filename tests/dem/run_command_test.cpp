@@ -125,7 +125,7 @@ TEST(RunCommand, SaysWhereHelpIsWhenTheCommandLineIsRefused) {
 
 TEST(RunCommand, HelpNamesTheProgramTheFilesAndEveryColumn) {
   const std::string help = run_tool({"run", "--help"}).out;
-  for (const auto& field : dem::history_fields(0, 0.0, "", dem::Observation{}))
+  for (const auto& field : dem::history_fields(0, 0.0, "", 0, dem::Observation{}))
     EXPECT_NE(help.find(field.name), help.npos) << field.name;
   for (const char* word :
        {"history.csv", "summary.json", "final.state", "checkpoint.state", "frames.pvd",
