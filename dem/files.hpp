@@ -13,12 +13,12 @@ namespace tangency::dem {
 /// A file's bytes; nothing for one that cannot be read.
 std::optional<std::string> read_whole(const std::filesystem::path& file);
 
-/// A file that cannot be written; what() is one line, "out/history.csv: cannot be written: No space
-/// left on device".
+/// A file that cannot be written, on a full disk for one; what() is one line that starts with its
+/// name.
 class WriteError : public std::runtime_error {
  public:
-  /// @param problem  the system's error number; 0: not known
-  WriteError(const std::filesystem::path& file, int problem);
+  explicit WriteError(const std::filesystem::path& file)
+      : std::runtime_error(file.string() + ": cannot be written") {}
 };
 
 /// Writes FILE.part and renames it: a failure leaves an old file as it was.

@@ -37,7 +37,8 @@ double mean_of(std::span<const ShearRow> rows, double ShearRow::*value) {
   return sum / static_cast<double>(rows.size());
 }
 
-/// Shows `look` the rows within peak_window from each row on, or three where they are further apart.
+/// Shows `look` the rows within peak_window from each row on, or three where they are further
+/// apart.
 template <class Look>
 void for_each_window(std::span<const ShearRow> rows, Look&& look) {
   constexpr std::size_t fewest = 3;

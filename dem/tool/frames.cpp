@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cerrno>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -147,9 +146,8 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
   }
   in.close();
   write_whole(part, kept);
-  errno = 0;
   xyz_.open(part, std::ios::binary | std::ios::app);
-  if (!xyz_) throw WriteError(part, errno);
+  if (!xyz_) throw WriteError(part);
   std::filesystem::remove(whole);
 }
 
@@ -159,9 +157,8 @@ void Frames::add(const Simulation& simulation) {
   write_whole(directory_ / "frames" / (to_text(state.cycle) + ".vtp"), vtp_of(state));
   entries_.push_back({state.cycle, state.time});
   write_index();
-  errno = 0;
   xyz_ << xyz_of(simulation) << std::flush;
-  if (!xyz_) throw WriteError(directory_ / "frames.xyz.part", errno);
+  if (!xyz_) throw WriteError(directory_ / "frames.xyz.part");
 }
 
 void Frames::write_index() const {
@@ -176,9 +173,8 @@ void Frames::write_index() const {
 
 void Frames::finish() {
   const auto part = directory_ / "frames.xyz.part";
-  errno = 0;
   xyz_.close();
-  if (!xyz_) throw WriteError(part, errno);
+  if (!xyz_) throw WriteError(part);
   std::filesystem::rename(part, directory_ / "frames.xyz");
 }
 

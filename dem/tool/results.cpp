@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
@@ -29,15 +28,12 @@ fs::path usable(const fs::path& directory) {
     made = at;
   fs::create_directories(directory, error);
   const fs::path probe = directory / ".writable";
-  errno = 0;
   const bool writable = !error && std::ofstream(probe).put('.').flush().good();
-  // A directory in which no file can be made: its disk is full, or it is another's.
-  const std::string why = error || errno == 0 ? "a directory, or a place for one"
-                                              : std::generic_category().message(errno);
   fs::remove(probe, error);
   if (writable) return directory;
   if (!made.empty()) fs::remove_all(made, error);
-  throw OutputError("--out " + directory.string() + ": cannot be written: " + why);
+  throw OutputError("--out " + directory.string() +
+                    ": cannot be written: a directory, or a place for one");
 }
 
 /// Held until it is closed, and by no second run meanwhile. No file is made for it.

@@ -40,9 +40,9 @@ std::string history_of(const std::vector<MadeRow>& rows) {
     for (const auto& field : dem::history_fields(row.cycle, row.cycle, row.stage, 0, seen)) {
       const std::string number = field.name == "cycle" || field.name == "time"
                                      ? std::to_string(row.cycle)
-                                 : field.name == "stage"              ? row.stage
-                                 : field.name == "stage_cycle"        ? std::to_string(row.stage_cycle)
-                                 : field.name == "axial_strain"       ? std::to_string(row.strain)
+                                 : field.name == "stage"        ? row.stage
+                                 : field.name == "stage_cycle"  ? std::to_string(row.stage_cycle)
+                                 : field.name == "axial_strain" ? std::to_string(row.strain)
                                  : field.name == "friction_angle_deg" ? std::to_string(row.angle)
                                                                       : "0";
       line += (line.empty() ? "" : ",") + number;
@@ -82,6 +82,27 @@ TEST(ReportCommand, PrintsALineAStageWithTheValuesAtItsEnd) {
   EXPECT_EQ(words(2)[0] + " " + words(2)[1] + " " + words(2)[3], "press 120 7.25");
   EXPECT_EQ(words(3)[0] + " " + words(3)[1] + " " + words(3)[3], "shear 280 28.50");
   EXPECT_EQ(words(4)[0] + " " + words(4)[1], "shear 50") << "the second of that name";
+}
+
+// Resumed in a directory of its own, whose history begins there.
+TEST(ReportCommand, OfAResumedRunShowsTheStagesOwnCycles) {
+  const TemporaryFolder folder;
+  const std::string first = folder.write("first.toml", small_scene());
+  const std::string scene = folder.write("scene.toml", shearing_scene());
+  ASSERT_EQ(run_tool({"run", first, "--out", folder.path("first"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("whole"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("rest"), "--quiet", "--resume",
+                      folder.path("first/final.state")})
+                .status,
+            0);
+  const auto whole = lines_of(run_tool({"report", folder.path("whole")}).out);
+  const auto rest = lines_of(run_tool({"report", folder.path("rest")}).out);
+  ASSERT_EQ(rest.size(), 3u) << "the head, the shear and where the charts are";
+  std::istringstream of_rest(rest[1]), of_whole(whole[whole.size() - 2]);
+  for (std::string a, b; of_whole >> a;) {
+    of_rest >> b;
+    EXPECT_EQ(a, b);
+  }
 }
 
 /// A page is sound markup: every tag that is opened is closed in its turn.
