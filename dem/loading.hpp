@@ -47,15 +47,15 @@ struct ServoMemory {
   double rate = 0.0;      ///< of the published servo, 1/time
   // How the target was held, in the cycles that count (Loading::watch):
   std::int64_t watched = 0;
-  std::int64_t missed = 0;   ///< those in which it was off by more than held_within
-  double worst = 0.0;        ///< how far it was off where that was largest, relative; above: > 0
+  std::int64_t missed = 0;  ///< those in which it was off by more than held_within
+  double worst = 0.0;       ///< how far it was off where that was largest, relative; above: > 0
 };
 
 /// A stress is held while it is this close to the wanted, relatively.
 inline constexpr double held_within = 0.01;
 
 struct Servo {
-  double gain = 0.2;             ///< share of the error removed a cycle, in (0, 1)
+  double gain = 0.5;             ///< share of the error removed a cycle, in (0, 1)
   double max_strain_rate = 0.0;  ///< bound of one target's rate, > 0, 1/time
   /// gain of the published servo, 1/(stress time); 0: the proportional-integral one.
   double published_gain = 0.0;

@@ -92,7 +92,7 @@ class Simulation {
 
   Scene scene_;
   State state_;
-  ContactLaws laws_;   ///< the scene's, with the current stage's friction
+  ContactLaws laws_;  ///< the scene's, with the current stage's friction
   std::string changed_laws_;
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
 };

@@ -88,8 +88,8 @@ More keys of summary.json:
 Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with history, frames
 and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
 the same DIR history and frames are carried on. The scene must have the same particles;
-stages may be added after those that the state has passed. A run that is not resumed removes
-the results of an earlier one in DIR.
+stages may be added after those that the state has passed, and contact laws may differ,
+which is said. A run that is not resumed removes the results of an earlier one in DIR.
 
 Exit status:
   0          the run is complete

@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double sound_inertial_fraction = 0.015;
 
 /// In mean radii. Particles stand for rigid ones. Chosen; the published parameters are softer: at
-/// 100e6 the dense sample has 0.107 and the end of its shear 0.152, of which scenes with them warn
+/// 100e6 the dense sample has 0.107 and the end of its shear 0.155, of which scenes with them warn
 /// (docs/simulator.md).
 constexpr double sound_overlap = 0.1;
 

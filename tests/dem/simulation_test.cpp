@@ -156,7 +156,34 @@ const Simulation& relaxing() {
   return simulation;
 }
 
-// dem/fire.hpp (3), dem/simulation.hpp (1)
+// dem/fire.hpp (1) (2)
+TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
+  const Motion motion{Rotation::full, Vec3(0.0, 0.0, -0.5)};
+  const Particles start = crowd(20, Cell::box(Vec3::Constant(4.0)), 3);
+  std::vector<Vec3> none(start.size(), Vec3::Zero());
+  const auto steered = [&](double along, double across) {
+    Resultants forces{none, none};
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      forces.force[i] = along * start.velocity[i] + across * Vec3(0.1, -0.3, 0.2) -
+                        start.mass[i] * motion.gravity;
+      forces.moment[i] = along * start.angular_velocity[i];
+    }
+    Particles p = start;
+    Fire fire;
+    const double before = kinetic_energy_at(p, forces, motion, 0.01);
+    const double taken = fire.steer(p, forces, motion, 0.01);
+    EXPECT_NEAR(taken, before - kinetic_energy_at(p, forces, motion, 0.01), 1e-12 * before);
+    EXPECT_LE(kinetic_energy(p), kinetic_energy(start) * (1.0 + 1e-12));
+    EXPECT_EQ(fire.downhill, along > 0.0 ? 1 : 0);
+    return p;
+  };
+  EXPECT_GT(kinetic_energy(steered(1.0, 1.0)), 0.5 * kinetic_energy(start));
+  EXPECT_NE(steered(1.0, 1.0).velocity, start.velocity);
+  for (const double uphill : {-1.0, 0.0}) EXPECT_EQ(kinetic_energy(steered(uphill, 0.0)), 0.0);
+}
+
+// dem/fire.hpp (3)
+// dem/simulation.hpp (1)
 TEST(Relaxation, HasTheSameStateAtEveryThreadCountAndFromASavedState) {
   const TemporaryFolder folder;
   ASSERT_LT(relaxing().state().fire.mixing, 0.1) << "what is saved is not what a stage starts with";
