@@ -14,6 +14,12 @@ constexpr double integral_slowness = 20.0;
 /// Unit tensor of the axes that strain.
 Mat3 unit(int dimensions) { return Vec3(1.0, 1.0, dimensions == 3 ? 1.0 : 0.0).asDiagonal(); }
 
+double largest_wanted(const std::vector<Target>& targets) {
+  double largest = 0.0;
+  for (const Target& target : targets) largest = std::max(largest, std::abs(target.wanted));
+  return largest;
+}
+
 }  // namespace
 
 Target Target::mean_stress(double wanted, int dimensions) {
@@ -64,7 +70,7 @@ double Servo::rate(const Target& target, const Stress& measured, double dt,
   const double wanted = gain * (error + memory.integral) / dt;
   const double allowed = std::clamp(wanted, -max_strain_rate, max_strain_rate);
   // No wind-up: the integral rests while the rate is at its bound.
-  if (allowed == wanted) memory.integral += gain / integral_slowness * error;
+  if (integral && allowed == wanted) memory.integral += gain / integral_slowness * error;
   return -allowed;
 }
 
@@ -76,11 +82,26 @@ Mat3 Loading::rate(const Stress& measured, double dt, std::vector<ServoMemory>& 
 }
 
 bool Loading::is_met(const Stress& measured, double tolerance) const {
-  double largest = 0.0;
-  for (const Target& target : targets) largest = std::max(largest, std::abs(target.wanted));
+  const double largest = largest_wanted(targets);
   return std::all_of(targets.begin(), targets.end(), [&](const Target& target) {
     return std::abs(target.measured(measured) - target.wanted) <= tolerance * largest;
   });
+}
+
+void Loading::watch(const Stress& measured, bool on_arrival,
+                    std::vector<ServoMemory>& memory) const {
+  const double largest = largest_wanted(targets);
+  const double scale = largest > 0.0 ? largest : measured.mean();
+  if (!(scale > 0.0)) return;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const double off = (targets[k].measured(measured) - targets[k].wanted) / scale;
+    const bool held = std::abs(off) <= held_within;
+    ServoMemory& seen = memory[k];
+    if (on_arrival && seen.watched == 0 && !held) continue;
+    ++seen.watched;
+    if (!held) ++seen.missed;
+    if (std::abs(off) > std::abs(seen.worst)) seen.worst = off;
+  }
 }
 
 bool Loading::is_independent() const {

@@ -9,6 +9,7 @@
 /// The published one is there by choice.
 #pragma once
 
+#include <cstdint>
 #include <tangency/dem/observe.hpp>
 #include <vector>
 
@@ -40,17 +41,27 @@ struct Target {
   double affine_stiffness(const Stress& stress) const;
 };
 
-/// What a servo remembers.
+/// What a servo remembers, and what is to be said of it.
 struct ServoMemory {
   double integral = 0.0;  ///< of the error, a strain
   double rate = 0.0;      ///< of the published servo, 1/time
+  // How the target was held, in the cycles that count (Loading::watch):
+  std::int64_t watched = 0;
+  std::int64_t missed = 0;  ///< those in which it was off by more than held_within
+  double worst = 0.0;       ///< how far it was off where that was largest, relative; above: > 0
 };
 
+/// A stress is held while it is this close to the wanted, relatively.
+inline constexpr double held_within = 0.01;
+
 struct Servo {
-  double gain = 0.005;           ///< share of the error removed a cycle, in (0, 1)
+  double gain = 0.5;             ///< share of the error removed a cycle, in (0, 1)
   double max_strain_rate = 0.0;  ///< bound of one target's rate, > 0, 1/time
   /// gain of the published servo, 1/(stress time); 0: the proportional-integral one.
   double published_gain = 0.0;
+  /// Without it no lasting creep is taken up, and nothing winds up while an assembly collapses that
+  /// will come to rest.
+  bool integral = true;
 
   /// The rate along the actuator for the coming step, extension positive, at most max_strain_rate
   /// in size. Without contacts to measure a stiffness on: the largest compressing rate.
@@ -69,6 +80,11 @@ struct Loading {
 
   /// Are all targets met, each within `tolerance` of the largest wanted stress?
   bool is_met(const Stress& measured, double tolerance) const;
+
+  /// Notes how far each target is off, relative to the largest wanted stress, or to the mean stress
+  /// where only directions are held.
+  /// @param on_arrival  a target counts only from when it is first within held_within
+  void watch(const Stress& measured, bool on_arrival, std::vector<ServoMemory>& memory) const;
 
   /// Can the targets be met one by one: is none a combination of the others?
   bool is_independent() const;

@@ -160,7 +160,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
 }
 
 std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
-                                  const Observation& seen) {
+                                  std::int64_t stage_cycle, const Observation& seen) {
   const Mat3& s = seen.stress.tensor;
   return {{"cycle", cycle},
           {"time", time},
@@ -190,7 +190,8 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"branch_work", seen.account.branch},
           {"sliding_loss", seen.account.sliding},
           {"damping_loss", seen.account.damping},
-          {"energy_error", seen.energy_error}};
+          {"energy_error", seen.energy_error},
+          {"stage_cycle", stage_cycle}};
 }
 
 }  // namespace tangency::dem

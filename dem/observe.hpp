@@ -79,7 +79,7 @@ struct EnergyAccount {
 /// Energy stored by the contacts.
 double elastic_energy(const Contacts& contacts);
 
-/// One row of a history: everything but cycle, time and stage.
+/// One row of a history: everything but cycle, time, stage and its cycle.
 struct Observation {
   double axial_strain, volumetric_strain;
   Stress stress;
@@ -105,7 +105,8 @@ struct Field {
 };
 
 /// A row's columns in the order of history.csv.
+/// @param stage_cycle  of the current stage: where one stage's rows end and the next one's begin
 std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
-                                  const Observation& seen);
+                                  std::int64_t stage_cycle, const Observation& seen);
 
 }  // namespace tangency::dem

@@ -31,34 +31,50 @@ std::optional<Slope> slope_of(std::span<const ShearRow> rows) {
   return Slope{product / square, strain};
 }
 
+double mean_of(std::span<const ShearRow> rows, double ShearRow::*value) {
+  double sum = 0.0;
+  for (const ShearRow& row : rows) sum += row.*value;
+  return sum / static_cast<double>(rows.size());
+}
+
+/// Shows `look` the rows within peak_window from each row on, or three where they are further
+/// apart.
+template <class Look>
+void for_each_window(std::span<const ShearRow> rows, Look&& look) {
+  constexpr std::size_t fewest = 3;
+  for (std::size_t first = 0, end = 0; first < rows.size(); ++first) {
+    const double reach = rows[first].axial_strain + peak_window * (1.0 + rounding);
+    end = std::max(end, first);
+    while (end < rows.size() && rows[end].axial_strain <= reach) ++end;
+    const std::size_t last = std::min(std::max(end, first + fewest), rows.size());
+    // What is left at the end is part of the windows before.
+    const bool is_short = rows.back().axial_strain < reach - 2.0 * rounding * peak_window;
+    if (first > 0 && (is_short || last - first < fewest)) break;
+    look(rows.subspan(first, last - first));
+  }
+}
+
 }  // namespace
 
 std::optional<ShearPeaks> shear_peaks(std::span<const ShearRow> rows) {
   if (rows.empty()) return std::nullopt;
-  const auto highest = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return a.friction_angle_deg < b.friction_angle_deg;
+  std::optional<double> angle;
+  ShearPeaks peaks{};
+  for_each_window(rows, [&](std::span<const ShearRow> window) {
+    const double mean = mean_of(window, &ShearRow::friction_angle_deg);
+    if (angle && mean <= *angle) return;
+    angle = peaks.friction_angle_deg = mean;
+    peaks.strain_at_friction = mean_of(window, &ShearRow::axial_strain);
   });
-  ShearPeaks peaks{highest->friction_angle_deg, highest->axial_strain, 0.0, 0.0};
-
   std::vector<ShearRow> all{{0.0, 0.0, 0.0}};
   all.insert(all.end(), rows.begin(), rows.end());
-  const std::span<const ShearRow> points = all;
-  constexpr std::size_t fewest = 3;
-  bool found = false;
-  for (std::size_t first = 0, end = 0; first < points.size(); ++first) {
-    const double reach = points[first].axial_strain + dilation_window * (1.0 + rounding);
-    end = std::max(end, first);
-    while (end < points.size() && points[end].axial_strain <= reach) ++end;
-    const std::size_t last = std::min(std::max(end, first + fewest), points.size());
-    // What is left at the end is part of the windows before.
-    const bool is_short = points.back().axial_strain < reach - 2.0 * rounding * dilation_window;
-    if (first > 0 && (is_short || last - first < fewest)) break;
-    const auto slope = slope_of(points.subspan(first, last - first));
-    if (!slope || (found && slope->rate <= peaks.dilation_rate)) continue;
-    found = true;
-    peaks.dilation_rate = slope->rate;
+  std::optional<double> rate;
+  for_each_window(std::span<const ShearRow>(all), [&](std::span<const ShearRow> window) {
+    const auto slope = slope_of(window);
+    if (!slope || (rate && slope->rate <= *rate)) return;
+    rate = peaks.dilation_rate = slope->rate;
     peaks.strain_at_dilation = slope->strain;
-  }
+  });
   return peaks;
 }
 

@@ -19,20 +19,21 @@ struct ShearRow {
 
 struct ShearPeaks {
   double friction_angle_deg;
-  double strain_at_friction;  ///< axial
+  double strain_at_friction;  ///< mean axial strain of the rows that it was taken from
   double dilation_rate;       ///< d volumetric strain / d axial strain
   double strain_at_dilation;  ///< mean axial strain of the rows that it was taken from
 };
 
-/// Axial strain over which a dilation rate is taken. Chosen: published peaks are some 0.05 wide,
-/// and the jumps of a thousand particles' volume some 0.001.
-inline constexpr double dilation_window = 0.01;
+/// Axial strain over which peaks are taken. Chosen: published peaks are some 0.05 wide, and the
+/// jumps of a thousand particles' volume some 0.001; a single row's angle is up to 2 degrees above
+/// its neighbours'.
+inline constexpr double peak_window = 0.01;
 
-/// The largest friction angle of any row, and the largest slope of a least-squares line through the
-/// volumetric strains of rows that lie within dilation_window, the unstrained start among them.
-/// Where rows are further apart the line goes through three neighbours.
+/// The largest mean friction angle of rows that lie within peak_window, and the largest slope of a
+/// least-squares line through their volumetric strains, the unstrained start among them, which has
+/// a volume and no angle. Where rows are further apart three neighbours are taken.
 ///
-/// (1) Volumetric strains that lie on a line have its slope.
+/// (1) Volumetric strains that lie on a line have its slope, and equal angles are the peak.
 /// (2) Windows reach over the full width, except that of rows whose strain is less than it in all.
 /// @param rows  of one stage, in their order
 /// @return  nothing without a row

@@ -399,6 +399,14 @@ double Scene::smallest_mean_radius() const {
   return smallest;
 }
 
+double Scene::servo_strain_rate(double stress) const {
+  constexpr double inertial_number = 0.05;  // Chosen: a collapse takes up to 20 times a test's rate
+  double slowest = 0.0;                     // diameter sqrt(density)
+  for (const auto& [name, batch] : particle_types)
+    slowest = std::max(slowest, 2.0 * batch.shape.mean_radius * std::sqrt(batch.density));
+  return inertial_number * std::sqrt(stress) / slowest;
+}
+
 Placement Scene::placement() const {
   const Place& place = stages.front().place.value();
   return {cell_size,

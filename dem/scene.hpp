@@ -35,8 +35,8 @@ struct Place {
 /// How a stage moves, and when it ends: as soon as all that is set holds.
 struct Drive {
   Loading loading;
-  double damping;           ///< in 1 / characteristic_time()
-  double time_step_factor;  ///< in characteristic_time()
+  std::optional<double> damping;  ///< in 1 / characteristic_time(); without: as in fire.hpp
+  double time_step_factor;        ///< in characteristic_time()
   std::optional<double> friction_coefficient;
   std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
   std::optional<double> max_unbalanced_ratio;  ///< of every particle
@@ -76,6 +76,9 @@ struct Scene {
   std::size_t particle_count() const;
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
   double smallest_mean_radius() const;
+  /// The strain rate that a servo may use by default to hold a stress, linear: that of an inertial
+  /// number of 0.05 of the slowest type, fifty times what a quasi-static test has.
+  double servo_strain_rate(double stress) const;
   Placement placement() const;
   /// The shape of a type in stage number `stage` after so many increments of it; in a stage that
   /// does not grow these do not matter.

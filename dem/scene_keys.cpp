@@ -137,17 +137,29 @@ constexpr std::array table{
         "Increments wait for the inertial fraction to be at most this, and so does the end"},
     Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", isotropic,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
-    Key{"stage", "max_strain_rate", real, "1/s", "(axial_strain_rate)", positive, "", "shear",
-        "The same"},
+    Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", positive, "", "shear",
+        "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
+        "0.05, "
+        "or axial_strain_rate where that is more"},
     Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", positive, "", "servo",
         "The same"},
-    Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", moving,
+    Key{"stage", "servo_gain", real, "-", "0.5", ratio, "", "shear servo",
         "Share of the stress error that the servo removes in a cycle"},
+    Key{"stage", "servo_gain", real, "-", "0.2", ratio, "", "relax unload",
+        "The same; slower, since cell and particles come to rest together"},
+    Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", "compress grow",
+        "The same; still slower, since these pass through states that hardly bear stress"},
     Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", positive, "", moving,
         "Gain of the published servo instead: the rate grows by it times the stress error each "
         "cycle; it rings"},
-    Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "", moving,
+    Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "",
+        "compress grow shear servo",
         "Rate at which the velocity of a free particle decays; times time_step_factor at most 2"},
+    Key{"stage", "damping", real, "sqrt(K_max/m_min)", "(adaptive)", between(0.0, 10.0), "",
+        "relax unload",
+        "The same; without: velocities are turned towards the forces, and taken away where they "
+        "run "
+        "against them, by the fast inertial relaxation engine"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",

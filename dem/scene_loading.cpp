@@ -62,8 +62,16 @@ void read_servo(const Section& section, const Scene& scene, Drive& drive) {
       section.forbid(key, "not together with stresses that it is the mean of");
 }
 
+/// A bound within which a shear's servo holds its stress: that of the stress, and at least the rate
+/// of the shear itself. Without a stress to hold it does not matter.
+double shear_servo_rate(const Section& section, const Scene& scene, const Loading& loading) {
+  const double axial = section.real("axial_strain_rate");
+  if (loading.targets.empty()) return axial;
+  return std::max(axial, scene.servo_strain_rate(loading.targets.front().wanted));
+}
+
 void check_step(const Section& section, const Drive& stage, const Scene& scene) {
-  if (stage.damping * stage.time_step_factor > 2.0)
+  if (stage.damping && *stage.damping * stage.time_step_factor > 2.0)
     section.fail("damping", "with time_step_factor = " + short_text(stage.time_step_factor) +
                                 " a finite number <= " + short_text(2.0 / stage.time_step_factor) +
                                 ": a step that damps more would turn velocities round");
@@ -99,18 +107,19 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
   if (section.has("max_strain_rate"))
     loading.servo.max_strain_rate = section.real("max_strain_rate");
   else if (kind == "shear")
-    loading.servo.max_strain_rate = section.real("axial_strain_rate");
+    loading.servo.max_strain_rate = shear_servo_rate(section, scene, loading);
   else if (!loading.targets.empty())
     section.fail_missing("max_strain_rate");
   loading.servo.gain = section.real("servo_gain");
   loading.servo.published_gain = section.optional_real("published_gain").value_or(0.0);
-  drive.damping = section.real("damping");
+  const bool comes_to_rest = kind == "relax" || kind == "unload";
+  loading.servo.integral = !comes_to_rest;
+  if (!comes_to_rest || section.has("damping")) drive.damping = section.real("damping");
   drive.time_step_factor = section.real("time_step_factor");
   drive.friction_coefficient = kind == "grow" || kind == "unload"
                                    ? std::optional(section.real("friction_coefficient"))
                                    : section.optional_real("friction_coefficient");
-  if (kind == "relax" || kind == "unload")
-    drive.max_unbalanced_ratio = section.real("max_unbalanced_ratio");
+  if (comes_to_rest) drive.max_unbalanced_ratio = section.real("max_unbalanced_ratio");
   drive.max_cycles = section.integer("max_cycles");
   check_step(section, drive, scene);
   return drive;

@@ -34,6 +34,10 @@ void require_thickness(const Cell& cell, const LeastCell& least) {
   if (auto thin = thin_place(cell, least, most_squeezed)) throw CellTooThin(std::move(*thin));
 }
 
+/// Axial strain from which a shear is held to its stress: what is before it is start. Chosen: a
+/// peak of friction comes at several times that.
+constexpr double settling_strain = 0.01;
+
 void require_equal(const std::string& key, double in_state, double in_scene) {
   if (std::abs(in_state - in_scene) <= same_particle * in_scene) return;
   std::ostringstream text;
@@ -77,10 +81,51 @@ void require_same_particles(const State& state, const Scene& scene) {
   }
 }
 
+std::string short_text(double x) {
+  std::ostringstream text;
+  text << std::setprecision(6) << x;
+  return text.str();
+}
+
+/// "contact.a-b.normal_stiffness = 2, and here 3" of each key that differs, of the first pair that
+/// it does for. Of one pair of types where there is but one law.
+std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
+  std::vector<std::string> keys;
+  std::string text;
+  const auto compare = [&](std::size_t pair, const std::string& key, double was, double is) {
+    if (std::abs(was - is) <= same_particle * std::abs(is)) return;
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
+    keys.push_back(key);
+    const auto name = [&](std::size_t type) {
+      return type < scene.particle_types.size() ? scene.particle_types[type].name : "wall";
+    };
+    const std::size_t types = made.types;
+    text += (text.empty() ? "" : "; ") + std::string("contact.") + name(pair / types) + "-" +
+            name(pair % types) + "." + key + " = " + short_text(was) + ", and here " +
+            short_text(is);
+  };
+  if (made.law.size() != scene.laws.law.size()) return "other particle types";
+  for (std::size_t pair = 0; pair < made.law.size(); ++pair) {
+    const ContactLaw &was = made.law[pair], &is = scene.laws.law[pair];
+    if (was.hertz.has_value() != is.hertz.has_value()) return "another contact.law";
+    if (was.hertz) {
+      compare(pair, "young_modulus", was.hertz->young_modulus, is.hertz->young_modulus);
+      compare(pair, "poisson_ratio", was.hertz->poisson_ratio, is.hertz->poisson_ratio);
+    } else {
+      compare(pair, "normal_stiffness", was.normal_stiffness, is.normal_stiffness);
+      compare(pair, "shear_stiffness", was.shear_stiffness, is.shear_stiffness);
+    }
+    compare(pair, "friction_coefficient", was.friction_coefficient, is.friction_coefficient);
+    compare(pair, "cohesion", was.cohesion, is.cohesion);
+  }
+  return text;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
+  state_.laws = scene_.laws;
   renew_list();
   update_contacts(0.0);
   next_stage();
@@ -100,6 +145,8 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
                                 " increments of growth; the scene's stage has " +
                                 std::to_string(most));
   require_same_particles(state_, scene_);
+  changed_laws_ = difference_of_laws(state_.laws, scene_);
+  state_.laws = scene_.laws;
   prepare_stage();
   const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
   if (state_.stage_cycle == 0) state_.servos.assign(servos, {});  // a stage added after the last
@@ -140,6 +187,7 @@ void Simulation::next_stage() {
   ++state_.stage;
   state_.stage_cycle = 0;
   state_.servos.assign(finished() ? 0 : stage().drive->loading.targets.size(), {});
+  state_.fire = {};
   state_.increments = 0;
   prepare_stage();
 }
@@ -155,7 +203,8 @@ double Simulation::time_step_ratio() const {
 
 Motion Simulation::motion() const {
   const double time = characteristic_time(state_.particles, laws_.largest_stiffness());
-  return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity, stage().drive->damping / time};
+  return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity,
+          stage().drive->damping.value_or(0.0) / time};
 }
 
 /// At the time of the positions: what goes with the elastic energy in the account.
@@ -172,6 +221,9 @@ void Simulation::step() {
   const double dt = time_step();
   state_.cell.rate = next_rate(dt);
 
+  if (!stage().drive->damping)
+    state_.energy.damping +=
+        state_.fire.steer(state_.particles, state_.contacts.resultants(), motion(), dt);
   const MotionWork work =
       move(state_.particles, state_.cell, state_.contacts.resultants(), motion(), dt);
   state_.energy.damping += work.damping;
@@ -198,6 +250,7 @@ Mat3 Simulation::next_rate(double dt) {
   next.strain(dt);
   require_thickness(next, least_);
   state_.servos = std::move(servos);
+  watch(stress);
   return next.rate;
 }
 
@@ -215,6 +268,17 @@ void Simulation::renew_list() {
   const std::vector<Pair> before = state_.list.pairs();
   state_.list.build(state_.particles, state_.cell, skin_ratio * largest);
   state_.contacts.carry_over(before, state_.list.pairs());
+}
+
+/// Keeps account of how stresses are held that the stage holds until its end: in a shear from where
+/// friction has been mobilised, else from when they are first met.
+void Simulation::watch(const Stress& stress) {
+  const Drive& stage = *this->stage().drive;
+  const int axial = state_.cell.dimensions - 1;
+  if (stage.stress_tolerance) return;  // the stage ends when they are met
+  if (stage.axial_strain && -state_.cell.logarithmic_strain()(axial, axial) < settling_strain)
+    return;
+  stage.loading.watch(stress, !stage.axial_strain, state_.servos);
 }
 
 /// Are the stresses the wanted ones and, where the stage asks for it, the assembly in balance?

@@ -6,6 +6,7 @@
 ///     number of threads, and not on whether the run was saved and resumed in between.
 #pragma once
 
+#include <tangency/dem/fire.hpp>
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/thin_cell.hpp>
@@ -23,6 +24,8 @@ struct State {
   std::size_t stage = 0;  ///< the current one; the number of stages when all are done
   std::int64_t stage_cycle = 0;
   std::vector<ServoMemory> servos;  ///< of the current stage's targets
+  Fire fire;                        ///< of the current stage, where no damping is given
+  ContactLaws laws;                 ///< the scene's, with which the contacts were made
   std::int64_t increments = 0;      ///< of growth, made in the current stage
   EnergyAccount energy;
 };
@@ -84,6 +87,10 @@ class Simulation {
 
   Observation observe() const;
 
+  /// What differs between the contact laws that a resumed state was made with and the scene's, one
+  /// line; empty where nothing does.
+  const std::string& changed_laws() const { return changed_laws_; }
+
  private:
   void prepare_stage();
   bool anything_turns() const;
@@ -98,10 +105,12 @@ class Simulation {
   void update_contacts(double dt);
   Motion motion() const;
   double kinetic_energy_now() const;
+  void watch(const Stress& stress);
 
   Scene scene_;
   State state_;
-  ContactLaws laws_;   ///< the scene's, with the current stage's friction
+  ContactLaws laws_;  ///< the scene's, with the current stage's friction
+  std::string changed_laws_;
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
   LeastCell least_;    ///< of the particles as they are
 };

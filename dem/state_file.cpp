@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
 constexpr std::string_view magic = "TANGSTAT";
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 class Writer {
  public:
@@ -99,11 +99,39 @@ void pass(Archive& archive, M& m) {
   for (int k = 0; k < 9; ++k) archive(m.data()[k]);
 }
 
+void pass_material(Writer& archive, const std::optional<Material>& material) {
+  archive(std::uint8_t{material.has_value()});
+  if (!material) return;
+  archive(material->young_modulus);
+  archive(material->poisson_ratio);
+}
+void pass_material(ByteReader& archive, std::optional<Material>& material) {
+  std::uint8_t byte = 0;
+  archive(byte);
+  if (byte > 1) throw not_whole;
+  if (byte == 0) return;
+  Material& read = material.emplace();
+  archive(read.young_modulus);
+  archive(read.poisson_ratio);
+}
+
 template <class Archive, class S>
 requires std::is_same_v<std::remove_const_t<S>, ServoMemory>
 void pass(Archive& archive, S& servo) {
   archive(servo.integral);
   archive(servo.rate);
+  archive(servo.watched);
+  archive(servo.missed);
+  archive(servo.worst);
+}
+
+template <class Archive, class L>
+requires std::is_same_v<std::remove_const_t<L>, ContactLaw>
+void pass(Archive& archive, L& law) {
+  for (auto* x :
+       {&law.normal_stiffness, &law.shear_stiffness, &law.friction_coefficient, &law.cohesion})
+    archive(*x);
+  pass_material(archive, law.hertz);
 }
 
 template <class T>
@@ -157,7 +185,11 @@ void pass_plain(Archive& archive, S& state) {
   archive(state.stage);
   archive(state.stage_cycle);
   pass(archive, state.servos);
+  archive(state.fire.mixing);
+  archive(state.fire.downhill);
   archive(state.increments);
+  archive(state.laws.types);
+  pass(archive, state.laws.law);
   auto& energy = state.energy;
   for (auto* x : {&energy.start, &energy.boundary, &energy.gravity, &energy.growth, &energy.branch,
                   &energy.sliding, &energy.damping})
@@ -224,6 +256,9 @@ State state_of(std::string_view bytes) {
   const std::vector<double>& mass = state.particles.mass;
   if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
     throw Damaged{"it holds a mass that is not > 0"};
+  if (state.laws.types == 0 || state.laws.types > state.laws.law.size() ||
+      state.laws.law.size() != state.laws.types * state.laws.types)
+    throw not_whole;
   if (state.cell.dimensions != 2 && state.cell.dimensions != 3)
     throw Damaged{"its dimensions are neither 2 nor 3"};
   state.particles.dimensions = state.cell.dimensions;

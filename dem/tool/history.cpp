@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/geometry/tool/csv.hpp>
 
 namespace tangency::dem {
-namespace {
-
-/// From where on half a strain taken back between two rows is a new stage's start. Chosen: servos
-/// that come to rest move the cell by less.
-constexpr double least_strain = 0.002;
-
-}  // namespace
-
 History::History(const std::filesystem::path& file) {
   csv::Reader reader(file.string());
   const csv::Column stage = reader.header().require("stage");
   std::vector<csv::Column> places;
-  for (const Field& field : history_fields(0, 0.0, "", Observation{})) {
+  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{})) {
     if (field.name == "stage") continue;
     places.push_back(reader.header().require(field.name));
     columns_.emplace_back(field.name, std::vector<double>());
@@ -39,12 +30,11 @@ std::span<const double> History::column(std::string_view name) const {
 }
 
 std::vector<StageRows> stages_of(const History& history) {
-  const auto strain = history.column("axial_strain");
+  const auto cycle = history.column("cycle"), of_stage = history.column("stage_cycle");
+  const auto start = [&](std::size_t row) { return cycle[row] - of_stage[row]; };
   std::vector<StageRows> stages;
   for (std::size_t row = 0; row < history.size(); ++row) {
-    const bool fell_back = row > 0 && std::abs(strain[row - 1]) > least_strain &&
-                           std::abs(strain[row]) < 0.5 * std::abs(strain[row - 1]);
-    if (stages.empty() || stages.back().name != history.stage(row) || fell_back)
+    if (stages.empty() || stages.back().name != history.stage(row) || start(row) != start(row - 1))
       stages.push_back({history.stage(row), row, row});
     stages.back().end = row + 1;
   }

@@ -36,8 +36,8 @@ struct StageRows {
   std::size_t first, end;
 };
 
-/// The stages that have rows, in their order. Of two in a row that have one name the second starts
-/// where the axial strain falls back towards 0.
+/// The stages that have rows, in their order. Two in a row that have one name are told apart by the
+/// cycle in which they began.
 std::vector<StageRows> stages_of(const History& history);
 
 /// The peaks of the last stage of that name; nothing where it has no row.

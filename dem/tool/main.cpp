@@ -66,6 +66,7 @@ logarithmic and count from the start of the stage:
   sliding_loss damping_loss
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
+  stage_cycle           cycles of the stage
 
 More keys of summary.json:
   particles, cycles, threads
@@ -75,11 +76,11 @@ More keys of summary.json:
   state_hash            of final.state; the same at every number of threads
   rattlers              particles with fewer than two contacts; under gravity with none
   peak_friction_angle_deg, strain_at_peak_friction
-                        of the last stage of kind shear: the largest of its rows, and its axial
-                        strain
+                        of the last stage of kind shear: the largest mean over rows within
+                        0.01 of axial strain, at least three, and their mean axial strain
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
-                        squares over rows within 0.01 of axial strain, at least three
+                        squares over such rows
   largest_unbalanced_ratio, largest_unbalanced_moment_ratio
                         of any particle that has contacts: unbalanced force, and moment over
                         its largest semi-axis, over the mean contact force
@@ -87,8 +88,8 @@ More keys of summary.json:
 Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with history, frames
 and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
 the same DIR history and frames are carried on. The scene must have the same particles;
-stages may be added after those that the state has passed. A run that is not resumed removes
-the results of an earlier one in DIR.
+stages may be added after those that the state has passed, and contact laws may differ,
+which is said. A run that is not resumed removes the results of an earlier one in DIR.
 
 Exit status:
   0          the run is complete

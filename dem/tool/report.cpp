@@ -80,17 +80,15 @@ class Run {
   /// A line of the table for each stage, of its last row.
   std::vector<Line> lines() const {
     std::vector<Line> lines;
-    double before = 0.0;
     for (const StageRows& stage : stages_) {
       const std::size_t end = stage.end - 1;
       const auto of = [&](const char* name) { return shown(value(name, end)); };
       const double work = work_done(end);
-      lines.push_back({stage.name, shown(value("cycle", end) - before, "%.0f"), of("mean_stress"),
+      lines.push_back({stage.name, shown(value("stage_cycle", end), "%.0f"), of("mean_stress"),
                        shown(value("friction_angle_deg", end), "%.2f"),
                        shown(value("coordination_number", end), "%.3f"), of("porosity"),
                        shown(value("inertial_fraction", end), "%.2g"), of("axial_strain"),
                        work > 0.0 ? shown(value("energy_error", end) / work, "%.1e") : "-"});
-      before = value("cycle", end);
     }
     return lines;
   }

@@ -47,7 +47,7 @@ csv::Descriptor locked(const fs::path& directory) {
 
 std::string header_line() {
   std::string line;
-  for (const Field& field : history_fields(0, 0.0, "", Observation{}))
+  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{}))
     line += (line.empty() ? "" : ",") + field.name;
   return line + "\n";
 }
@@ -72,7 +72,7 @@ std::vector<Field> row_of(const Simulation& simulation) {
   const State& state = simulation.state();
   const auto& stages = simulation.scene().stages;
   const std::string& stage = state.cycle == 0 ? stages.front().name : simulation.stage().name;
-  return history_fields(state.cycle, state.time, stage, simulation.observe());
+  return history_fields(state.cycle, state.time, stage, state.stage_cycle, simulation.observe());
 }
 
 /// The peaks of the scene's last stage of kind shear, if the history has it.

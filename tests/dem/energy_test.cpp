@@ -36,6 +36,7 @@ constexpr const char* kShear =
 constexpr const char* kGrow =
     "kind = \"grow\"\nelongation = 1.5\nincrements = 20\nmean_stress = 60e6\n"
     "max_strain_rate = 0.3\ndamping = 0.3\nmax_inertial_fraction = 0.1\nstress_tolerance = 0.1\n";
+constexpr const char* kRelax = "kind = \"relax\"\nmean_stress = 30e6\nmax_strain_rate = 0.3\n";
 
 /// How an assembly is made and driven.
 struct Case {
@@ -119,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"WallsAndGravity",
                          "[cell]\nwalls = \"xyz\"\n[motion]\ngravity = [0.0, 30.0, -1000.0]\n",
                          kLinear, kShear, 1.3, 1e-5, 1.0},
-                    Case{"Growth", "[cell]\n", kLinear, kGrow, 1.2, 1e-3, 1.5}),
+                    Case{"Growth", "[cell]\n", kLinear, kGrow, 1.2, 1e-3, 1.5},
+                    Case{"Relaxation", "[cell]\n", kLinear, kRelax, 1.3, 1e-3, 1.0}),
     [](const auto& one) { return std::string(one.param.name); });
 
 /// A cluster that flies apart, in a cell so wide that no image is met.

@@ -138,7 +138,7 @@ TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
   particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
   const Seen seen(particles, cube(10.0));
   const Observation row = observe(particles, cube(10.0), seen.contacts, seen.list);
-  for (const Field& field : history_fields(0, 0.0, "place", row))
+  for (const Field& field : history_fields(0, 0.0, "place", 0, row))
     if (const double* value = std::get_if<double>(&field.value)) {
       EXPECT_TRUE(std::isfinite(*value)) << field.name;
     }
@@ -146,14 +146,15 @@ TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
 
 TEST(Observe, HistoryHasItsColumnsInOrder) {
   std::string names;
-  for (const Field& field : history_fields(0, 0.0, "place", Observation{}))
+  for (const Field& field : history_fields(0, 0.0, "place", 0, Observation{}))
     names += field.name + ",";
   EXPECT_EQ(
       names,
       "cycle,time,stage,axial_strain,volumetric_strain,mean_stress,s_xx,s_yy,s_zz,s_xy,s_yz,"
       "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
       "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
-      "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,");
+      "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,"
+      "stage_cycle,");
 }
 
 }  // namespace

@@ -23,12 +23,27 @@ double none(double) { return 0.0; }
 
 TEST(ShearPeaks, OfNoRowAreNone) { EXPECT_FALSE(shear_peaks({})); }
 
-TEST(ShearPeaks, OfFrictionAreTheHighestRow) {
+// Six rows 0.002 apart lie in a window; those nearest to the top of 40 - 1e4 (e - 0.05)^2 have
+// offsets -0.006 to 0.004 from it, whose mean square is (5^2 + 3^2 + 1) 2/6 1e-6 + 0.001^2.
+TEST(ShearPeaks, OfFrictionAreTheHighestWindow) {
   const auto made =
       rows(0.002, 100, none, [](double e) { return 40.0 - 1e4 * (e - 0.05) * (e - 0.05); });
   const ShearPeaks peaks = shear_peaks(made).value();
-  EXPECT_NEAR(peaks.friction_angle_deg, 40.0, 1e-9);
-  EXPECT_NEAR(peaks.strain_at_friction, 0.05, 1e-12);
+  EXPECT_NEAR(peaks.friction_angle_deg, 40.0 - 1e4 * (35e-6 / 3.0 + 1e-6), 1e-9);
+  EXPECT_NEAR(std::abs(peaks.strain_at_friction - 0.05), 0.001, 1e-12);
+}
+
+// The largest of single rows would be 32 here, 2 degrees above what the assembly bears.
+TEST(ShearPeaks, OfFrictionAreNotThatOfOneNoisyRow) {
+  auto made = rows(0.0002, 500, none, [](double) { return 30.0; });
+  made[200].friction_angle_deg = 32.0;
+  EXPECT_NEAR(shear_peaks(made)->friction_angle_deg, 30.0 + 2.0 / 51.0, 1e-9);
+}
+
+TEST(ShearPeaks, OfFrictionOfRowsFarApartAreThoseOfThreeNeighbours) {
+  const auto made =
+      rows(0.02, 10, none, [](double e) { return std::abs(e - 0.1) < 0.01 ? 33.0 : 30.0; });
+  EXPECT_NEAR(shear_peaks(made)->friction_angle_deg, 31.0, 1e-12);
 }
 
 // dem/peaks.hpp (1)
@@ -45,7 +60,7 @@ TEST(ShearPeaks, OfDilationAreTheSteepestWindow) {
   const auto made = rows(
       0.0001, 2000, [&](double e) { return -std::sin(k * e) / k; }, none);
   const ShearPeaks peaks = shear_peaks(made).value();
-  const double width = tangency::dem::dilation_window;
+  const double width = tangency::dem::peak_window;
   EXPECT_NEAR(peaks.dilation_rate, 1.0 - k * k * width * width / 40.0, 1e-4);
   EXPECT_NEAR(peaks.strain_at_dilation, 0.1, 1e-4);
 }

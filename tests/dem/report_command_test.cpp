@@ -21,26 +21,28 @@ std::string shearing_scene() {
               "axial_strain = 0.1\ntime_step_factor = 0.3\n[output]\nhistory_interval = 10\n");
 }
 
-/// A directory with a history of rows {stage, cycle, axial strain, friction angle}, all else 0.
+/// A directory with a history of rows {stage, cycle, cycle of the stage, axial strain, friction
+/// angle}, all else 0.
 struct MadeRow {
   const char* stage;
-  int cycle;
+  int cycle, stage_cycle;
   double strain, angle;
 };
 std::string history_of(const std::vector<MadeRow>& rows) {
   std::string text;
-  for (const auto& field : dem::history_fields(0, 0.0, "", dem::Observation{}))
+  for (const auto& field : dem::history_fields(0, 0.0, "", 0, dem::Observation{}))
     text += (text.empty() ? "" : ",") + field.name;
   text += "\n";
   for (const MadeRow& row : rows) {
     dem::Observation seen{};
     seen.axial_strain = row.strain;
     std::string line;
-    for (const auto& field : dem::history_fields(row.cycle, row.cycle, row.stage, seen)) {
+    for (const auto& field : dem::history_fields(row.cycle, row.cycle, row.stage, 0, seen)) {
       const std::string number = field.name == "cycle" || field.name == "time"
                                      ? std::to_string(row.cycle)
-                                 : field.name == "stage"              ? row.stage
-                                 : field.name == "axial_strain"       ? std::to_string(row.strain)
+                                 : field.name == "stage"        ? row.stage
+                                 : field.name == "stage_cycle"  ? std::to_string(row.stage_cycle)
+                                 : field.name == "axial_strain" ? std::to_string(row.strain)
                                  : field.name == "friction_angle_deg" ? std::to_string(row.angle)
                                                                       : "0";
       line += (line.empty() ? "" : ",") + number;
@@ -60,12 +62,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(ReportCommand, PrintsALineAStageWithTheValuesAtItsEnd) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("out"));
-  folder.write("out/history.csv", history_of({{"place", 0, 0.0, 0.0},
-                                              {"press", 50, 0.05, 1.0},
-                                              {"press", 120, 0.1, 7.25},
-                                              {"shear", 150, 0.01, 31.0},
-                                              {"shear", 400, 0.02, 28.5},
-                                              {"shear", 450, 0.005, 3.5}}));
+  folder.write("out/history.csv", history_of({{"place", 0, 0, 0.0, 0.0},
+                                              {"press", 50, 50, 0.05, 1.0},
+                                              {"press", 120, 120, 0.1, 7.25},
+                                              {"shear", 150, 30, 0.01, 31.0},
+                                              {"shear", 400, 280, 0.02, 28.5},
+                                              {"shear", 450, 50, 0.021, 3.5}}));
   const Finished report = run_tool({"report", folder.path("out")});
   ASSERT_EQ(report.status, 0) << report.err;
   const auto lines = lines_of(report.out);
@@ -80,6 +82,27 @@ TEST(ReportCommand, PrintsALineAStageWithTheValuesAtItsEnd) {
   EXPECT_EQ(words(2)[0] + " " + words(2)[1] + " " + words(2)[3], "press 120 7.25");
   EXPECT_EQ(words(3)[0] + " " + words(3)[1] + " " + words(3)[3], "shear 280 28.50");
   EXPECT_EQ(words(4)[0] + " " + words(4)[1], "shear 50") << "the second of that name";
+}
+
+// Resumed in a directory of its own, whose history begins there.
+TEST(ReportCommand, OfAResumedRunShowsTheStagesOwnCycles) {
+  const TemporaryFolder folder;
+  const std::string first = folder.write("first.toml", small_scene());
+  const std::string scene = folder.write("scene.toml", shearing_scene());
+  ASSERT_EQ(run_tool({"run", first, "--out", folder.path("first"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("whole"), "--quiet"}).status, 0);
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("rest"), "--quiet", "--resume",
+                      folder.path("first/final.state")})
+                .status,
+            0);
+  const auto whole = lines_of(run_tool({"report", folder.path("whole")}).out);
+  const auto rest = lines_of(run_tool({"report", folder.path("rest")}).out);
+  ASSERT_EQ(rest.size(), 3u) << "the head, the shear and where the charts are";
+  std::istringstream of_rest(rest[1]), of_whole(whole[whole.size() - 2]);
+  for (std::string a, b; of_whole >> a;) {
+    of_rest >> b;
+    EXPECT_EQ(a, b);
+  }
 }
 
 /// A page is sound markup: every tag that is opened is closed in its turn.
@@ -131,7 +154,7 @@ TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
 TEST(ReportCommand, OfARunThatIsNotCompleteSaysSo) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("out"));
-  folder.write("out/history.csv", history_of({{"place", 0, 0.0, 0.0}}));
+  folder.write("out/history.csv", history_of({{"place", 0, 0, 0.0, 0.0}}));
   ASSERT_EQ(run_tool({"report", folder.path("out")}).status, 0);
   const std::string page = read_file(folder.path("out/report.html"));
   expect_balanced(page);
@@ -143,7 +166,7 @@ TEST(ReportCommand, OfABadDirectoryIsRefusedInOneLine) {
   for (const char* name : {"empty", "none_yet", "bad", "other"})
     std::filesystem::create_directory(folder.path(name));
   folder.write("none_yet/history.csv", history_of({}));
-  folder.write("bad/history.csv", with(history_of({{"place", 0, 0.25, 0.0}}), "0.25", "many"));
+  folder.write("bad/history.csv", with(history_of({{"place", 0, 0, 0.25, 0.0}}), "0.25", "many"));
   folder.write("other/history.csv", "a,b\n1,2\n");
   const std::vector<std::pair<std::string, std::string>> cases{
       {folder.path("missing"), "/history.csv: cannot be read"},
@@ -195,10 +218,23 @@ TEST(SummaryPeaks, AreThoseOfTheHistorysRowsAlsoOfAResumedRun) {
   ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
   const auto summary = nlohmann::json::parse(read_file(out + "/summary.json"));
   const Sheared rows(read_file(out + "/history.csv"), "shear");
-  const auto highest = std::max_element(rows.angle.begin(), rows.angle.end());
-  EXPECT_EQ(summary["peak_friction_angle_deg"].get<double>(), *highest);
-  EXPECT_EQ(summary["strain_at_peak_friction"].get<double>(),
-            rows.strain[static_cast<std::size_t>(highest - rows.angle.begin())]);
+  // The highest mean over as many rows as lie within 0.01 of strain: of equal steps, all full.
+  double highest = 0.0, strain_there = 0.0;
+  for (std::size_t first = 0; first < rows.strain.size(); ++first) {
+    double angle = 0.0, strain = 0.0, count = 0.0;
+    for (std::size_t k = first; k < rows.strain.size(); ++k) {
+      if (rows.strain[k] > rows.strain[first] + 0.01) break;
+      angle += rows.angle[k];
+      strain += rows.strain[k];
+      count += 1.0;
+    }
+    if (rows.strain[first] + 0.01 > rows.strain.back() || angle / count <= highest) continue;
+    highest = angle / count;
+    strain_there = strain / count;
+  }
+  EXPECT_NEAR(summary["peak_friction_angle_deg"].get<double>(), highest, 1e-9);
+  EXPECT_NEAR(summary["strain_at_peak_friction"].get<double>(), strain_there, 1e-9);
+  EXPECT_LT(highest, *std::max_element(rows.angle.begin(), rows.angle.end()));
   // The rate's mean over its window is near the chord of the volume there.
   const double rate = summary["peak_dilation_rate"].get<double>();
   const double at = summary["strain_at_peak_dilation"].get<double>();

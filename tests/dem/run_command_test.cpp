@@ -125,7 +125,7 @@ TEST(RunCommand, SaysWhereHelpIsWhenTheCommandLineIsRefused) {
 
 TEST(RunCommand, HelpNamesTheProgramTheFilesAndEveryColumn) {
   const std::string help = run_tool({"run", "--help"}).out;
-  for (const auto& field : dem::history_fields(0, 0.0, "", dem::Observation{}))
+  for (const auto& field : dem::history_fields(0, 0.0, "", 0, dem::Observation{}))
     EXPECT_NE(help.find(field.name), help.npos) << field.name;
   for (const char* word :
        {"history.csv", "summary.json", "final.state", "checkpoint.state", "frames.pvd",
@@ -181,6 +181,43 @@ TEST(RunCommand, WarnsOfParticlesThatOverlapTooMuch) {
   EXPECT_NE(run.err.find("tangency-dem: stage relax ended with mean overlap 0."), run.err.npos)
       << run.err;
   EXPECT_NE(run.err.find("; sound are at most 0.1 and at least 0"), run.err.npos) << run.err;
+}
+
+TEST(RunCommand, WarnsOfAStressThatWasNotHeldAndSaysWhatToChange) {
+  const TemporaryFolder folder;
+  const std::string shear =
+      "[[stage]]\nkind = \"shear\"\nmean_stress = 10e6\naxial_strain_rate = 0.005\n"
+      "axial_strain = 0.03\n[output]\n";
+  const std::string held = with(small_scene(), "[output]\n", shear);
+  const std::string missed = with(held, "axial_strain_rate",
+                                  "servo_gain = 0.005\nmax_strain_rate = 0.001\naxial_strain_rate");
+  const auto warnings = [&](const std::string& scene) {
+    return run_tool(
+               {"run", folder.write("scene.toml", scene), "--out", folder.path("out"), "--quiet"})
+        .err;
+  };
+  EXPECT_EQ(warnings(held).find("did not hold"), std::string::npos);
+  const std::string text = warnings(missed);
+  EXPECT_EQ(text.find("tangency-dem: stage shear did not hold mean stress at 1e+07: it was off by "
+                      "more than 1 % in "),
+            0u)
+      << text;
+  EXPECT_NE(text.find("; raise max_strain_rate from 0.001 to 0.25\n"), text.npos) << text;
+}
+
+TEST(RunCommand, ResumedUnderAnotherStiffnessSaysSo) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene());
+  ASSERT_EQ(run_tool({"run", scene, "--out", folder.path("out"), "--quiet"}).status, 0);
+  const std::string stiff =
+      folder.write("stiff.toml", with(small_scene(), "stiffness = 1.5e10", "stiffness = 2e10"));
+  const Finished resumed = run_tool({"run", stiff, "--out", folder.path("again"), "--quiet",
+                                     "--resume", folder.path("out/final.state")});
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_EQ(resumed.err.find("tangency-dem: goes on under other contact laws: the state was made "
+                             "with contact.grain-grain.normal_stiffness = 1.5e+10, and here 2e+10"),
+            0u)
+      << resumed.err;
 }
 
 TEST(RunCommand, RefusesABadCommandLine) {

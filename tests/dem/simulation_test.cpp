@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <iostream>
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
@@ -127,6 +128,115 @@ TEST(Simulation, StopsAskingForMoreWhenItsCyclesAreSpent) {
   EXPECT_EQ(simulation.status(), StageStatus::running);
   run_cycles(simulation, 1);
   EXPECT_EQ(simulation.status(), StageStatus::out_of_cycles);
+}
+
+/// Goes on to the stage of this number, and its first cycles.
+Simulation in_stage(const std::string& scene, std::size_t stage, int cycles) {
+  Simulation simulation(parse_scene(scene, "scene.toml"));
+  while (simulation.state().stage < stage) {
+    const StageStatus status = simulation.status();
+    if (status == StageStatus::out_of_cycles)
+      throw std::runtime_error("a stage before does not end");
+    if (status == StageStatus::done)
+      simulation.next_stage();
+    else
+      simulation.step();
+  }
+  run_cycles(simulation, cycles);
+  return simulation;
+}
+
+/// Frictionless grains enough to be shared among threads, in the midst of relaxing.
+const Simulation& relaxing() {
+  static const Simulation simulation = [] {
+    const std::string scene =
+        with(with(small_scene(), "count = 27", "count = 512"), "friction_coefficient = 0.5\n", "");
+    return in_stage(with(scene, "max_strain_rate = 0.05", "max_strain_rate = 1.0"), 2, 150);
+  }();
+  return simulation;
+}
+
+// dem/fire.hpp (1) (2)
+TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
+  const Motion motion{Rotation::full, Vec3(0.0, 0.0, -0.5)};
+  const Particles start = crowd(20, Cell::box(Vec3::Constant(4.0)), 3);
+  std::vector<Vec3> none(start.size(), Vec3::Zero());
+  const auto steered = [&](double along, double across) {
+    Resultants forces{none, none};
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      forces.force[i] = along * start.velocity[i] + across * Vec3(0.1, -0.3, 0.2) -
+                        start.mass[i] * motion.gravity;
+      forces.moment[i] = along * start.angular_velocity[i];
+    }
+    Particles p = start;
+    Fire fire;
+    const double before = kinetic_energy_at(p, forces, motion, 0.01);
+    const double taken = fire.steer(p, forces, motion, 0.01);
+    EXPECT_NEAR(taken, before - kinetic_energy_at(p, forces, motion, 0.01), 1e-12 * before);
+    EXPECT_LE(kinetic_energy(p), kinetic_energy(start) * (1.0 + 1e-12));
+    EXPECT_EQ(fire.downhill, along > 0.0 ? 1 : 0);
+    return p;
+  };
+  EXPECT_GT(kinetic_energy(steered(1.0, 1.0)), 0.5 * kinetic_energy(start));
+  EXPECT_NE(steered(1.0, 1.0).velocity, start.velocity);
+  for (const double uphill : {-1.0, 0.0}) EXPECT_EQ(kinetic_energy(steered(uphill, 0.0)), 0.0);
+}
+
+// dem/fire.hpp (3)
+// dem/simulation.hpp (1)
+TEST(Relaxation, HasTheSameStateAtEveryThreadCountAndFromASavedState) {
+  const TemporaryFolder folder;
+  ASSERT_LT(relaxing().state().fire.mixing, 0.1) << "what is saved is not what a stage starts with";
+  ASSERT_FALSE(relaxing().stage().drive->damping);
+  save_state(relaxing().state(), folder.path("a.state"));
+  std::string hash[3];
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Simulation simulation = relaxing();
+    if (threads == 3)
+      simulation = Simulation(simulation.scene(), load_state(folder.path("a.state")));
+    run_cycles(simulation, 100);
+    hash[threads - 1] = state_hash(simulation.state());
+  }
+  omp_set_num_threads(1);
+  EXPECT_EQ(hash[0], hash[1]);
+  EXPECT_EQ(hash[0], hash[2]);
+}
+
+// With the default there was before, a constant damping of 0.5, both take more than 60,000 cycles.
+TEST(Relaxation, WithoutFrictionEndsWithinTwelveThousandCyclesOfTheDefaults) {
+  const std::string spheres =
+      with(with(with(read_file(TANGENCY_DATA "/scenes/frictionless-packing-relax.toml"),
+                     "count = 150", "count = 100"),
+                "flatness = 1.9\n", ""),
+           "bounding_fraction = 0.1", "bounding_fraction = 0.25");
+  const std::string spheroids =
+      with(read_file(TANGENCY_DATA "/scenes/frictionless-packing-relax.toml"), "count = 150",
+           "count = 100");
+  for (const std::string& scene : {spheres, spheroids}) {
+    Simulation simulation = in_stage(scene, 2, 0);
+    while (simulation.status() == StageStatus::running && simulation.state().stage_cycle < 12000)
+      simulation.step();
+    EXPECT_EQ(simulation.status(), StageStatus::done);
+    std::cout << simulation.state().stage_cycle << " cycles\n";
+  }
+}
+
+TEST(Resumed, UnderOtherContactLawsSaysWhichAreOthers) {
+  const Simulation simulation = dense(27);
+  const auto changed = [&](const std::string& before, const std::string& after) {
+    const std::string scene =
+        with(with(small_scene(), "max_strain_rate = 0.05", "max_strain_rate = 1.0"), before, after);
+    return Simulation(parse_scene(scene, "scene.toml"), simulation.state()).changed_laws();
+  };
+  EXPECT_EQ(changed("", ""), "");
+  EXPECT_EQ(changed("normal_stiffness = 1.5e10", "normal_stiffness = 2e10"),
+            "contact.grain-grain.normal_stiffness = 1.5e+10, and here 2e+10; "
+            "contact.grain-grain.shear_stiffness = 1.5e+10, and here 2e+10");
+  EXPECT_EQ(changed("friction_coefficient = 0.5", "friction_coefficient = 0.0"),
+            "contact.grain-grain.friction_coefficient = 0.5, and here 0");
+  EXPECT_EQ(changed("normal_stiffness = 1.5e10", "law = \"hertz\"\nyoung_modulus = 1e10"),
+            "another contact.law");
 }
 
 /// Stress and balance anew from the state's positions and shear forces alone: normal forces from
