@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <system_error>
 #include <tangency/dem/files.hpp>
+#include <utility>
 
 namespace tangency::dem {
 namespace {
@@ -32,7 +33,8 @@ class OpenFile {
 
 FileError::FileError(const std::filesystem::path& file, const char* done, int problem)
     : std::runtime_error(file.string() + ": cannot be " + done + ": " +
-                         std::generic_category().message(problem)) {}
+                         std::generic_category().message(problem)),
+      problem_(problem) {}
 
 std::string bytes_of_file(const std::filesystem::path& file) {
   const OpenFile in(file, O_RDONLY);

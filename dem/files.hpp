@@ -19,6 +19,10 @@ class FileError : public std::runtime_error {
   /// @param done     "read", "written"
   /// @param problem  an errno
   FileError(const std::filesystem::path& file, const char* done, int problem);
+  int problem() const noexcept { return problem_; }
+
+ private:
+  int problem_;
 };
 
 class ReadError : public FileError {

@@ -235,10 +235,9 @@ using SchemaLine = std::array<std::string, 6>;
 
 SchemaLine schema_line(const Key& key) {
   const std::string allowed =
-      key.type == path ? std::string("a file's name")
-      : key.type == text
-          ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
-          : range_text(key.range);
+      key.type == path   ? std::string("a file's name")
+      : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
+                         : range_text(key.range);
   std::string meaning(key.meaning);
   if (key.section == "stage" && key.kinds != kinds) meaning += " [" + choices_text(key.kinds) + ']';
   return {std::string(key.name),

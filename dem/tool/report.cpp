@@ -266,8 +266,8 @@ std::string page_of(const Run& run, const fs::path& directory) {
 int report(const fs::path& directory) {
   const Run run(directory);
   write_whole(directory / "report.html", page_of(run, directory));
-  csv::OutputFile("-").write(text_of(run.lines()) + "Charts: " +
-                             (directory / "report.html").string() + '\n');
+  csv::OutputFile("-").write(text_of(run.lines()) +
+                             "Charts: " + (directory / "report.html").string() + '\n');
   return success;
 }
 

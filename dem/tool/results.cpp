@@ -35,7 +35,7 @@ fs::path usable(const fs::path& directory) {
     return directory;
   } catch (const WriteError& unusable) {
     if (!made.empty()) fs::remove_all(made, error);
-    throw OutputError(std::string("--out ") + unusable.what());
+    throw OutputError(std::string("--out ") + WriteError(directory, unusable.problem()).what());
   }
 }
 
@@ -111,8 +111,8 @@ bool is_of(const std::string& row, const Simulation& simulation) {
   for (const Field& field :
        history_fields(state.cycle, state.time, stage_of(row), simulation.observe())) {
     std::getline(cells, cell, ',');
-    const bool is_kept = field.name == "time" || field.name.ends_with("_work") ||
-                         field.name.ends_with("_loss");
+    const bool is_kept =
+        field.name == "time" || field.name.ends_with("_work") || field.name.ends_with("_loss");
     if (is_kept && cell != to_text(std::get<double>(field.value))) return false;
   }
   return true;
@@ -181,8 +181,8 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
   for (const char* name : {"checkpoint.state", "history.csv"}) fs::remove(directory_ / name);
 }
 
-/// Keeps the rows that the run had written when it was at this state. Of the state's own cycle there
-/// may be more: of the end of its stage and of stages after it that ended at once.
+/// Keeps the rows that the run had written when it was at this state. Of the state's own cycle
+/// there may be more: of the end of its stage and of stages after it that ended at once.
 void Results::carry_on(const Simulation& simulation) {
   const State& state = simulation.state();
   const auto& stages = simulation.scene().stages;

@@ -2,8 +2,8 @@
 /// @file
 /// What a run leaves in its directory: history.csv, summary.json, the states and the frames.
 /// Every file is written beside its place and renamed, so that none is ever half written. A row of
-/// the history is of a cycle and a stage; a stage that ends at once has one too. summary.json begins
-/// with the last row's values.
+/// the history is of a cycle and a stage; a stage that ends at once has one too. summary.json
+/// begins with the last row's values.
 #pragma once
 
 #include <filesystem>

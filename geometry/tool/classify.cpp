@@ -109,7 +109,7 @@ Subcommand add_classify(CLI::App& program) {
   app.add_option("--mixed-terms", options->mixed_terms,
                  "What D, E, F, G, H and J are of the factors of their terms: half (default), or "
                  "full")
-      ->check(CLI::IsMember({"half", "full"}))
+      ->check(CLI::IsMember({"half", "full"}).description(""))
       ->type_name("half|full");
   add_row_stream_options(app, *options);
   app.footer(kHelp);

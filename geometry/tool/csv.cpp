@@ -66,10 +66,10 @@ class RowEnds {
       case State::row_start:
       case State::cell_start:
         if (is_space(c)) break;
-        state_ = c == '"'                                     ? State::quoted
-                 : c == ','                                   ? State::cell_start
-                 : c == '#' && state_ == State::row_start     ? State::comment
-                                                              : State::plain;
+        state_ = c == '"'                                 ? State::quoted
+                 : c == ','                               ? State::cell_start
+                 : c == '#' && state_ == State::row_start ? State::comment
+                                                          : State::plain;
         break;
       case State::plain:
         if (c == ',') state_ = State::cell_start;
@@ -130,7 +130,8 @@ Cell take_cell(std::string_view& row) noexcept {
   while (end < row.size() && is_space(row[end])) ++end;
   if (end == row.size() || row[end] != '"') {
     cell.text = up_to_the_comma();
-    if (has_quotes(cell.text)) cell.rule = "a quote stands around a whole cell, and inside it twice";
+    if (has_quotes(cell.text))
+      cell.rule = "a quote stands around a whole cell, and inside it twice";
     return cell;
   }
   row.remove_prefix(end + 1);

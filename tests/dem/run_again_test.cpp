@@ -231,8 +231,7 @@ TEST(RunAgain, AFinishedStateInAnEmptyPlaceHasARowAndAReport) {
 
 TEST(RunAgain, AStageThatEndsAtOnceHasARowWhichTheSummaryIsOf) {
   const TemporaryFolder folder;
-  const std::string rest =
-      "[[stage]]\nkind = \"servo\"\nname = \"rest\"\nduration = 0\n[output]\n";
+  const std::string rest = "[[stage]]\nkind = \"servo\"\nname = \"rest\"\nduration = 0\n[output]\n";
   const std::string scene = folder.write("scene.toml", with(mixture(), "[output]\n", rest));
   const std::string out = folder.path("out");
   const Finished run = run_quietly(scene, out);

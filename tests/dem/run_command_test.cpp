@@ -295,9 +295,9 @@ TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
 // the run had gone through.
 TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
   const TemporaryFolder folder;
-  const std::string text = with(with(small_scene(), "count = 27", "count = 125"),
-                                "frame_interval = 0",
-                                "frame_interval = 300\ncheckpoint_interval = 350");
+  const std::string text =
+      with(with(small_scene(), "count = 27", "count = 125"), "frame_interval = 0",
+           "frame_interval = 300\ncheckpoint_interval = 350");
   const std::string scene = folder.write("scene.toml", text);
   const std::string whole = folder.path("whole"), halves = folder.path("halves");
   ASSERT_EQ(run_tool({"run", scene, "--out", whole, "--quiet"}).status, 0);

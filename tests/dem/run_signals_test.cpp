@@ -88,8 +88,7 @@ TEST(RunSignals, BeforeTheFirstCycleLeaveEarlierResultsAlone) {
   run.give_scene(small_scene());
   const Finished ended = run.process().wait();
   EXPECT_EQ(ended.status, 128 + SIGINT);
-  EXPECT_EQ(ended.err,
-            "tangency-dem: interrupted before the first cycle; nothing was written\n");
+  EXPECT_EQ(ended.err, "tangency-dem: interrupted before the first cycle; nothing was written\n");
   EXPECT_EQ(read_file(folder.path("out/summary.json")), "earlier");
 }
 

@@ -306,7 +306,9 @@ TEST(GapBatch, FollowingStaysOnItsBranchWhereAnotherWayOutIsShorter) {
   });
 }
 
-TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
+// Against differences of the gap and the normal of each pair itself, along and across.
+TEST(GapBatch, DerivativesAreThoseOfEachPairsOwnGap) {
+  constexpr double kStep = 1e-5;  // chosen: its square and u / kStep are about alike
   const Family f = contacts(families::contact_classes()[1], 200);
   const Indexed in(f);
   const BodyArray bodies(in.bodies);
@@ -316,13 +318,25 @@ TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
   gap_derivatives(bodies, {in.pairs, {}}, gaps, of_centres);
   gap_derivatives(bodies, {in.pairs, in.separations}, gaps, of_separations);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const GapDerivatives single = gap_derivatives(f.a[i], f.b[i], gaps[i]);
-    ASSERT_EQ(of_centres[i].status, DerivativeStatus::ok);
-    ASSERT_EQ(of_centres[i].gradient, single.gradient) << i;
-    ASSERT_EQ(of_centres[i].hessian, single.hessian) << i;
-    const GapDerivatives given = gap_derivatives(f.a[i], f.b[i], in.separations[i], gaps[i]);
-    ASSERT_EQ(of_separations[i].gradient, given.gradient) << i;
-    ASSERT_EQ(of_separations[i].hessian, given.hessian) << i;
+    const Ellipsoid &a = f.a[i], &b = f.b[i];
+    const double step = kStep * std::min(a.smallest_semi_axis(), b.smallest_semi_axis());
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 move = step * Vec3::Unit(k);
+      const Gap more = signed_gap(a, b.moved_to(b.centre() + move)),
+                less = signed_gap(a, b.moved_to(b.centre() - move));
+      const double slope = (more.gap - less.gap) / (2 * step);
+      const Vec3 bend = (more.normal - less.normal) / (2 * step);
+      const Ellipsoid wide(b.centre(), b.semi_axes() + move, b.orientation()),
+          narrow(b.centre(), b.semi_axes() - move, b.orientation());
+      const double widening = (signed_gap(a, wide).gap - signed_gap(a, narrow).gap) / (2 * step);
+      for (const GapDerivatives* d : {&of_centres[i], &of_separations[i]}) {
+        ASSERT_EQ(d->status, DerivativeStatus::ok) << i;
+        ASSERT_NEAR(d->gradient[kOfBodyB + kCentre + k], slope, 1e-8) << i;
+        ASSERT_NEAR(d->gradient[kOfBodyB + kSemiAxes + k], widening, 1e-8) << i;
+        const Vec3 column = d->hessian.block<3, 1>(kOfBodyB + kCentre, kOfBodyB + kCentre + k);
+        ASSERT_LE((column - bend).norm() * d->least_radius, 1e-6) << i;
+      }
+    }
   }
 }
 

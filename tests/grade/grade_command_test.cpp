@@ -36,7 +36,8 @@ std::string last_line(const Report& report) {
 // Nothing else is wrong with this tool: no threshold was passed, and no answer is missing.
 TEST(GradeCommand, AWrongRelationFailsByDefaultAndTheLastLineIsTheVerdict) {
   const std::string one_wrong = changed(
-      "NR == 1 { print $1, $2; next } NR == 9 { $2 = \"separate\" == $2 ? \"overlap\" : \"separate\" } "
+      "NR == 1 { print $1, $2; next } NR == 9 { $2 = \"separate\" == $2 ? \"overlap\" : "
+      "\"separate\" } "
       "{ print $1, $2 }");
   const Report one = grade_tool(one_wrong, "near");
   EXPECT_EQ(one.run.status, 1);
@@ -176,8 +177,8 @@ TEST(GradeCommand, RubbishWithoutEndIsCutOff) {
 /// A command that says through a pipe, held open as long as it and what it started live, that a
 /// child of it stands still; then it does `last`.
 std::string with_a_child(const TemporaryFolder& folder, const std::string& last) {
-  return "exec 3> " + make_pipe(folder.path("alive")) + "; cat " +
-         make_pipe(folder.path("never")) + " & echo here >&3; " + last;
+  return "exec 3> " + make_pipe(folder.path("alive")) + "; cat " + make_pipe(folder.path("never")) +
+         " & echo here >&3; " + last;
 }
 
 TEST(GradeCommand, WhatAnEndedToolLeavesBehindIsEnded) {

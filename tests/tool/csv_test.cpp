@@ -63,33 +63,32 @@ TEST_P(AcceptedText, MeansTheSameTable) {
   EXPECT_EQ(read_x_y(GetParam().text), (Rows{{1, -2.5}, {3, 4}}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Csv, AcceptedText,
-                         testing::ValuesIn(std::vector<Sample>{
-                             {"Plain", "x,y\n1,-2.5\n3,4\n", ""},
-                             {"LastLineWithoutEnd", "x,y\n1,-2.5\n3,4", ""},
-                             {"Crlf", "x,y\r\n1,-2.5\r\n3,4\r\n", ""},
-                             {"ByteOrderMark", "\xEF\xBB\xBFx,y\n1,-2.5\n3,4\n", ""},
-                             {"ByteOrderMarkBeforeComment", "\xEF\xBB\xBF# c\nx,y\n1,-2.5\n3,4\n",
-                              ""},
-                             {"SpacesAndTabs", "  x ,\ty\n 1\t, -2.5 \n3 ,4\n", ""},
-                             {"ColumnsTurned", "y,x\n-2.5,1\n4,3\n", ""},
-                             {"UnknownColumns", "name,x,y,\nn a n,1,-2.5,inf\n,3,4,\n", ""},
-                             {"UnnamedColumns", ",x,,y\n0,1,,-2.5\n1,3,,4\n", ""},
-                             {"Comments", "# one\nx,y\n#two, 1\n1,-2.5\n  # three\n3,4\n#", ""},
-                             {"BlankLines", "\n\nx,y\n\n1,-2.5\n \t\r\n3,4\n\n", ""},
-                             {"HexFloats", "x,y\n0x1p0,-0X1.4P+1\n+0x1.8p+1,0x4\n", ""},
-                             {"ManySpellings", "x,y\n+1.,-25e-1\n.3e+1,0004.000E0\n", ""},
-                             {"QuotedNames", "\"x\",\"y\"\n1,-2.5\n3,4\n", ""},
-                             {"QuotedNumbers", "x,y\n\"1\",\"-2.5\"\n 3 , \"4\" \r\n", ""},
-                             {"QuotedRowLabels", "\"\",\"x\",\"y\"\n\"1\",1,-2.5\n\"2\",3,4\n", ""},
-                             {"QuotedBehindAByteOrderMark", "\xEF\xBB\xBF\"x\",y\n1,-2.5\n3,4\n", ""},
-                             {"CommasInQuotes", "\"a, b\",x,y\n\"1, 2, 3\",1,-2.5\n\",\",3,4\n", ""},
-                             {"DoubledQuotes", "\"5\"\" pipe\",x,y\n\"\"\"\",1,-2.5\n\"\",3,4\n", ""},
-                             {"LineBreaksInQuotes",
-                              "\"a\n# b\",x,y\n\"1\n\n# 2\r\n\",1,-2.5\n\"#\",3,4\n", ""},
-                             {"QuotedCellIsNoComment", "\"#x\",x,y\n\"#\",1,-2.5\n# \"\n0,3,4\n", ""},
-                             {"QuotesInComments", "# 5\" pipe\nx,y\n1,-2.5\n#\"\n3,4\n", ""}}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Csv, AcceptedText,
+    testing::ValuesIn(std::vector<Sample>{
+        {"Plain", "x,y\n1,-2.5\n3,4\n", ""},
+        {"LastLineWithoutEnd", "x,y\n1,-2.5\n3,4", ""},
+        {"Crlf", "x,y\r\n1,-2.5\r\n3,4\r\n", ""},
+        {"ByteOrderMark", "\xEF\xBB\xBFx,y\n1,-2.5\n3,4\n", ""},
+        {"ByteOrderMarkBeforeComment", "\xEF\xBB\xBF# c\nx,y\n1,-2.5\n3,4\n", ""},
+        {"SpacesAndTabs", "  x ,\ty\n 1\t, -2.5 \n3 ,4\n", ""},
+        {"ColumnsTurned", "y,x\n-2.5,1\n4,3\n", ""},
+        {"UnknownColumns", "name,x,y,\nn a n,1,-2.5,inf\n,3,4,\n", ""},
+        {"UnnamedColumns", ",x,,y\n0,1,,-2.5\n1,3,,4\n", ""},
+        {"Comments", "# one\nx,y\n#two, 1\n1,-2.5\n  # three\n3,4\n#", ""},
+        {"BlankLines", "\n\nx,y\n\n1,-2.5\n \t\r\n3,4\n\n", ""},
+        {"HexFloats", "x,y\n0x1p0,-0X1.4P+1\n+0x1.8p+1,0x4\n", ""},
+        {"ManySpellings", "x,y\n+1.,-25e-1\n.3e+1,0004.000E0\n", ""},
+        {"QuotedNames", "\"x\",\"y\"\n1,-2.5\n3,4\n", ""},
+        {"QuotedNumbers", "x,y\n\"1\",\"-2.5\"\n 3 , \"4\" \r\n", ""},
+        {"QuotedRowLabels", "\"\",\"x\",\"y\"\n\"1\",1,-2.5\n\"2\",3,4\n", ""},
+        {"QuotedBehindAByteOrderMark", "\xEF\xBB\xBF\"x\",y\n1,-2.5\n3,4\n", ""},
+        {"CommasInQuotes", "\"a, b\",x,y\n\"1, 2, 3\",1,-2.5\n\",\",3,4\n", ""},
+        {"DoubledQuotes", "\"5\"\" pipe\",x,y\n\"\"\"\",1,-2.5\n\"\",3,4\n", ""},
+        {"LineBreaksInQuotes", "\"a\n# b\",x,y\n\"1\n\n# 2\r\n\",1,-2.5\n\"#\",3,4\n", ""},
+        {"QuotedCellIsNoComment", "\"#x\",x,y\n\"#\",1,-2.5\n# \"\n0,3,4\n", ""},
+        {"QuotesInComments", "# 5\" pipe\nx,y\n1,-2.5\n#\"\n3,4\n", ""}}),
+    name_of);
 
 // geometry/tool/csv.hpp (3)
 TEST_P(RefusedText, IsNamedWithPlaceValueAndRule) {
@@ -120,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"NothingInQuotes", "x,y\n1,\"\"\n", "t.csv:2: y = (empty)" + kNotANumber},
         {"LineBreakInANumber", "x,y\n1,\"2\n\"\n", "t.csv:2: y = 2?" + kNotANumber},
         {"QuoteInsideACell", "x,y\n1,2\n1\"2,3\n", "t.csv:3: x = 1\"2" + kStrayQuote},
-        {"QuoteInsideAnUnknownCell", "w,x,y\n5\" pipe,1,2\n", "t.csv:2: w = 5\" pipe" + kStrayQuote},
+        {"QuoteInsideAnUnknownCell", "w,x,y\n5\" pipe,1,2\n",
+         "t.csv:2: w = 5\" pipe" + kStrayQuote},
         {"QuoteInsideAName", "x\",y\n1,2\n", "t.csv:1: x\"" + kStrayQuote},
         {"MoreBehindAQuote", "x,y\n1,\"2\" 3\n",
          "t.csv:2: y = 2: a closing quote must be followed by a comma or the end of the row"},
@@ -138,7 +138,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"LongRowWithQuotes", "x,y\n\"1\",2,\n",
          "t.csv:2: 3 cells: a row must have as many cells as the header has columns, 2"},
         {"QuotedNameTwice", "x,y,\"x\"\n1,2,3\n", "t.csv:1: x: a column must be named only once"},
-        {"Semicolons", "x;y\n1,5;2,5\n", "t.csv:1: the columns are separated by semicolons" + kCommas},
+        {"Semicolons", "x;y\n1,5;2,5\n",
+         "t.csv:1: the columns are separated by semicolons" + kCommas},
         {"QuotedSemicolons", "\"x\";\"y, m\"\n1;2\n",
          "t.csv:1: the columns are separated by semicolons" + kCommas},
         {"Tabs", "x\ty\n1\t2\n", "t.csv:1: the columns are separated by tabs" + kCommas},
@@ -314,11 +315,12 @@ class PlainReader {
 /// A hostile table of three columns, of about that many rows.
 std::string hostile_table(std::mt19937_64& random, std::size_t rows) {
   const auto one_of = [&](const auto& all) { return all[random() % std::size(all)]; };
-  static constexpr const char* kCells[] = {
-      "1",          "",          " a ",       "\"b\"",      "\"\"",     "\"a,b\"", " \"c\"\t",
-      "\"q\"\"q\"", "\"\"\"\"",  "\"\n\"",     "\"#\r\n #\"", "\" d \"",  "#e",      "f#",
-      "\"g\n,\"\"\"", "0x1.8p+3"};
-  static constexpr const char* kFaults[] = {"a\"b", "\"a\"b", "\"a\" \"b\"", "x\"\"", "\"\"\"a\"\"b"};
+  static constexpr const char* kCells[] = {"1",        "",        " a ",          "\"b\"",
+                                           "\"\"",     "\"a,b\"", " \"c\"\t",     "\"q\"\"q\"",
+                                           "\"\"\"\"", "\"\n\"",  "\"#\r\n #\"",  "\" d \"",
+                                           "#e",       "f#",      "\"g\n,\"\"\"", "0x1.8p+3"};
+  static constexpr const char* kFaults[] = {"a\"b", "\"a\"b", "\"a\" \"b\"", "x\"\"",
+                                            "\"\"\"a\"\"b"};
   static constexpr const char* kBetween[] = {"\n", "# \" ,\n", "  #\n", " \t\r\n"};
   std::string text;
   for (std::size_t i = 0; i < rows; ++i) {

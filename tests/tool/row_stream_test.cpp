@@ -184,8 +184,9 @@ TEST(RowStream, FullDiskIsAnError) {
 
 TEST(RowStream, ReaderThatHasGoneEndsItWithoutAWord) {
   const std::string quadrics = "A,B,C,D,E,F,G,H,J,K\n1,1,1,0,0,0,0,0,0,-1\n";
-  const std::string ellipses = "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n"
-                               "0,0,2,1,0,1,1,1,1,0\n";
+  const std::string ellipses =
+      "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n"
+      "0,0,2,1,0,1,1,1,1,0\n";
   for (const auto& [subcommand, input] :
        {std::pair<std::string, std::string>{"contact", kHeader + rows(600)},
         {"overlap", kHeader + rows(600)},

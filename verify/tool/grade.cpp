@@ -235,8 +235,8 @@ ExitStatus run(const Options& options) {
   for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
   const std::string judged = verdict(grades, options.thresholds, failed_by.empty());
   write(json, as_json(grades));
-  write(html, as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by,
-                      judged));
+  write(html,
+        as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by, judged));
   screen.write(judged + '\n');
   return failed_by.empty() ? passed : failed;
 }
