@@ -3,9 +3,9 @@
 /// Comma-separated tables, read and written as a stream in constant memory.
 ///
 /// A table is UTF-8 text (a byte-order mark is tolerated): a header line that names the columns, in
-/// any order, then a line a row. Blank lines and lines that begin with `#`, blanks aside, are skipped;
-/// spaces and tabs around cells and CRLF line ends are allowed. A row is shorter than `kLongestLine`
-/// bytes.
+/// any order, then a line a row. Blank lines and lines that begin with `#`, blanks aside, are
+/// skipped; spaces and tabs around cells and CRLF line ends are allowed. A row is shorter than
+/// `kLongestLine` bytes.
 ///
 /// Quotes are those of RFC 4180: a cell may stand in them whole, and is then what stands between
 /// them to the letter: commas, blanks, line breaks, and a quote for every two. So a row may go over
