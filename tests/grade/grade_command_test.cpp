@@ -136,7 +136,6 @@ TEST(GradeCommand, AHangingToolIsKilledAndEveryCorpusGraded) {
   EXPECT_TRUE(report.says("FAILED deep: the tool had not ended after 0.01 s"));
   EXPECT_EQ(report.value("near/all/missing answers"), 360);
   EXPECT_EQ(report.value("deep/all/missing answers"), 360);
-  EXPECT_EQ(report.value("deep/all/wrong relations"), 0);
 }
 
 // Its time is up once it says so itself, which it does after its answers.

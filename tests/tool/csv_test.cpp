@@ -372,13 +372,13 @@ TEST(CsvQuotes, AreReadAsByAReaderThatKnowsNothingElse) {
   constexpr unsigned kSeed = 20261129;
   std::printf("seed %u\n", kSeed);
   std::mt19937_64 random(kSeed);
-  for (int table = 0; table < 2'000; ++table) {
+  for (int table = 0; table < 500; ++table) {
     const std::string text = hostile_table(random, 1 + random() % 12);
     ASSERT_NO_FATAL_FAILURE(expect_same_rows(text)) << text;
   }
   // Several blocks, whose borders fall into quotes, doubled quotes and line breaks.
-  for (int table = 0; table < 4; ++table) {
-    ASSERT_NO_FATAL_FAILURE(expect_same_rows(hostile_table(random, 60'000))) << table;
+  for (int table = 0; table < 2; ++table) {
+    ASSERT_NO_FATAL_FAILURE(expect_same_rows(hostile_table(random, 40'000))) << table;
   }
 }
 

@@ -220,7 +220,7 @@ TEST(RowStream, NamesAMistypedSubcommandAndTheNearest) {
 
 TEST(RowStream, TerminalSeesTheProgressOfALargeFileOnly) {
   const TemporaryFolder folder;
-  const std::string large = folder.write("large.csv", kHeader + rows(600'000));
+  const std::string large = folder.write("large.csv", kHeader + rows(60'000));
   const std::string small = folder.write("small.csv", kHeader + rows(10));
   const Process::Place terminal{.folder = folder.path(""), .error_is_terminal = true};
   const Names to_file{"contact", "--threads", "1", "--out", "answers.csv"};
