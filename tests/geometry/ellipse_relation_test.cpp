@@ -9,6 +9,7 @@
 
 #include <tangency/geometry/methods/ellipse_meeting.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
+#include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
 namespace {
