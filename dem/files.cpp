@@ -1,32 +1,83 @@
 // SPDX-License-Identifier: MIT
-#include <fstream>
-#include <sstream>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
 #include <tangency/dem/files.hpp>
+#include <utility>
 
 namespace tangency::dem {
+namespace {
 
-std::optional<std::string> read_whole(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::ostringstream bytes;
-  // An empty file sets the failbit of `bytes`, which is no failure to read.
-  bytes << in.rdbuf();
-  return in.bad() ? std::nullopt : std::optional(bytes.str());
+/// Closed at the latest with its scope.
+class OpenFile {
+ public:
+  OpenFile(const std::filesystem::path& file, int how) noexcept
+      : file_(::open(file.c_str(), how | O_CLOEXEC, 0666)) {}
+  ~OpenFile() { close(); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const noexcept { return file_ >= 0; }
+  int get() const noexcept { return file_; }
+  /// False where the last bytes could not be stored.
+  bool close() noexcept { return file_ < 0 || ::close(std::exchange(file_, -1)) == 0; }
+
+ private:
+  int file_;
+};
+
+}  // namespace
+
+FileError::FileError(const std::filesystem::path& file, const char* done, int problem)
+    : std::runtime_error(file.string() + ": cannot be " + done + ": " +
+                         std::generic_category().message(problem)),
+      problem_(problem) {}
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  const OpenFile in(file, O_RDONLY);
+  if (!in.is_open()) throw ReadError(file, errno);
+  std::string bytes;
+  std::array<char, 1 << 16> some;
+  for (;;) {
+    const ssize_t got = ::read(in.get(), some.data(), some.size());
+    if (got == 0) return bytes;
+    if (got < 0 && errno != EINTR) throw ReadError(file, errno);
+    if (got > 0) bytes.append(some.data(), static_cast<std::size_t>(got));
+  }
 }
 
-void write_whole(const std::filesystem::path& file, const std::string& bytes) {
+std::optional<std::string> read_whole(const std::filesystem::path& file) {
+  try {
+    return bytes_of_file(file);
+  } catch (const ReadError&) {
+    return std::nullopt;
+  }
+}
+
+void write_all(int file, std::string_view bytes, const std::filesystem::path& name) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) throw WriteError(name, errno);
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::path part = file;
   part += ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(part, file, error);
-  if (out && !error) return;
-  std::filesystem::remove(part, error);
-  throw WriteError(file);
+  try {
+    OpenFile out(part, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!out.is_open()) throw WriteError(file, errno);
+    write_all(out.get(), bytes, file);
+    if (!out.close() || ::rename(part.c_str(), file.c_str()) != 0) throw WriteError(file, errno);
+  } catch (const WriteError&) {
+    std::error_code error;
+    std::filesystem::remove(part, error);
+    throw;
+  }
 }
 
 }  // namespace tangency::dem

@@ -3,26 +3,52 @@
 /// Whole files: read at once, and written so that they appear whole or not at all.
 #pragma once
 
+#include <cerrno>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace tangency::dem {
 
-/// A file's bytes; nothing for one that cannot be read.
-std::optional<std::string> read_whole(const std::filesystem::path& file);
-
-/// A file that cannot be written, on a full disk for one; what() is one line that starts with its
-/// name.
-class WriteError : public std::runtime_error {
+/// A file that cannot be read or written; what() is one line that starts with its name and ends
+/// with the system's reason.
+class FileError : public std::runtime_error {
  public:
-  explicit WriteError(const std::filesystem::path& file)
-      : std::runtime_error(file.string() + ": cannot be written") {}
+  /// @param done     "read", "written"
+  /// @param problem  an errno
+  FileError(const std::filesystem::path& file, const char* done, int problem);
+  int problem() const noexcept { return problem_; }
+
+ private:
+  int problem_;
 };
+
+class ReadError : public FileError {
+ public:
+  ReadError(const std::filesystem::path& file, int problem) : FileError(file, "read", problem) {}
+};
+
+class WriteError : public FileError {
+ public:
+  explicit WriteError(const std::filesystem::path& file, int problem = errno)
+      : FileError(file, "written", problem) {}
+};
+
+/// A file's bytes; a pipe's until it is closed.
+/// @throws ReadError
+std::string bytes_of_file(const std::filesystem::path& file);
+
+/// The same; nothing for a file that cannot be read.
+std::optional<std::string> read_whole(const std::filesystem::path& file);
 
 /// Writes FILE.part and renames it: a failure leaves an old file as it was.
 /// @throws WriteError
-void write_whole(const std::filesystem::path& file, const std::string& bytes);
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// Writes to an open file, `name` in messages.
+/// @throws WriteError
+void write_all(int file, std::string_view bytes, const std::filesystem::path& name);
 
 }  // namespace tangency::dem

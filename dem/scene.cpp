@@ -452,9 +452,13 @@ Scene parse_scene(const std::string& text, const std::string& name) {
 }
 
 Scene load_scene(const std::filesystem::path& file) {
-  const std::optional<std::string> text = read_whole(file);
-  if (!text) throw SceneError(file.string() + ": cannot be read: a scene in TOML");
-  return parse_scene(*text, file.string());
+  std::string text;
+  try {
+    text = bytes_of_file(file);
+  } catch (const ReadError& error) {
+    throw SceneError(error.what());
+  }
+  return parse_scene(text, file.string());
 }
 
 }  // namespace tangency::dem

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iomanip>
 #include <ostream>
 #include <sstream>
 #include <tangency/dem/scene_keys.hpp>
+#include <vector>
 
 namespace tangency::dem {
 namespace {
@@ -242,6 +243,37 @@ std::string_view header_of(std::string_view section) {
   return "top level";
 }
 
+using SchemaLine = std::array<std::string, 6>;
+
+SchemaLine schema_line(const Key& key) {
+  const std::string allowed =
+      key.type == path   ? std::string("a file's name")
+      : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
+                         : range_text(key.range);
+  std::string meaning(key.meaning);
+  if (key.section == "stage" && key.kinds != kinds) meaning += " [" + choices_text(key.kinds) + ']';
+  return {std::string(key.name),
+          std::string(type_text(key.type)),
+          std::string(key.unit),
+          std::string(key.required() ? "required" : key.fallback),
+          allowed,
+          meaning};
+}
+
+/// Columns as wide as their widest cell.
+void print_section(std::ostream& out, std::span<const Key> keys) {
+  std::vector<SchemaLine> lines{{"key", "type", "unit", "default", "allowed", "meaning"}};
+  for (const Key& key : keys) lines.push_back(schema_line(key));
+  std::array<std::size_t, std::tuple_size_v<SchemaLine> - 1> wide{};
+  for (const SchemaLine& line : lines)
+    for (std::size_t k = 0; k < wide.size(); ++k) wide[k] = std::max(wide[k], line[k].size());
+  for (const SchemaLine& line : lines) {
+    for (std::size_t k = 0; k < wide.size(); ++k)
+      out << "  " << line[k] << std::string(wide[k] - line[k].size(), ' ');
+    out << "  " << line.back() << '\n';
+  }
+}
+
 }  // namespace
 
 std::span<const Key> scene_keys() { return table; }
@@ -276,25 +308,12 @@ std::string allowed_values(const Key& key) {
 
 void print_schema(std::ostream& out) {
   out << "Scene schema 1. Compression is positive in stress.\n";
-  std::string_view section = "none";
-  for (const Key& key : table) {
-    if (key.section != section) {
-      section = key.section;
-      out << '\n' << header_of(section) << '\n';
-      out << "  " << std::left << std::setw(22) << "key" << std::setw(11) << "type" << std::setw(19)
-          << "unit" << std::setw(26) << "default" << std::setw(27) << "allowed"
-          << "meaning\n";
-    }
-    const std::string allowed =
-        key.type == path ? std::string("a file's name")
-        : key.type == text
-            ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
-            : range_text(key.range);
-    out << "  " << std::left << std::setw(22) << key.name << std::setw(11) << type_text(key.type)
-        << std::setw(19) << key.unit << std::setw(26)
-        << (key.required() ? "required" : key.fallback) << std::setw(27) << allowed << key.meaning;
-    if (section == "stage" && key.kinds != kinds) out << " [" << choices_text(key.kinds) << ']';
-    out << '\n';
+  for (std::span<const Key> rest = scene_keys(); !rest.empty();) {
+    const auto ends = [&](const Key& key) { return key.section != rest.front().section; };
+    const auto size = std::find_if(rest.begin(), rest.end(), ends) - rest.begin();
+    out << '\n' << header_of(rest.front().section) << '\n';
+    print_section(out, rest.first(static_cast<std::size_t>(size)));
+    rest = rest.subspan(static_cast<std::size_t>(size));
   }
 }
 

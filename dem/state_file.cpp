@@ -302,9 +302,13 @@ void save_state(const State& state, const std::filesystem::path& file) {
 
 State load_state(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& what) { throw StateError(file.string() + ": " + what); };
-  const std::optional<std::string> whole = read_whole(file);
-  if (!whole) fail("cannot be read: a state of an earlier run");
-  const std::string_view bytes = *whole;
+  std::string whole;
+  try {
+    whole = bytes_of_file(file);
+  } catch (const ReadError& error) {
+    throw StateError(error.what());
+  }
+  const std::string_view bytes = whole;
   constexpr std::size_t head = magic.size() + sizeof version;
   if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(magic))
     fail("no state of tangency-dem: final.state or checkpoint.state of a run");

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+
+#include <cerrno>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -146,8 +150,8 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
   }
   in.close();
   write_whole(part, kept);
-  xyz_.open(part, std::ios::binary | std::ios::app);
-  if (!xyz_) throw WriteError(part);
+  xyz_ = csv::Descriptor(::open(part.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  if (!xyz_.is_open()) throw WriteError(part, errno);
   std::filesystem::remove(whole);
 }
 
@@ -157,8 +161,7 @@ void Frames::add(const Simulation& simulation) {
   write_whole(directory_ / "frames" / (to_text(state.cycle) + ".vtp"), vtp_of(state));
   entries_.push_back({state.cycle, state.time});
   write_index();
-  xyz_ << xyz_of(simulation) << std::flush;
-  if (!xyz_) throw WriteError(directory_ / "frames.xyz.part");
+  write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
 }
 
 void Frames::write_index() const {
@@ -173,8 +176,7 @@ void Frames::write_index() const {
 
 void Frames::finish() {
   const auto part = directory_ / "frames.xyz.part";
-  xyz_.close();
-  if (!xyz_) throw WriteError(part);
+  if (!xyz_.close()) throw WriteError(part, errno);
   std::filesystem::rename(part, directory_ / "frames.xyz");
 }
 

@@ -10,8 +10,8 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <tangency/dem/simulation.hpp>
+#include <tangency/geometry/tool/descriptor.hpp>
 #include <vector>
 
 namespace tangency::dem {
@@ -41,7 +41,7 @@ class Frames {
   void write_index() const;
 
   std::filesystem::path directory_;
-  std::ofstream xyz_;
+  csv::Descriptor xyz_;  // frames.xyz.part
   std::vector<Entry> entries_;
 };
 

@@ -4,20 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
-#include <tangency/dem/files.hpp>
 #include <tangency/dem/scene_keys.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/report.hpp>
-#include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
-#include <tangency/geometry/tool/csv.hpp>
 #include <tangency/geometry/tool/not_empty.hpp>
+#include <tangency/geometry/tool/program.hpp>
 
 namespace {
 
 using namespace tangency::dem;
+using tangency::tool::exit_after;
 
 constexpr const char* program_description =
     "tangency-dem: assemblies of ellipsoids by the discrete element method";
@@ -30,7 +27,9 @@ constexpr const char* program_help = R"(
 
 constexpr const char* run_help = R"(
 DIR receives:
-  history.csv        a row every history_interval cycles and at the end of each stage
+  history.csv        a row every history_interval cycles and at the end of each stage, where a
+                     stage that ends at once has strains of 0; first one of the start, in another
+                     DIR than before of the state that the run goes on from
   summary.json       of a complete run: the values of its last row, and the keys below
   final.state        of a complete run: where another scene of the same particles goes on
   checkpoint.state   every checkpoint_interval cycles, every minute or
@@ -89,7 +88,7 @@ Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with hist
 and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
 the same DIR history and frames are carried on. The scene must have the same particles;
 stages may be added after those that the state has passed, and contact laws may differ,
-which is said. A run that is not resumed removes the results of an earlier one in DIR.
+which is said. A DIR with the results of another run is refused; --replace takes them away.
 
 Exit status:
   0          the run is complete
@@ -116,11 +115,6 @@ Exit status:
   2    DIR is not one of a run that has written its history, or report.html cannot be written
 )";
 
-int refuse(const std::string& message) {
-  std::cerr << message << std::endl;
-  return refused;
-}
-
 /// DIR where none is given: the scene's name without its ending, in the working directory.
 std::filesystem::path default_directory(const std::filesystem::path& scene) {
   return scene.stem().string() + "-out";
@@ -139,24 +133,7 @@ void let_idle_threads_sleep(char** argv) {
   if (!error) execv(program.c_str(), argv);  // returns only where it failed: then go on, slower
 }
 
-/// Help and the version go to standard output; whatever else stops the parsing is a refusal.
-int exit_after(const CLI::App& app, const CLI::ParseError& stop) {
-  std::string name = "tangency-dem";
-  if (stop.get_exit_code() == 0) {
-    std::ostringstream text;
-    app.exit(stop, text);
-    return std::cout << text.str() << std::flush
-               ? success
-               : refuse(name + ": standard output: cannot be written");
-  }
-  for (const CLI::App* chosen : app.get_subcommands()) name += ' ' + chosen->get_name();
-  return refuse(name + ": " + stop.what() + " (`" + name + " --help` says what is allowed)");
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  let_idle_threads_sleep(argv);
+int parse_and_run(int argc, char** argv) {
   CLI::App app(program_description, "tangency-dem");
   app.set_version_flag("--version", "tangency-dem " TANGENCY_VERSION);
   app.footer(program_help);
@@ -173,6 +150,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state")
       ->check(tangency::tool::not_empty());
+  run_command->add_flag("--replace", options.replace,
+                        "Take away the results of another run in the directory");
   run_command->footer(run_help);
   run_command->add_flag("--quiet", options.quiet, "No progress");
   CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");
@@ -183,32 +162,30 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
-    return exit_after(app, stop);
+    return exit_after(app, stop, argc, argv);
   }
 
   if (schema_command->parsed()) {
-    print_schema(std::cout);
-    return std::cout.flush() ? success : refuse("tangency-dem: standard output: cannot be written");
+    std::ostringstream text;
+    print_schema(text);
+    tangency::csv::OutputFile("-").write(text.str());
+    return success;
   }
   options.scene = scene;
   options.out = out.empty() ? default_directory(scene) : std::filesystem::path(out);
   if (!resume.empty()) options.resume = resume;
-  try {
-    return report_command->parsed() ? report(out) : run(options);
-  } catch (const SceneError& error) {
-    return refuse(error.what());
-  } catch (const StateError& error) {
-    return refuse(error.what());
-  } catch (const OutputError& error) {
-    return refuse(error.what());
-  } catch (const tangency::csv::Error& error) {
-    return refuse(error.what());
-  } catch (const WriteError& error) {
-    return refuse(error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return refuse(std::string("tangency-dem: ") + error.what());
-  } catch (const std::exception& error) {
-    std::cerr << "tangency-dem: " << error.what() << std::endl;
-    return not_reached;
-  }
+  return report_command->parsed() ? report(out) : run(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  let_idle_threads_sleep(argv);
+  return tangency::tool::guarded("tangency-dem", [&]() -> int {
+    try {
+      return parse_and_run(argc, argv);
+    } catch (const std::filesystem::filesystem_error& error) {
+      return tangency::tool::complain(std::string("tangency-dem: ") + error.what());
+    }
+  });
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/tool/chart.hpp>
@@ -11,6 +10,7 @@
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/geometry/tool/output_file.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -146,7 +146,7 @@ class Run {
   nlohmann::ordered_json summary_;
 };
 
-void print(const std::vector<Line>& lines) {
+std::string text_of(const std::vector<Line>& lines) {
   Line head;
   std::array<std::size_t, heads.size()> wide{};
   for (std::size_t k = 0; k < heads.size(); ++k) {
@@ -154,15 +154,17 @@ void print(const std::vector<Line>& lines) {
     wide[k] = head[k].size();
     for (const Line& line : lines) wide[k] = std::max(wide[k], line[k].size());
   }
+  std::string text;
   const auto put = [&](const Line& line) {
     for (std::size_t k = 0; k < line.size(); ++k) {
       const std::string blanks(wide[k] - line[k].size(), ' ');
-      std::cout << (k == 0 ? line[k] + blanks : "  " + blanks + line[k]);
+      text += k == 0 ? line[k] + blanks : "  " + blanks + line[k];
     }
-    std::cout << '\n';
+    text += '\n';
   };
   put(head);
   for (const Line& line : lines) put(line);
+  return text;
 }
 
 std::string table_of(const std::vector<Line>& lines) {
@@ -262,11 +264,9 @@ std::string page_of(const Run& run, const fs::path& directory) {
 int report(const fs::path& directory) {
   const Run run(directory);
   write_whole(directory / "report.html", page_of(run, directory));
-  print(run.lines());
-  std::cout << "Charts: " << (directory / "report.html").string() << std::endl;
-  if (std::cout) return success;
-  std::cerr << "tangency-dem: standard output: cannot be written" << std::endl;
-  return refused;
+  csv::OutputFile("-").write(text_of(run.lines()) +
+                             "Charts: " + (directory / "report.html").string() + '\n');
+  return success;
 }
 
 }  // namespace tangency::dem

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
@@ -27,13 +28,15 @@ fs::path usable(const fs::path& directory) {
        !fs::exists(fs::symlink_status(at, error)); at = at.parent_path())
     made = at;
   fs::create_directories(directory, error);
-  const fs::path probe = directory / ".writable";
-  const bool writable = !error && std::ofstream(probe).put('.').flush().good();
-  fs::remove(probe, error);
-  if (writable) return directory;
-  if (!made.empty()) fs::remove_all(made, error);
-  throw OutputError("--out " + directory.string() +
-                    ": cannot be written: a directory, or a place for one");
+  try {
+    if (error) throw WriteError(directory, error.value());
+    write_whole(directory / ".writable", ".");
+    fs::remove(directory / ".writable");
+    return directory;
+  } catch (const WriteError& unusable) {
+    if (!made.empty()) fs::remove_all(made, error);
+    throw OutputError(std::string("--out ") + WriteError(directory, unusable.problem()).what());
+  }
 }
 
 /// Held until it is closed, and by no second run meanwhile. No file is made for it.
@@ -68,19 +71,97 @@ std::string csv_line(const std::vector<Field>& fields) {
   return line + "\n";
 }
 
-std::vector<Field> row_of(const Simulation& simulation) {
+/// The first result of a run in a directory.
+std::optional<std::string> result_in(const fs::path& directory) {
+  for (const char* name : {"history.csv", "summary.json", "final.state", "checkpoint.state",
+                           "frames.pvd", "frames.xyz", "frames.xyz.part"})
+    if (fs::exists(directory / name)) return name;
+  return std::nullopt;
+}
+
+/// The rows of the history in a directory; none where there is no history.
+std::vector<std::string> rows_in(const fs::path& directory) {
+  const fs::path file = directory / "history.csv";
+  std::ifstream in(file);
+  if (!in) return {};
+  std::vector<std::string> rows;
+  std::string line;
+  std::getline(in, line);
+  if (line + "\n" != header_line())
+    throw OutputError(file.string() +
+                      ": not as this program wrote it, so that it cannot be carried on: that "
+                      "file, none, or another --out");
+  while (std::getline(in, line)) rows.push_back(line);
+  return rows;
+}
+
+std::int64_t cycle_of(const std::string& row) { return std::atoll(row.c_str()); }
+
+std::string stage_of(const std::string& row) {
+  const std::size_t begin = row.find(',', row.find(',') + 1) + 1;  // cycle, time, stage
+  return row.substr(begin, row.find(',', begin) - begin);
+}
+
+/// Is a row of the state's cycle one of its run? It has the numbers that the state keeps too, of
+/// which two runs share hardly one.
+bool is_of(const std::string& row, const Simulation& simulation) {
   const State& state = simulation.state();
-  const auto& stages = simulation.scene().stages;
-  const std::string& stage = state.cycle == 0 ? stages.front().name : simulation.stage().name;
-  return history_fields(state.cycle, state.time, stage, state.stage_cycle, simulation.observe());
+  std::istringstream cells(row);
+  std::string cell;
+  for (const Field& field :
+       history_fields(state.cycle, state.time, stage_of(row), state.stage_cycle,
+                      simulation.observe())) {
+    std::getline(cells, cell, ',');
+    const bool is_kept =
+        field.name == "time" || field.name.ends_with("_work") || field.name.ends_with("_loss");
+    if (is_kept && cell != to_text(std::get<double>(field.value))) return false;
+  }
+  return true;
+}
+
+/// Is the directory's history, as far as it goes, that of the run which the state is of? A row of
+/// its cycle tells; without one its place does.
+bool is_history_of(const fs::path& directory, const fs::path& state, const Simulation& simulation) {
+  for (const std::string& row : rows_in(directory))
+    if (cycle_of(row) == simulation.state().cycle) return is_of(row, simulation);
+  std::error_code none;
+  return fs::equivalent(directory / "checkpoint.state", state, none) ||
+         fs::equivalent(directory / "final.state", state, none);
+}
+
+/// Is the run to go on with what is in the directory?
+/// @throws OutputError  where what is there is of another run
+bool carries_on(const fs::path& directory, const RunOptions& options,
+                const Simulation& simulation) {
+  const auto found = result_in(directory);
+  if (!found) return false;
+  if (options.resume && is_history_of(directory, *options.resume, simulation)) return true;
+  if (options.replace) return false;
+  const std::string of_another =
+      options.resume ? "not of the run of " + options.resume->string() : "of an earlier run";
+  throw OutputError("--out " + directory.string() + ": holds results " + of_another + ", " +
+                    *found + ": --replace takes them away; or " +
+                    (options.resume ? "" : "--resume one of its states, or ") + "another --out");
+}
+
+void put_fields(nlohmann::ordered_json& summary, const History& history) {
+  const std::size_t last = history.size() - 1;
+  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{})) {
+    if (field.name == "stage")
+      summary[field.name] = history.stage(last);
+    else if (std::holds_alternative<std::int64_t>(field.value))
+      summary[field.name] = static_cast<std::int64_t>(history.column(field.name)[last]);
+    else
+      summary[field.name] = history.column(field.name)[last];
+  }
 }
 
 /// The peaks of the scene's last stage of kind shear, if the history has it.
-void add_peaks(nlohmann::ordered_json& summary, const fs::path& history, const Scene& scene) {
+void add_peaks(nlohmann::ordered_json& summary, const History& history, const Scene& scene) {
   const auto shears = [](const Stage& stage) { return stage.drive && stage.drive->axial_strain; };
   const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(), shears);
   if (last == scene.stages.rend()) return;
-  const auto peaks = peaks_of_stage(History(history), last->name);
+  const auto peaks = peaks_of_stage(history, last->name);
   if (!peaks) return;
   summary["peak_friction_angle_deg"] = peaks->friction_angle_deg;
   summary["strain_at_peak_friction"] = peaks->strain_at_friction;
@@ -88,39 +169,66 @@ void add_peaks(nlohmann::ordered_json& summary, const fs::path& history, const S
   summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
-/// Rows of the history in a directory up to those of `cycle`; none where there is no history.
-std::string earlier_rows(const fs::path& directory, std::int64_t cycle) {
-  const fs::path file = directory / "history.csv";
-  std::ifstream in(file);
-  if (!in) return {};
-  std::string rows, line;
-  std::getline(in, line);
-  if (line + "\n" != header_line())
-    throw OutputError(file.string() +
-                      ": not as this program wrote it, so that it cannot be carried on: that "
-                      "file, none, or another --out");
-  while (std::getline(in, line) && std::atoll(line.c_str()) <= cycle) rows += line + "\n";
-  return rows;
-}
-
 }  // namespace
 
-Results::Results(const fs::path& directory, const Simulation& simulation, bool resumed)
-    : directory_(usable(directory)),
+Results::Results(const RunOptions& options, const Simulation& simulation)
+    : directory_(usable(options.out)),
       lock_(locked(directory_)),
-      history_(resumed ? earlier_rows(directory_, simulation.state().cycle) : std::string()),
-      last_cycle_(resumed ? simulation.state().cycle : -1),
-      frames_(directory_, last_cycle_) {
+      carries_on_(carries_on(directory_, options, simulation)),
+      frames_(directory_, carries_on_ ? simulation.state().cycle : -1) {
+  if (carries_on_) carry_on(simulation);
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
-  if (resumed) return;
+  if (carries_on_) return;
   for (const char* name : {"checkpoint.state", "history.csv"}) fs::remove(directory_ / name);
 }
 
-void Results::add_row(const Simulation& simulation) {
+/// Keeps the rows that the run had written when it was at this state. Of the state's own cycle
+/// there may be more: of the end of its stage and of stages after it that ended at once.
+void Results::carry_on(const Simulation& simulation) {
   const State& state = simulation.state();
-  if (state.cycle == last_cycle_) return;
-  last_cycle_ = state.cycle;
-  history_ += csv_line(row_of(simulation));
+  const auto& stages = simulation.scene().stages;
+  const auto is_called = [&](std::size_t first, std::size_t end, const std::string& name) {
+    return std::any_of(stages.begin() + static_cast<std::ptrdiff_t>(first),
+                       stages.begin() + static_cast<std::ptrdiff_t>(end),
+                       [&](const Stage& stage) { return stage.name == name; });
+  };
+  const auto had = [&](const std::string& row) {
+    if (state.stage_cycle > 0)
+      return !last_row_ && state.cycle % simulation.scene().output.history == 0;
+    return is_called(0, state.stage, stage_of(row)) ||
+           !is_called(state.stage, stages.size(), stage_of(row));
+  };
+  for (const std::string& row : rows_in(directory_)) {
+    if (cycle_of(row) > state.cycle) break;
+    if (cycle_of(row) == state.cycle) {
+      if (!had(row)) break;
+      last_row_ = moment_of(simulation);
+    }
+    history_ += row + "\n";
+  }
+}
+
+Results::Moment Results::moment_of(const Simulation& simulation) {
+  const State& state = simulation.state();
+  return {state.cycle, state.stage_cycle == 0 ? state.stage - 1 : state.stage};
+}
+
+void Results::add_row(const Simulation& simulation) { add_row(simulation, moment_of(simulation)); }
+
+void Results::add_last_row_of_stage(const Simulation& simulation) {
+  add_row(simulation, {simulation.state().cycle, simulation.state().stage});
+}
+
+void Results::add_row(const Simulation& simulation, const Moment& moment) {
+  if (last_row_ == moment) return;
+  last_row_ = moment;
+  const State& state = simulation.state();
+  Observation seen = simulation.observe();
+  // Strains count from the first cycle of a stage.
+  if (state.stage_cycle == 0 && moment.stage == state.stage)
+    seen.axial_strain = seen.volumetric_strain = 0.0;
+  const std::string& stage = simulation.scene().stages[moment.stage].name;
+  history_ += csv_line(history_fields(state.cycle, state.time, stage, state.stage_cycle, seen));
 }
 
 void Results::checkpoint(const Simulation& simulation) const {
@@ -154,10 +262,10 @@ void Results::finish(const Simulation& simulation, const RunCost& cost) {
 void Results::write_summary(const Simulation& simulation, const RunCost& cost) const {
   const State& state = simulation.state();
   const Balance balance = simulation.observe().balance;
+  const History history(directory_ / "history.csv");
   nlohmann::ordered_json summary;
-  for (const Field& field : row_of(simulation))
-    std::visit([&](const auto& value) { summary[field.name] = value; }, field.value);
-  add_peaks(summary, directory_ / "history.csv", simulation.scene());
+  put_fields(summary, history);
+  add_peaks(summary, history, simulation.scene());
   summary["particles"] = state.particles.size();
   summary["cycles"] = state.cycle;
   summary["wall_seconds"] = cost.wall_seconds;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// What a run leaves in its directory: history.csv, summary.json, the states and the frames.
-/// Every file is written beside its place and renamed, so that none is ever half written.
+/// Every file is written beside its place and renamed, so that none is ever half written. A row of
+/// the history is of a cycle and a stage; a stage that ends at once has one too. summary.json
+/// begins with the last row's values.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
+#include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tool/descriptor.hpp>
 
 namespace tangency::dem {
@@ -30,15 +34,19 @@ class OutputError : public std::runtime_error {
 
 class Results {
  public:
-  /// Makes the directory and takes away what an earlier run there left. Where a run is resumed in
-  /// its own directory, history and frames up to its cycle stay and are carried on.
-  /// @throws OutputError  leaving nothing behind
+  /// Makes the directory. Where a run is resumed in its own directory, history and frames up to its
+  /// cycle stay and are carried on; what another run left there is taken away if that is asked for.
+  /// @throws OutputError  leaving nothing behind, and the results of another run as they are
   /// @throws WriteError   what was there is still there
-  Results(const std::filesystem::path& directory, const Simulation& simulation, bool resumed);
+  Results(const RunOptions& options, const Simulation& simulation);
 
-  /// A row of history.csv and a frame of the simulation as it is now, each at most one a cycle.
+  bool has_rows() const { return !history_.empty(); }
+  /// A row of history.csv and a frame of the simulation as it is now, each at most one a cycle and
+  /// stage. At the start of a stage the row is that of the end of the one before.
   void add_row(const Simulation& simulation);
   void add_frame(const Simulation& simulation) { frames_.add(simulation); }
+  /// The row of a stage that is at its end, which may be its start.
+  void add_last_row_of_stage(const Simulation& simulation);
 
   /// checkpoint.state, and history.csv as far as it goes.
   void checkpoint(const Simulation& simulation) const;
@@ -53,13 +61,24 @@ class Results {
   void finish(const Simulation& simulation, const RunCost& cost);
 
  private:
+  /// What a row is of.
+  struct Moment {
+    std::int64_t cycle;
+    std::size_t stage;
+    bool operator==(const Moment&) const = default;
+  };
+  static Moment moment_of(const Simulation& simulation);
+
+  void carry_on(const Simulation& simulation);
+  void add_row(const Simulation& simulation, const Moment& moment);
   void write_history() const;
   void write_summary(const Simulation& simulation, const RunCost& cost) const;
 
   std::filesystem::path directory_;
   csv::Descriptor lock_;
-  std::string history_;      ///< rows after the header
-  std::int64_t last_cycle_;  ///< of the last row; -1: none yet
+  bool carries_on_;
+  std::string history_;             ///< rows after the header
+  std::optional<Moment> last_row_;  ///< nothing where it is of no moment that this run may come to
   Frames frames_;
 };
 

@@ -85,7 +85,7 @@ class Run {
   Run(Simulation simulation, const RunOptions& options)
       : simulation_(std::move(simulation)),
         out_(options.out),
-        results_(options.out, simulation_, options.resume.has_value()),
+        results_(options, simulation_),
         progress_(options.quiet) {
     cost_.threads = omp_get_max_threads();
   }
@@ -93,10 +93,8 @@ class Run {
   int execute() {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
-    if (simulation_.state().cycle == 0) {
-      results_.add_row(simulation_);
-      results_.add_frame(simulation_);
-    }
+    if (!results_.has_rows()) results_.add_row(simulation_);
+    if (simulation_.state().cycle == 0) results_.add_frame(simulation_);
     try {
       while (!simulation_.finished()) {
         const StageStatus status = simulation_.status();
@@ -191,7 +189,7 @@ class Run {
   }
 
   void end_stage() {
-    results_.add_row(simulation_);
+    results_.add_last_row_of_stage(simulation_);
     results_.add_frame(simulation_);
     warn_of_unsound_stage();
     warn_of_missed_targets();

@@ -14,6 +14,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> resume;
   int threads = 0;  ///< 0: as many as OpenMP offers
   bool quiet = false;
+  bool replace = false;  ///< take away the results of another run
 };
 
 /// What the program returns. A run that a signal ended returns 128 + the signal, as shells do.

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/classify.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/geometry/exact/quadric_type.hpp>
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
@@ -21,7 +26,11 @@ constexpr const char* kHelp = R"(
 Input columns, in any order; others are ignored:
   A B C D E F G H J K   the coefficients of
                         A x^2 + B y^2 + C z^2 + 2D xy + 2E yz + 2F zx
-                          + 2G x + 2H y + 2J z + K = 0
+                          + 2G x + 2H y + 2J z + K = 0,
+                        so that D to J are half of what stands before their terms; or, with
+                        --mixed-terms full, all of it, as in radiation transport codes:
+                        A x^2 + B y^2 + C z^2 + D xy + E yz + F zx
+                          + G x + H y + J z + K = 0
 
 Output columns, in this order:
   row              number of the data row, from 0
@@ -51,17 +60,36 @@ Example, a sphere and a cone:
   1,real_elliptic_cone,3,3,exact
 )";
 
-RowFunction bind(const csv::Header& header) {
+using Coefficients = Quadric::Coefficients;
+using Classify = Classification (*)(const Coefficients&);
+
+Classification by_half_terms(const Coefficients& c) { return classify(Quadric(c)); }
+
+/// Twice the equation has half terms, and all its doubles where none overflows; else integers.
+Classification by_full_terms(const Coefficients& c) {
+  constexpr std::array<std::size_t, 4> kSquares{0, 1, 2, 9};  // A, B, C and K
+  constexpr double kLargest = std::numeric_limits<double>::max() / 2;
+  if (std::ranges::all_of(kSquares, [&](std::size_t i) { return std::abs(c[i]) <= kLargest; })) {
+    Coefficients twice = c;
+    for (const std::size_t i : kSquares) twice[i] *= 2;
+    return by_half_terms(twice);
+  }
+  exact::IntegerForm<4> form = exact::quadric_form(c, exact::common_exponent(c));
+  for (std::size_t i = 0; i < form.size(); ++i) form[i][i] *= 2;
+  return exact::classify_form(form);
+}
+
+RowFunction bind(const csv::Header& header, Classify classify_row) {
   std::vector<std::string> missing;
   const auto columns = find_columns(header, "", kCoefficients, missing);
   if (!missing.empty()) {
     throw lacking(header, "quadric", missing,
                   "a quadric has the columns A, B, C, D, E, F, G, H, J and K");
   }
-  return [columns](const csv::RowCursor& row, csv::RowText& out) {
-    Quadric::Coefficients c{};
+  return [columns, classify_row](const csv::RowCursor& row, csv::RowText& out) {
+    Coefficients c{};
     for (std::size_t i = 0; i < c.size(); ++i) c[i] = row.number(columns[i]);
-    const Classification answer = classify(Quadric(c));
+    const Classification answer = classify_row(c);
     out.text(to_string(answer.type));
     out.text(std::to_string(answer.rank4));
     out.text(std::to_string(answer.rank3));
@@ -73,14 +101,24 @@ RowFunction bind(const csv::Header& header) {
 }  // namespace
 
 Subcommand add_classify(CLI::App& program) {
-  const auto options = std::make_shared<RowStreamOptions>();
+  struct Options : RowStreamOptions {
+    std::string mixed_terms = "half";
+  };
+  const auto options = std::make_shared<Options>();
   CLI::App& app = *program.add_subcommand("classify", "Exact types of quadrics");
+  app.add_option("--mixed-terms", options->mixed_terms,
+                 "What D, E, F, G, H and J are of the factors of their terms: half (default), or "
+                 "full")
+      ->check(CLI::IsMember({"half", "full"}).description(""))
+      ->type_name("half|full");
   add_row_stream_options(app, *options);
   app.footer(kHelp);
   return {&app, [options] {
+            const Classify one = options->mixed_terms == "full" ? by_full_terms : by_half_terms;
+            const auto bind_rows = [one](const csv::Header& header) { return bind(header, one); };
             const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "type",
-                               .bind = row_by_row(bind)};
+                               .bind = row_by_row(bind_rows)};
             return run_row_stream(task, *options);
           }};
 }

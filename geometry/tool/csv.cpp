@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/geometry/tool/csv_cells.hpp>
+
 namespace tangency::csv {
 namespace {
 
@@ -27,27 +29,23 @@ constexpr std::size_t kLongestQuotedValue = 60;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-bool is_space(char c) noexcept { return c <= ' ' && (c == ' ' || c == '\t' || c == '\r'); }
-
-std::string_view trimmed(std::string_view text) noexcept {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-/// Cuts the text at the first mark: returns what is before it and leaves what is after it.
-std::string_view take_until(std::string_view& text, char mark) noexcept {
-  const std::size_t end = text.find(mark);
-  const std::string_view taken = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return taken;
-}
-
-bool is_data(std::string_view line) noexcept {
-  for (const char c : line) {
-    if (!is_space(c)) return c != '#';
+/// Refuses a header that separates its columns by another mark than a comma, and names the mark.
+void require_commas(const std::string& file, std::size_t line, std::string_view header) {
+  std::size_t commas = 0, semicolons = 0, tabs = 0;
+  bool inside = false;
+  for (const char c : trimmed(header)) {
+    if (c == '"') inside = !inside;
+    if (inside) continue;
+    commas += c == ',';
+    semicolons += c == ';';
+    tabs += c == '\t';
   }
-  return false;
+  if (commas > 0 || semicolons + tabs == 0) return;
+  const std::string mark = semicolons > 0 ? "semicolons" : "tabs";
+  throw Error({.file = file,
+               .line = line,
+               .rule = "the columns are separated by " + mark +
+                       "; they must be by commas, and numbers have a decimal point"});
 }
 
 std::string printable(std::string_view text) {
@@ -102,24 +100,21 @@ std::optional<std::string_view> parse_number(std::string_view cell, double& valu
 
 Header::Header(std::string file, std::size_t line, std::string_view text)
     : file_(std::move(file)), line_(line) {
-  const auto columns = static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')) + 1;
-  names_.reserve(columns);
-  for (std::size_t i = 0; i < columns; ++i) {
-    const std::string_view name = trimmed(take_until(text, ','));
-    if (name.find('"') != std::string_view::npos) {
-      throw Error({.file = file_,
-                   .line = line_,
-                   .value = std::string(name),
-                   .rule = "names and numbers are written without quotes"});
-    }
+  require_commas(file_, line_, text);
+  std::string_view rest = text;
+  for (bool is_last = false; !is_last;) {
+    const std::size_t before = text.size() - rest.size();
+    const Cell cell = take_cell(rest);
+    const std::string name = cell.has_doubles ? without_doubles(cell.text) : std::string(cell.text);
+    const char* rule = cell.rule;
     // A column without a name is an unknown column: some programs write their row labels so.
-    if (!name.empty() && find(name)) {
-      throw Error({.file = file_,
-                   .line = line_,
-                   .column = std::string(name),
-                   .rule = "a column must be named only once"});
+    if (!rule && !name.empty() && find(name)) rule = "a column must be named only once";
+    if (rule) {
+      const std::size_t place = line_ + line_breaks(text.substr(0, before));
+      throw Error({.file = file_, .line = place, .column = name, .rule = rule});
     }
-    names_.emplace_back(name);
+    names_.push_back(name);
+    is_last = cell.is_last;
   }
 }
 
@@ -139,6 +134,7 @@ Column Header::require(std::string_view name) const {
 
 Reader::Reader(const std::string& path) {
   open(path);
+  skip_byte_order_mark();
   read_header();
 }
 
@@ -184,27 +180,53 @@ std::size_t Reader::read_some(char* to, std::size_t size) {
   return 0;
 }
 
+/// Before rows are told apart: a quote may follow.
+void Reader::skip_byte_order_mark() {
+  const auto is_its_start = [&] {
+    return kByteOrderMark.starts_with(std::string_view(carry_.data(), carry_.size()));
+  };
+  std::array<char, kByteOrderMark.size()> some;
+  while (carry_.size() < kByteOrderMark.size() && is_its_start()) {
+    const std::size_t got = read_some(some.data(), kByteOrderMark.size() - carry_.size());
+    if (got == 0) return;
+    carry_.insert(carry_.end(), some.begin(), some.begin() + static_cast<std::ptrdiff_t>(got));
+  }
+  if (!is_its_start()) return;
+  carry_.clear();
+  offset_ = kByteOrderMark.size();
+}
+
 bool Reader::fill(Block& block) {
   std::vector<char>& storage = block.storage;
   std::size_t filled = carry_.size();
   if (storage.size() < filled + kBlockBytes) storage.resize(filled + kBlockBytes);
   std::copy(carry_.begin(), carry_.end(), storage.begin());
-  const auto whole_lines_from = [&](std::size_t from) -> std::size_t {
-    const std::size_t end = std::string_view(&storage[from], filled - from).rfind('\n');
-    return end == std::string_view::npos ? 0 : from + end + 1;
-  };
-  std::size_t whole = whole_lines_from(0);
-  while (whole == 0) {
-    if (filled >= kLongestLine) {
-      fail("a line must be shorter than " + std::to_string(kLongestLine) + " bytes", next_line_);
+  block.has_quotes = false;
+  RowEnds ends;
+  std::size_t told = 0;  // characters that `ends` has seen: none before the first quote
+  std::size_t whole = 0;
+  const auto find_whole_rows = [&](std::size_t from) {
+    const std::string_view added(&storage[from], filled - from);
+    block.has_quotes = block.has_quotes || has_quotes(added);
+    if (!block.has_quotes) {
+      const std::size_t end = added.rfind('\n');
+      if (end != std::string_view::npos) whole = from + end + 1;
+      return;
     }
+    for (; told < filled; ++told) {
+      if (ends.ends_with(storage[told])) whole = told + 1;
+    }
+  };
+  find_whole_rows(0);
+  while (whole == 0) {
+    if (filled >= kLongestLine) fail_too_long({storage.data(), filled});
     if (storage.size() < filled + kBlockBytes) storage.resize(filled + kBlockBytes);
     const std::size_t got = read_some(&storage[filled], kBlockBytes);
     filled += got;
-    whole = whole_lines_from(filled - got);
+    find_whole_rows(filled - got);
     if (got == 0) break;
   }
-  if (whole == 0) whole = filled;  // the end of the file: its last line may lack a line end
+  if (whole == 0) whole = filled;  // the end of the file: its last row may lack a line end
   carry_.assign(storage.begin() + static_cast<std::ptrdiff_t>(whole),
                 storage.begin() + static_cast<std::ptrdiff_t>(filled));
   block.size = whole;
@@ -213,12 +235,21 @@ bool Reader::fill(Block& block) {
   return whole > 0 && !cancelled_;
 }
 
+void Reader::fail_too_long(std::string_view row) const {
+  const bool is_open = row.find('\n') != std::string_view::npos;  // in quotes: else it had ended
+  fail(std::string(is_open ? "a quote that is opened must be closed, and a row" : "a line") +
+           " must be shorter than " + std::to_string(kLongestLine) + " bytes",
+       next_line_);
+}
+
 bool Reader::read(Block& block) {
   if (!fill(block)) return false;
   block.first_line = next_line_;
   block.first_row = next_row_;
   for (std::string_view rest = block.text(); !rest.empty(); ++next_line_) {
-    if (is_data(take_until(rest, '\n'))) ++next_row_;
+    const std::string_view row = take_row(rest, block.has_quotes);
+    if (is_data(row)) ++next_row_;
+    if (block.has_quotes) next_line_ += line_breaks(row);
   }
   return true;
 }
@@ -230,12 +261,10 @@ void Reader::read_header() {
     if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF")) {
       fail("the text must be UTF-8; this looks like UTF-16");
     }
-    if (next_line_ == 1 && rest.starts_with(kByteOrderMark)) {
-      rest.remove_prefix(kByteOrderMark.size());
-    }
     for (; !header_ && !rest.empty(); ++next_line_) {
-      const std::string_view line = take_until(rest, '\n');
-      if (is_data(line)) header_.emplace(name_, next_line_, line);
+      const std::string_view row = take_row(rest, block.has_quotes);
+      if (is_data(row)) header_.emplace(name_, next_line_, row);
+      next_line_ += line_breaks(row);
     }
     offset_ -= rest.size();
     carry_.insert(carry_.begin(), rest.begin(), rest.end());
@@ -247,6 +276,7 @@ RowCursor::RowCursor(const Header& header) : header_(&header), cells_(header.siz
 
 void RowCursor::enter(const Block& block) noexcept {
   rest_ = block.text();
+  block_has_quotes_ = block.has_quotes;
   next_line_ = block.first_line;
   next_index_ = block.first_row;
 }
@@ -255,18 +285,61 @@ bool RowCursor::next() {
   std::string_view row;
   do {
     if (rest_.empty()) return false;
-    row = take_until(rest_, '\n');
+    row = take_row(rest_, block_has_quotes_);
     line_ = next_line_++;
+    if (block_has_quotes_) next_line_ += line_breaks(row);
   } while (!is_data(row));
   index_ = next_index_++;
+  is_quoted_ = block_has_quotes_ && has_quotes(row);
+  if (is_quoted_) {
+    split_quoted(row);
+  } else {
+    split(row);
+  }
+  return true;
+}
+
+void RowCursor::split(std::string_view row) {
   const std::string_view whole = row;
   for (std::size_t i = 0; i + 1 < cells_.size(); ++i) cells_[i] = take_until(row, ',');
   cells_.back() = row;
   // Short rows have run empty before the last cell, long ones have a comma left in it; counting
   // the commas of every row would cost a second pass.
   const bool short_row = cells_.size() > 1 && cells_[cells_.size() - 2].end() == whole.end();
-  if (!short_row && row.find(',') == std::string_view::npos) return true;
-  const auto count = std::count(whole.begin(), whole.end(), ',') + 1;
+  if (!short_row && row.find(',') == std::string_view::npos) return;
+  fail_length(static_cast<std::size_t>(std::count(whole.begin(), whole.end(), ',')) + 1);
+}
+
+void RowCursor::split_quoted(std::string_view row) {
+  breaks_.assign(cells_.size(), 0);
+  unquoted_.clear();
+  unquoted_.reserve(row.size());  // so that it never moves
+  const std::string_view whole = row;
+  std::size_t count = 0;
+  for (bool is_last = false; !is_last; ++count) {
+    const std::size_t breaks = line_breaks(whole.substr(0, whole.size() - row.size()));
+    Cell cell = take_cell(row);
+    is_last = cell.is_last;
+    if (cell.rule) {
+      throw Error({.file = header_->file(),
+                   .line = line_ + breaks,
+                   .column = count < cells_.size() ? header_->name(Column{count}) : "",
+                   .value = std::string(cell.text),
+                   .rule = cell.rule});
+    }
+    if (count >= cells_.size()) continue;
+    if (cell.has_doubles) {
+      const std::size_t begin = unquoted_.size();
+      unquoted_ += without_doubles(cell.text);
+      cell.text = std::string_view(unquoted_).substr(begin);
+    }
+    cells_[count] = cell.text;
+    breaks_[count] = breaks;
+  }
+  if (count != cells_.size()) fail_length(count);
+}
+
+void RowCursor::fail_length(std::size_t count) const {
   throw Error({.file = header_->file(),
                .line = line_,
                .value = std::to_string(count) + (count == 1 ? " cell" : " cells"),
@@ -275,7 +348,8 @@ bool RowCursor::next() {
 }
 
 std::string_view RowCursor::text(Column column) const noexcept {
-  return trimmed(cells_[static_cast<std::size_t>(column)]);
+  const std::string_view cell = cells_[static_cast<std::size_t>(column)];
+  return is_quoted_ ? cell : trimmed(cell);
 }
 
 double RowCursor::number(Column column) const {
@@ -286,8 +360,9 @@ double RowCursor::number(Column column) const {
 
 Error RowCursor::error(Column column, std::string_view rule) const {
   const std::string_view value = text(column);
+  const std::size_t breaks = is_quoted_ ? breaks_[static_cast<std::size_t>(column)] : 0;
   return Error({.file = header_->file(),
-                .line = line_,
+                .line = line_ + breaks,
                 .column = header_->name(column),
                 .value = std::string(value.empty() ? "(empty)" : value),
                 .rule = std::string(rule)});

@@ -3,15 +3,21 @@
 /// Comma-separated tables, read and written as a stream in constant memory.
 ///
 /// A table is UTF-8 text (a byte-order mark is tolerated): a header line that names the columns, in
-/// any order, then a line a row. Blank lines and lines that begin with `#`, blanks aside, are skipped;
-/// spaces and tabs around cells and CRLF line ends are allowed; cells are never quoted. A line is
-/// shorter than `kLongestLine` bytes.
+/// any order, then a line a row. Blank lines and lines that begin with `#`, blanks aside, are
+/// skipped; spaces and tabs around cells and CRLF line ends are allowed. A row is shorter than
+/// `kLongestLine` bytes.
+///
+/// Quotes are those of RFC 4180: a cell may stand in them whole, and is then what stands between
+/// them to the letter: commas, blanks, line breaks, and a quote for every two. So a row may go over
+/// several lines; it counts once, and is named by the line where it begins, its cells by the lines
+/// where they begin. A quoted cell is never a comment, and a quote anywhere else is refused.
 ///
 /// (1) Numbers are written so that they read back to the same double.
 /// (2) A number is read correctly rounded, from decimal or from a hex float.
 /// (3) Whatever is refused is refused with one Error that names file, line, column, value and rule.
+/// (4) Quoting cells that need none changes nothing.
 ///
-/// Reading is cut in two for threads: Reader::read hands out blocks of whole lines, one caller at a
+/// Reading is cut in two for threads: Reader::read hands out blocks of whole rows, one caller at a
 /// time; a RowCursor a thread then splits and parses the rows of a block. One thread alone uses
 /// for_each_row().
 #pragma once
@@ -33,7 +39,7 @@ namespace tangency::csv {
 /// What standard input is called in messages.
 inline constexpr std::string_view kStandardInputName = "<stdin>";
 
-/// The most bytes that a line may have; chosen: a thousand columns fit many times over.
+/// The most bytes that a row may have; chosen: a thousand columns fit many times over.
 inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 /// What was refused, where, and what is allowed. Empty and 0 mean "does not apply".
@@ -68,7 +74,8 @@ enum class Column : std::size_t {};
 /// The names of the columns of one file.
 class Header {
  public:
-  /// @throws Error  a column named twice, or a name in quotes
+  /// @param text  the header's row
+  /// @throws Error  a column named twice, a stray quote, or columns that no comma separates
   Header(std::string file, std::size_t line, std::string_view text);
 
   const std::string& file() const noexcept { return file_; }
@@ -85,17 +92,18 @@ class Header {
   std::vector<std::string> names_;
 };
 
-/// Whole lines of a file, and where they stand in it. Reused from one read to the next.
+/// Whole rows of a file, and where they stand in it. Reused from one read to the next.
 struct Block {
   std::vector<char> storage;
   std::size_t size = 0;
+  bool has_quotes = false;
   std::size_t first_line = 1;    ///< number of its first line, from 1
   std::size_t first_row = 0;     ///< number of its first data row, from 0
   std::uint64_t end_offset = 0;  ///< bytes of the file up to its end
   std::string_view text() const noexcept { return {storage.data(), size}; }
 };
 
-/// A file that is being read, or standard input. Blocks come as soon as they hold one whole line,
+/// A file that is being read, or standard input. Blocks come as soon as they hold one whole row,
 /// so that a program that writes rows to a pipe and waits for answers gets them.
 class Reader {
  public:
@@ -107,8 +115,8 @@ class Reader {
   /// Size of a regular file, in bytes.
   std::optional<std::uint64_t> total_bytes() const noexcept { return total_bytes_; }
 
-  /// The next lines. False at the end of the file, and after cancel(). Not for two threads at once.
-  /// @throws Error  a failed read or a line that is too long
+  /// The next rows. False at the end of the file, and after cancel(). Not for two threads at once.
+  /// @throws Error  a failed read or a row that is too long
   bool read(Block& block);
 
   /// Ends a read() that waits for a slow pipe, and all later ones. From any thread.
@@ -116,10 +124,12 @@ class Reader {
 
  private:
   void open(const std::string& path);
+  void skip_byte_order_mark();
   void read_header();
   bool fill(Block& block);
   std::size_t read_some(char* to, std::size_t size);
   [[noreturn]] void fail(std::string rule, std::size_t line = 0) const;
+  [[noreturn]] void fail_too_long(std::string_view row) const;
   [[noreturn]] void fail_reading(int problem) const;
 
   std::string name_;
@@ -142,12 +152,13 @@ class RowCursor {
   /// Stands before the first row of the block, which must outlive the walk.
   void enter(const Block& block) noexcept;
   /// Goes to the next row; false after the last.
-  /// @throws Error  a row with fewer or more cells than the header; next() then goes on after it
+  /// @throws Error  a row with fewer or more cells than the header, or with a stray quote; next()
+  ///                then goes on after it
   bool next();
 
   std::size_t index() const noexcept { return index_; }  ///< of the data row, from 0 in the file
-  std::size_t line() const noexcept { return line_; }    ///< from 1 in the file
-  /// The cell without the spaces around it; valid as long as the block.
+  std::size_t line() const noexcept { return line_; }    ///< where it begins, from 1 in the file
+  /// The cell without the spaces around it, or what stands between its quotes; valid until next().
   std::string_view text(Column column) const noexcept;
   /// @throws Error  a cell that parse_number() refuses
   double number(Column column) const;
@@ -155,8 +166,16 @@ class RowCursor {
   Error error(Column column, std::string_view rule) const;
 
  private:
+  void split(std::string_view row);
+  void split_quoted(std::string_view row);
+  [[noreturn]] void fail_length(std::size_t count) const;
+
   const Header* header_;
   std::vector<std::string_view> cells_;
+  bool is_quoted_ = false;           // the row has quotes; its cells are then as they are meant
+  std::vector<std::size_t> breaks_;  // of such a row: line breaks before each cell
+  std::string unquoted_;             // of such a row: cells that had doubled quotes
+  bool block_has_quotes_ = false;
   std::string_view rest_;
   std::size_t next_line_ = 1;
   std::size_t next_index_ = 0;

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <exception>
-#include <iostream>
-#include <new>
-#include <sstream>
-#include <string>
 #include <vector>
 
 #include <tangency/geometry/tool/command_line.hpp>
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tool/program.hpp>
 
 namespace tangency::tool {
 namespace {
@@ -28,25 +22,6 @@ Exit status:
 `tangency SUBCOMMAND --help` lists columns and statuses and gives an example.
 )";
 
-int complain(const std::string& message) {
-  std::cerr << message << std::endl;
-  return refused;
-}
-
-/// Help and the version go to standard output; whatever else stops the parsing is a refusal.
-int exit_after(const CLI::App& program, const CLI::ParseError& stop) {
-  if (stop.get_exit_code() == 0) {
-    std::ostringstream text;
-    program.exit(stop, text);
-    csv::OutputFile output("-");
-    output.write(text.str());
-    return every_row_answered;
-  }
-  std::string name = "tangency";
-  for (const CLI::App* chosen : program.get_subcommands()) name += ' ' + chosen->get_name();
-  return complain(name + ": " + stop.what() + " (`" + name + " --help` says what is allowed)");
-}
-
 int run(int argc, char** argv) {
   CLI::App program(kProgramDescription, "tangency");
   program.set_version_flag("--version", "tangency " TANGENCY_VERSION);
@@ -57,7 +32,7 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
-    return exit_after(program, stop);
+    return exit_after(program, stop, argc, argv);
   }
   for (const Subcommand& subcommand : subcommands) {
     if (subcommand.app->parsed()) return subcommand.run();
@@ -69,13 +44,5 @@ int run(int argc, char** argv) {
 }  // namespace tangency::tool
 
 int main(int argc, char** argv) {
-  // A reader that has gone is then an error of write(2), which csv::OutputFile reports.
-  std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return tangency::tool::run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return tangency::tool::complain("tangency: out of memory");
-  } catch (const std::exception& error) {
-    return tangency::tool::complain(error.what());
-  }
+  return tangency::tool::guarded("tangency", [&] { return tangency::tool::run(argc, argv); });
 }

@@ -118,6 +118,16 @@ class OutputFile::Placeholder {
   Unfinished* file_ = nullptr;
 };
 
+void end_by_broken_pipe() noexcept {
+  ::signal(SIGPIPE, SIG_DFL);
+  sigset_t one;
+  ::sigemptyset(&one);
+  ::sigaddset(&one, SIGPIPE);
+  ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+  ::raise(SIGPIPE);
+  ::_exit(128 + SIGPIPE);
+}
+
 OutputFile::OutputFile(const std::string& path) {
   if (path.empty() || path == "-") {
     name_ = kStandardOutputName;
@@ -144,8 +154,10 @@ OutputFile::OutputFile(const std::string& path) {
 OutputFile::~OutputFile() = default;
 
 void OutputFile::fail(int problem) const {
-  throw Error(
-      {.file = name_, .rule = "cannot be written: " + std::generic_category().message(problem)});
+  const Fault fault{.file = name_,
+                    .rule = "cannot be written: " + std::generic_category().message(problem)};
+  if (problem == EPIPE && output_.get() == STDOUT_FILENO) throw ReaderHasGone(fault);
+  throw Error(fault);
 }
 
 void OutputFile::write(std::string_view text) {

@@ -27,7 +27,7 @@ Progress::~Progress() { clear(); }
 void Progress::update(std::uint64_t bytes) {
   if (!enabled_ || bytes == 0) return;
   const Clock::time_point now = Clock::now();
-  if (now - last_shown_ < kInterval) return;
+  if (last_shown_ && now - *last_shown_ < kInterval) return;
   last_shown_ = now;
   const double done = static_cast<double>(bytes) / total_bytes_;
   const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -34,7 +34,7 @@ class Progress {
   bool enabled_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point last_shown_ = start_;
+  std::optional<Clock::time_point> last_shown_;
 };
 
 }  // namespace tangency::tool

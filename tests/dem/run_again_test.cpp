@@ -6,12 +6,11 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "../tool/process.hpp"
 #include "file_size_limit.hpp"
@@ -55,8 +54,9 @@ Finished run_quietly(const std::string& scene, const std::string& out,
   return run_tool(arguments);
 }
 
-// Killed at moments that no handler sees, each time resumed from the last checkpoint and killed
-// again: in the end every file is as if the run had gone through.
+// What is on the disk changes with the writes alone, so these are all the moments there are to be
+// killed at: in the middle of a write of each file, each time resumed from the last checkpoint. In
+// the end every file is as if the run had gone through.
 TEST(RunAgain, AfterKillsAtAnyMomentEndsWithTheSameFiles) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", mixture());
@@ -64,19 +64,24 @@ TEST(RunAgain, AfterKillsAtAnyMomentEndsWithTheSameFiles) {
   const Finished uninterrupted = run_quietly(scene, whole);
   ASSERT_TRUE(uninterrupted.status == 0) << uninterrupted.err;
   const std::string state = parts + "/checkpoint.state";
-  int kills = 0;
-  for (int wait = 3; wait < 60; wait += 7) {  // milliseconds from the first file on
+  std::filesystem::create_directories(parts + "/frames");
+  // Frames 3, 8 and 13 lie between checkpoints, and carry the run on from one kill to the next.
+  for (const char* file :
+       {"frames/300.vtp", "checkpoint.state", "history.csv", "frames/800.vtp", "frames.pvd",
+        "frames.xyz.part", "frames/1300.vtp", "checkpoint.state", "final.state", "summary.json"}) {
     std::vector<std::string> arguments{"run", scene, "--out", parts, "--quiet", "--threads", "1"};
     if (std::filesystem::exists(state)) arguments.insert(arguments.end(), {"--resume", state});
+    const std::string part = make_pipe(parts + "/" + file + ".part");
     Process run(arguments);
-    while (!std::filesystem::exists(parts + "/frames.xyz.part"))
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+    const int reader = run.meet_at(part, O_RDONLY);
+    EXPECT_GE(reader, 0) << file;
     run.send(SIGKILL);
-    kills += run.wait().signal == SIGKILL ? 1 : 0;
+    EXPECT_EQ(run.wait().signal, SIGKILL) << file;
+    ::close(reader);
+    std::filesystem::remove(part);
+    folder.write("parts/" + std::string(file) + ".part", "a half of it");
+    ASSERT_TRUE(std::filesystem::exists(state)) << file;
   }
-  EXPECT_GT(kills, 2);
-  ASSERT_TRUE(std::filesystem::exists(state)) << "a checkpoint was reached";
   ASSERT_EQ(run_quietly(scene, parts, {"--resume", state}).status, 0);
   expect_same_results(whole, parts);
 }
@@ -100,10 +105,10 @@ TEST(RunAgain, AfterADiskThatFilledUpInTheMiddleEndsWithTheSameFiles) {
   for (const rlim_t bytes : {rlim_t{5000}, rlim_t{8192}}) {
     const Finished full = [&] {
       const FileSizeLimit limit(bytes);
-      return run_quietly(scene, parts);
+      return run_quietly(scene, parts, {"--replace"});
     }();
     EXPECT_EQ(full.status, 2);
-    EXPECT_EQ(full.err, parts + "/history.csv: cannot be written\n");
+    EXPECT_EQ(full.err, parts + "/history.csv: cannot be written: File too large\n");
     ASSERT_EQ(run_quietly(scene, parts, {"--resume", parts + "/checkpoint.state"}).status, 0);
     expect_same_results(whole, parts);
   }
@@ -151,12 +156,106 @@ TEST(RunAgain, RefusesAPlaceWhereAnotherRunIsWriting) {
   ASSERT_EQ(run_quietly(scene, out).status, 0);
   const int other = ::open(out.c_str(), O_RDONLY | O_DIRECTORY);
   ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
-  const Finished second = run_quietly(scene, out);
+  const Finished second = run_quietly(scene, out, {"--replace"});
   EXPECT_EQ(second.status, 2);
   EXPECT_EQ(second.err.find("--out " + out + ": another run is writing there"), 0u) << second.err;
   EXPECT_TRUE(std::filesystem::exists(out + "/summary.json"));
   ::close(other);
-  EXPECT_EQ(run_quietly(scene, out).status, 0);
+  EXPECT_EQ(run_quietly(scene, out, {"--replace"}).status, 0);
+}
+
+std::map<std::string, std::string> files_below(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path()] = read_file(entry.path());
+  return files;
+}
+
+TEST(RunAgain, RefusesAPlaceWithTheResultsOfAnotherRunUnlessItMayReplaceThem) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture());
+  const std::string other = folder.write(
+      "other.toml", with(mixture(), "friction_coefficient = 0.5", "friction_coefficient = 0.4"));
+  const std::string out = folder.path("out"), elsewhere = folder.path("elsewhere");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  ASSERT_EQ(run_quietly(other, elsewhere).status, 0);
+  const auto before = files_below(out);
+  const Finished again = run_quietly(scene, out);
+  EXPECT_EQ(again.status, 2);
+  EXPECT_EQ(again.err, "--out " + out +
+                           ": holds results of an earlier run, history.csv: --replace takes them "
+                           "away; or --resume one of its states, or another --out\n");
+  const std::string state = elsewhere + "/checkpoint.state";
+  const Finished joined = run_quietly(other, out, {"--resume", state});
+  EXPECT_EQ(joined.status, 2);
+  EXPECT_EQ(joined.err, "--out " + out + ": holds results not of the run of " + state +
+                            ", history.csv: --replace takes them away; or another --out\n");
+  // Also under the name of the state that was there.
+  std::filesystem::copy_file(state, out + "/checkpoint.state",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(run_quietly(other, out, {"--resume", out + "/checkpoint.state"}).status, 2);
+  folder.write("out/checkpoint.state", before.at(out + "/checkpoint.state"));
+  EXPECT_TRUE(files_below(out) == before);
+
+  ASSERT_EQ(run_quietly(other, out, {"--replace"}).status, 0);
+  expect_same_results(out, elsewhere);
+  // A state of the same run is known wherever it lies.
+  const std::string kept = folder.path("kept.state");
+  std::filesystem::copy_file(out + "/checkpoint.state", kept);
+  EXPECT_EQ(run_quietly(other, out, {"--resume", kept}).status, 0);
+  expect_same_results(out, elsewhere);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(RunAgain, AFinishedStateInAnEmptyPlaceHasARowAndAReport) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", mixture());
+  const std::string out = folder.path("out"), empty = folder.path("empty");
+  ASSERT_EQ(run_quietly(scene, out).status, 0);
+  ASSERT_EQ(run_quietly(scene, empty, {"--resume", out + "/final.state"}).status, 0);
+  const auto whole = lines_of(read_file(out + "/history.csv")),
+             rows = lines_of(read_file(empty + "/history.csv"));
+  ASSERT_EQ(rows.size(), 2u);
+  // The last row of the run, but for the energy error: no stage is left whose time step it is of.
+  EXPECT_EQ(rows[1].substr(0, rows[1].rfind(',')), whole.back().substr(0, whole.back().rfind(',')));
+  const Finished report = run_tool({"report", empty});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_NE(report.out.find("\nshear "), report.out.npos) << report.out;
+}
+
+TEST(RunAgain, AStageThatEndsAtOnceHasARowWhichTheSummaryIsOf) {
+  const TemporaryFolder folder;
+  const std::string rest = "[[stage]]\nkind = \"servo\"\nname = \"rest\"\nduration = 0\n[output]\n";
+  const std::string scene = folder.write("scene.toml", with(mixture(), "[output]\n", rest));
+  const std::string out = folder.path("out");
+  const Finished run = run_quietly(scene, out);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto rows = lines_of(read_file(out + "/history.csv"));
+  const auto cell = [](const std::string& row, int k) {
+    std::istringstream in(row);
+    std::string text;
+    for (; k >= 0; --k) std::getline(in, text, ',');
+    return text;
+  };
+  const std::string &last = rows.back(), &before = rows[rows.size() - 2];
+  EXPECT_EQ(cell(last, 0), cell(before, 0)) << "the same cycle";
+  EXPECT_EQ(cell(before, 2), "shear");
+  EXPECT_EQ(cell(last, 2), "rest");
+  EXPECT_EQ(cell(last, 3), "0") << "axial strain, from the start of the stage";
+  EXPECT_EQ(cell(last, 4), "0");
+  const auto summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+  EXPECT_EQ(summary["stage"], "rest");
+  EXPECT_EQ(summary["axial_strain"].get<double>(), 0.0);
+  EXPECT_EQ(summary["mean_stress"].get<double>(), std::stod(cell(last, 5)));
+  // And once more from any state: no row comes twice.
+  ASSERT_EQ(run_quietly(scene, out, {"--resume", out + "/final.state"}).status, 0);
+  EXPECT_TRUE(lines_of(read_file(out + "/history.csv")) == rows);
 }
 
 TEST(RunAgain, RefusesNamesThatAreEmptyAndLinksThatLeadNowhereAndTakesNothingAway) {
@@ -182,8 +281,8 @@ TEST(RunAgain, RefusesStatesItCannotReadAndLeavesEarlierResults) {
   std::string damaged = good;
   damaged[good.size() / 2] ^= 1;
   const std::vector<std::pair<std::string, std::string>> cases{
-      {folder.path("none"), ": cannot be read: a state of an earlier run\n"},
-      {folder.path(""), ": cannot be read: a state of an earlier run\n"},
+      {folder.path("none"), ": cannot be read: No such file or directory\n"},
+      {folder.path(""), ": cannot be read: Is a directory\n"},
       {folder.write("empty", ""),
        ": no state of tangency-dem: final.state or checkpoint.state of a run\n"},
       {folder.write("short", good.substr(0, good.size() - 1)), ": damaged: its hash is wrong\n"},

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem` from outside: refusals, results, interruption, resumption.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tangency/dem/observe.hpp>
-#include <thread>
 
 #include "../tool/process.hpp"
 #include "file_size_limit.hpp"
@@ -82,9 +81,9 @@ TEST(RunCommand, RefusesWhatIsNoToml) {
 TEST(RunCommand, RefusesAMissingFileAndAFolder) {
   const TemporaryFolder folder;
   EXPECT_EQ(refused_message(folder, folder.path("none.toml")),
-            folder.path("none.toml") + ": cannot be read: a scene in TOML");
+            folder.path("none.toml") + ": cannot be read: No such file or directory");
   EXPECT_EQ(refused_message(folder, folder.path("")),
-            folder.path("") + ": cannot be read: a scene in TOML");
+            folder.path("") + ": cannot be read: Is a directory");
 }
 
 TEST(RunCommand, RefusesAnOutputThatCannotBeWritten) {
@@ -94,8 +93,10 @@ TEST(RunCommand, RefusesAnOutputThatCannotBeWritten) {
   for (const std::string& out : {file, file + "/below"}) {
     const Finished run = run_tool({"run", scene, "--out", out});
     EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.err, "--out " + out + ": cannot be written: a directory, or a place for one\n");
+    EXPECT_EQ(run.err, "--out " + out + ": cannot be written: Not a directory\n");
   }
+  EXPECT_EQ(run_tool({"run", scene, "--out", "/proc/none"}).err,
+            "--out /proc/none: cannot be written: No such file or directory\n");
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"file", "scene.toml"}));
 }
 
@@ -142,8 +143,36 @@ TEST(RunCommand, VersionAndHelpThatCannotBeWrittenAreNoSuccess) {
   EXPECT_EQ(version.out, "tangency-dem " TANGENCY_VERSION "\n");
   Process::Place full;
   full.standard_output = "/dev/full";
-  for (const char* argument : {"--version", "--help", "schema"})
-    EXPECT_EQ(run_tool({argument}, "", full).status, 2) << argument;
+  for (const char* argument : {"--version", "--help", "schema"}) {
+    const Finished run = run_tool({argument}, "", full);
+    EXPECT_EQ(run.status, 2) << argument;
+    EXPECT_EQ(run.err, "<stdout>: cannot be written: No space left on device\n") << argument;
+  }
+}
+
+TEST(RunCommand, AReaderThatHasGoneEndsEverySubcommandWithoutAWord) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene()), out = folder.path("out");
+  ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  for (const Arguments& arguments : {Arguments{"--version"}, Arguments{"--help"},
+                                     Arguments{"schema"}, Arguments{"report", out}}) {
+    Process tool(arguments);
+    tool.close_output();
+    const Finished run = tool.wait();
+    EXPECT_EQ(run.signal, SIGPIPE) << arguments[0];
+    EXPECT_EQ(run.err, "") << arguments[0];
+  }
+  EXPECT_TRUE(std::filesystem::exists(out + "/report.html")) << "done before";
+}
+
+TEST(RunCommand, NamesAMistypedSubcommandAndTheNearest) {
+  const std::string end = " (`tangency-dem --help` says what is allowed)\n";
+  EXPECT_EQ(run_tool({"rnu", "scene.toml", "--out", "x"}).err,
+            "tangency-dem: rnu is no subcommand; the nearest is run" + end);
+  EXPECT_EQ(run_tool({"shcema"}).err,
+            "tangency-dem: shcema is no subcommand; the nearest is schema" + end);
+  EXPECT_EQ(run_tool({"fly"}).err,
+            "tangency-dem: fly is no subcommand; run, report and schema are" + end);
 }
 
 std::map<std::string, std::string> files_below(const std::string& folder) {
@@ -299,20 +328,26 @@ TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("out") + "/checkpoint.state"));
 }
 
-// Interrupted wherever the signal finds it, then resumed in its own directory: every file is as if
+// Interrupted in the middle, then resumed in its own directory: every file is as if
 // the run had gone through.
 TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
   const TemporaryFolder folder;
-  const std::string text = with(with(small_scene(), "count = 27", "count = 125"),
-                                "frame_interval = 0", "frame_interval = 300");
+  const std::string text =
+      with(with(small_scene(), "count = 27", "count = 125"), "frame_interval = 0",
+           "frame_interval = 300\ncheckpoint_interval = 350");
   const std::string scene = folder.write("scene.toml", text);
   const std::string whole = folder.path("whole"), halves = folder.path("halves");
   ASSERT_EQ(run_tool({"run", scene, "--out", whole, "--quiet"}).status, 0);
 
+  // It stands still in its first checkpoint, between the history's write and the state's.
+  std::filesystem::create_directory(halves);
+  const std::string history = make_pipe(halves + "/history.csv.part"),
+                    state = make_pipe(halves + "/checkpoint.state.part");
   Process first({"run", scene, "--out", halves, "--quiet"});
-  while (!std::filesystem::exists(halves + "/frames/300.vtp"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  const int reader = first.meet_at(history, O_RDONLY);
   first.send(SIGINT);
+  EXPECT_NE(read_to_end(reader), "");
+  EXPECT_NE(read_to_end(first.meet_at(state, O_RDONLY)), "");
   const Finished interrupted = first.wait();
   ASSERT_EQ(interrupted.status, 128 + SIGINT) << interrupted.err;
   EXPECT_FALSE(std::filesystem::exists(halves + "/summary.json"));
@@ -331,6 +366,20 @@ TEST(SchemaCommand, PrintsEverySection) {
   for (const char* word : {"[cell]", "[particles.NAME]", "[contact]", "[[stage]]", "[output]",
                            "mean_radius", "required", "max_unbalanced_ratio"})
     EXPECT_NE(run.out.find(word), run.out.npos) << word;
+}
+
+// The meaning of every key begins where its head does, two blanks behind what is allowed.
+TEST(SchemaCommand, RunsNoTwoColumnsTogether) {
+  std::istringstream lines(run_tool({"schema"}).out);
+  std::size_t meaning = std::string::npos, keys = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("  key ") == 0) meaning = line.rfind("meaning");
+    if (line.find("  ") != 0) continue;
+    EXPECT_EQ(line.substr(meaning - 2, 2), "  ") << line;
+    EXPECT_NE(line.at(meaning), ' ') << line;
+    ++keys;
+  }
+  EXPECT_GT(keys, 40u);
 }
 
 }  // namespace

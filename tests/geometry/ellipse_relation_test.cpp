@@ -9,6 +9,7 @@
 
 #include <tangency/geometry/methods/ellipse_meeting.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
+#include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
 namespace {
@@ -125,11 +126,63 @@ RC_GTEST_PROP(EllipseRelationProperty, ExchangingTheBodiesExchangesTheAnswer, ()
   RC_ASSERT(same(relation(p.b, p.a), exchanged(relation(p.a, p.b))));
 }
 
+/// B, moved so that pairs are known to overlap or not by how they were made.
+struct Placed {
+  Ellipse a, b;
+  Vec2 n, m;  ///< unit
+
+  Placed()
+      : a(*testing::ellipse(1000)),
+        b(*testing::ellipse(1000)),
+        n(*testing::plane_direction()),
+        m(*testing::plane_direction()) {}
+  Vec2 to_edge_of_a() const { return a.support_point(n); }
+};
+
+constexpr double kRounded = 1e-9;  // chosen: far above what support points lose at this aspect
+
 // geometry/ellipse_relation.hpp (2)
-RC_GTEST_PROP(EllipseRelationProperty, OverlapsIsTheRelationsYesOrNo, ()) {
-  const EllipsePair p = *testing::any_ellipse_pair();
-  const Relation r = relation(p.a, p.b).relation;
-  RC_ASSERT(overlaps(p.a, p.b) == (r != Relation::separate && r != Relation::external_touch));
+RC_GTEST_PROP(EllipseRelationProperty, OverlapsWhereAPointLiesInsideBoth, ()) {
+  const Placed p;
+  const double in_a = *testing::uniform(0, 1 - kRounded), in_b = *testing::uniform(0, 1 - kRounded);
+  const Vec2 inside = p.a.centre() + in_a * p.to_edge_of_a();
+  const Ellipse b = p.b.moved_to(inside + in_b * p.b.support_point(p.m));
+  RC_ASSERT(overlaps(p.a, b));
+  RC_ASSERT(overlaps(b, p.a));
+  const Relation found = relation(p.a, b).relation;
+  RC_ASSERT(found != Relation::separate && found != Relation::external_touch);
+}
+
+// geometry/ellipse_relation.hpp (2)
+RC_GTEST_PROP(EllipseRelationProperty, DoesNotOverlapWhereALineSeparates, ()) {
+  const Placed p;
+  // Anywhere along the line, which is across n.
+  const Vec2 along = *testing::uniform(-3, 3) * Vec2(-p.n[1], p.n[0]);
+  const double apart = 1 + *testing::log_uniform(kRounded, 2);
+  const Ellipse b =
+      p.b.moved_to(p.a.centre() + apart * (p.to_edge_of_a() + p.b.support_point(p.n)) + along);
+  RC_ASSERT(!overlaps(p.a, b));
+  RC_ASSERT(!overlaps(b, p.a));
+  RC_ASSERT(relation(p.a, b).relation == Relation::separate);
+}
+
+// Circles at the whole distance 5 k of a 3-4-5 triangle, scaled along both axes: they overlap where
+// the radii add up to more.
+// geometry/ellipse_relation.hpp (2)
+TEST(EllipseRelation, OverlapsBeyondAnExactTouchAndNotAtIt) {
+  for (const Vec2& scale : {Vec2(1, 1), Vec2(3, 1), Vec2(0x1p-30, 7)}) {
+    for (int k = 1; k <= 6; ++k) {
+      for (int radius = 1; radius < 5 * k - 1; ++radius) {
+        for (const int more : {-1, 0, 1}) {
+          const Ellipse a(kOrigin, radius * scale);
+          const Ellipse b(k * Vec2(3, 4).cwiseProduct(scale), (5 * k - radius + more) * scale);
+          EXPECT_EQ(overlaps(a, b), more > 0) << k << ' ' << radius << ' ' << more;
+          EXPECT_EQ(overlaps(b, a), more > 0) << k << ' ' << radius << ' ' << more;
+          EXPECT_EQ(relation(a, b).relation == Relation::external_touch, more == 0);
+        }
+      }
+    }
+  }
 }
 
 // geometry/ellipse_relation.hpp (3)

@@ -309,7 +309,11 @@ TEST(GapBatch, FollowingStaysOnItsBranchWhereAnotherWayOutIsShorter) {
   });
 }
 
-TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
+// Against differences of the gap and the normal of each pair itself, along and across.
+TEST(GapBatch, DerivativesAreThoseOfEachPairsOwnGap) {
+  // Chosen, of the smallest semi-axis: for gaps, whose error is u; and for normals, which an answer
+  // has to sqrt(u kappa), 1e-8 here. A difference of another pair would be off by its whole size.
+  constexpr double kStep = 1e-5, kTurnStep = 1e-4;
   const Family f = contacts(families::contact_classes()[1], 200);
   const Indexed in(f);
   const BodyArray bodies(in.bodies);
@@ -319,13 +323,28 @@ TEST(GapBatch, DerivativesAreTheSingleCallsToTheBit) {
   gap_derivatives(bodies, {in.pairs, {}}, gaps, of_centres);
   gap_derivatives(bodies, {in.pairs, in.separations}, gaps, of_separations);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const GapDerivatives single = gap_derivatives(f.a[i], f.b[i], gaps[i]);
-    ASSERT_EQ(of_centres[i].status, DerivativeStatus::ok);
-    ASSERT_EQ(of_centres[i].gradient, single.gradient) << i;
-    ASSERT_EQ(of_centres[i].hessian, single.hessian) << i;
-    const GapDerivatives given = gap_derivatives(f.a[i], f.b[i], in.separations[i], gaps[i]);
-    ASSERT_EQ(of_separations[i].gradient, given.gradient) << i;
-    ASSERT_EQ(of_separations[i].hessian, given.hessian) << i;
+    const Ellipsoid &a = f.a[i], &b = f.b[i];
+    const double step = kStep * std::min(a.smallest_semi_axis(), b.smallest_semi_axis());
+    const double turn = kTurnStep / kStep;
+    const auto moved = [&](const Vec3& move) {
+      return signed_gap(a, b.moved_to(b.centre() + move));
+    };
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 move = step * Vec3::Unit(k);
+      const double slope = (moved(move).gap - moved(-move).gap) / (2 * step);
+      const Vec3 bend =
+          (moved(turn * move).normal - moved(-turn * move).normal) / (2 * turn * step);
+      const Ellipsoid wide(b.centre(), b.semi_axes() + move, b.orientation()),
+          narrow(b.centre(), b.semi_axes() - move, b.orientation());
+      const double widening = (signed_gap(a, wide).gap - signed_gap(a, narrow).gap) / (2 * step);
+      for (const GapDerivatives* d : {&of_centres[i], &of_separations[i]}) {
+        ASSERT_EQ(d->status, DerivativeStatus::ok) << i;
+        ASSERT_NEAR(d->gradient[kOfBodyB + kCentre + k], slope, 1e-8) << i;
+        ASSERT_NEAR(d->gradient[kOfBodyB + kSemiAxes + k], widening, 1e-8) << i;
+        const Vec3 column = d->hessian.block<3, 1>(kOfBodyB + kCentre, kOfBodyB + kCentre + k);
+        ASSERT_LE((column - bend).norm() * d->least_radius, 1e-4) << i;
+      }
+    }
   }
 }
 

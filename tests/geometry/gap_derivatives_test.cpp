@@ -107,7 +107,10 @@ struct Worst {
       const auto row = static_cast<std::size_t>(k);
       add_gradient(c, k, at[row]);
       const Real difference = (above[row] - below[row]) / (2 * kStep);
+      // Of the oracle's derivatives this is one triangle as often as the other; the kernel's entries
+      // on both sides of the diagonal are held to it.
       add_hessian(c, k, j % 18, difference - c.half_commutator(k, j % 18));
+      add_hessian(c, j % 18, k, difference - c.half_commutator(k, j % 18));
     }
   }
   void print(const char* name) const {
@@ -197,6 +200,7 @@ TEST(GapDerivatives, HessianIsThatOfSecondDifferencesOfTheGap) {
   EXPECT_LT(worst.hessian, 1e-10);
 }
 
+// geometry/gap_derivatives.hpp (5)
 TEST(GapDerivatives, AreWithin1e12And1e10AtOrdinaryAspects) {
   for (const ContactFamily& family : {touching(5, 3), apart(5, 3)}) {
     const Worst worst = compare(family, 1008);

@@ -232,7 +232,8 @@ class FastTests:
 
 
 def _group_ticks(group):
-    """CPU ticks of the living processes of a session, and whether any of them is stopped."""
+    """CPU ticks of the living processes of a session, and whether any of them is stopped, or would
+    go on if the machine let it."""
     ticks, stopped = 0, False
     for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
         try:
@@ -241,7 +242,7 @@ def _group_ticks(group):
             continue
         if int(fields[3]) == group:
             ticks += int(fields[11]) + int(fields[12])
-            stopped |= fields[0] == "T"
+            stopped |= fields[0] in "TRD"
     return ticks, stopped
 
 

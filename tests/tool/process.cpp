@@ -5,7 +5,10 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/eventfd.h>
+#include <sys/inotify.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,6 +106,7 @@ Process::Process(const std::vector<std::string>& arguments, const Place& place) 
   pid_ = ::fork();
   if (pid_ == 0) {
     for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+    if (place.ignores_hangup) ::signal(SIGHUP, SIG_IGN);
     ::dup2(input.theirs, STDIN_FILENO);
     ::dup2(output.theirs, STDOUT_FILENO);
     ::dup2(error.theirs, STDERR_FILENO);
@@ -146,6 +150,25 @@ void Process::close_output() { close_end(output_); }
 
 void Process::send(int signal) { ::kill(pid_, signal); }
 
+int Process::meet_at(const std::string& pipe, int how) {
+  const int met = ::eventfd(0, EFD_CLOEXEC);
+  // An end of the tool shows on its standard output, and lets the pipe be opened in its place.
+  std::thread watch([&] {
+    std::array<pollfd, 2> events{{{output_, 0, 0}, {met, POLLIN, 0}}};
+    ::poll(events.data(), events.size(), -1);
+    if (events[1].revents == 0)
+      ::close(::open(pipe.c_str(), (how == O_RDONLY ? O_WRONLY : O_RDONLY) | O_NONBLOCK));
+  });
+  int end = ::open(pipe.c_str(), how | O_CLOEXEC);
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const auto told = ::write(met, &one, sizeof one);
+  watch.join();
+  ::close(met);
+  std::array<pollfd, 1> tool{{{output_, 0, 0}}};
+  if (::poll(tool.data(), tool.size(), 0) > 0) close_end(end);
+  return end;
+}
+
 Finished Process::wait() {
   Finished finished;
   std::thread errors([&] {
@@ -162,6 +185,31 @@ Finished Process::wait() {
   if (WIFEXITED(status)) finished.status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) finished.signal = WTERMSIG(status);
   return finished;
+}
+
+std::string make_pipe(const std::string& path) {
+  if (::mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("mkfifo failed");
+  return path;
+}
+
+std::string read_to_end(int pipe) {
+  std::string text;
+  while (drain(pipe, text)) {
+  }
+  return text;
+}
+
+FolderWatch::FolderWatch(const std::string& folder) : events_(::inotify_init1(IN_CLOEXEC)) {
+  if (::inotify_add_watch(events_, folder.c_str(), IN_CREATE | IN_MOVED_TO) < 0) {
+    throw std::runtime_error("no watch");
+  }
+}
+
+FolderWatch::~FolderWatch() { ::close(events_); }
+
+void FolderWatch::wait() const {
+  alignas(inotify_event) std::array<char, 4096> some;
+  if (::read(events_, some.data(), some.size()) <= 0) throw std::runtime_error("no event");
 }
 
 Finished run_tool(const std::vector<std::string>& arguments, std::string_view input,

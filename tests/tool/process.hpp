@@ -47,6 +47,7 @@ class Process {
     std::string folder{};            ///< working directory
     std::string standard_output{};   ///< a file to open in place of the pipe
     bool error_is_terminal = false;  ///< standard error is a pseudo-terminal
+    bool ignores_hangup = false;     ///< as under nohup
   };
 
   explicit Process(const std::vector<std::string>& arguments) : Process(arguments, Place()) {}
@@ -61,6 +62,11 @@ class Process {
   std::string read_output_line();
   void close_output();
   void send(int signal);
+  pid_t id() const { return pid_; }
+  /// Opens a named pipe, which waits until the tool opens its other end; it stays there until this
+  /// end is read from or written to. Returns -1 where the tool has ended instead.
+  /// @param how  O_RDONLY or O_WRONLY
+  int meet_at(const std::string& pipe, int how);
   /// Collects what is left of both outputs, then the exit status. Leaves the input open.
   Finished wait();
 
@@ -69,6 +75,28 @@ class Process {
   int input_ = -1;
   int output_ = -1;
   int error_ = -1;
+};
+
+/// A new named pipe. A tool that opens it stands still until a test opens the other end, however
+/// slow the machine is.
+std::string make_pipe(const std::string& path);
+
+/// Reads a pipe to its end and closes it: what was written before, or "" for -1.
+std::string read_to_end(int pipe);
+
+/// Names that appear in a folder from now on.
+class FolderWatch {
+ public:
+  explicit FolderWatch(const std::string& folder);
+  ~FolderWatch();
+  FolderWatch(const FolderWatch&) = delete;
+  FolderWatch& operator=(const FolderWatch&) = delete;
+
+  /// Waits for the next one.
+  void wait() const;
+
+ private:
+  int events_;
 };
 
 /// Runs to the end with the given text on standard input.

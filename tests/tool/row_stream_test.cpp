@@ -4,12 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <string>
-#include <thread>
 
 #include <tangency/tests/tool/process.hpp>
 
@@ -164,9 +162,11 @@ TEST(RowStream, SignalRemovesTheUnfinishedFile) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     folder.write("answers.csv", "old");
+    const FolderWatch watch(folder.path(""));
     Process tool({"contact", "--threads", "2", "--out", folder.path("answers.csv")});
     tool.write_input(kHeader + rows(100));
-    while (folder.names().size() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    watch.wait();
+    EXPECT_EQ(folder.names().size(), 2U);
     tool.send(signal);
     EXPECT_EQ(tool.wait().signal, signal);
     EXPECT_EQ(folder.names(), Names{"answers.csv"});
@@ -182,19 +182,45 @@ TEST(RowStream, FullDiskIsAnError) {
   }
 }
 
-TEST(RowStream, ReaderThatHasGoneIsAnError) {
-  Process tool({"contact"});
-  tool.close_output();
-  tool.write_input(kHeader + rows(10));
-  tool.close_input();
-  const Finished run = tool.wait();
-  EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err, "<stdout>: cannot be written: Broken pipe\n");
+TEST(RowStream, ReaderThatHasGoneEndsItWithoutAWord) {
+  const std::string quadrics = "A,B,C,D,E,F,G,H,J,K\n1,1,1,0,0,0,0,0,0,-1\n";
+  const std::string ellipses =
+      "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n"
+      "0,0,2,1,0,1,1,1,1,0\n";
+  for (const auto& [subcommand, input] :
+       {std::pair<std::string, std::string>{"contact", kHeader + rows(600)},
+        {"overlap", kHeader + rows(600)},
+        {"classify", quadrics},
+        {"ellipse", ellipses},
+        {"--help", ""},
+        {"--version", ""}}) {
+    Process tool({subcommand});
+    tool.close_output();
+    tool.write_input(input);
+    tool.close_input();
+    const Finished run = tool.wait();
+    EXPECT_EQ(run.signal, SIGPIPE) << subcommand;
+    EXPECT_EQ(run.err, "") << subcommand;
+  }
+}
+
+TEST(RowStream, NamesAMistypedSubcommandAndTheNearest) {
+  const std::string end = " (`tangency --help` says what is allowed)\n";
+  for (const auto& [word, message] :
+       {std::pair<std::string, std::string>{"contcat", "the nearest is contact"},
+        {"overlpas", "the nearest is overlap"},
+        {"clasify", "the nearest is classify"},
+        {"elipse", "the nearest is ellipse"},
+        {"walk", "contact, overlap, classify and ellipse are"}}) {
+    const Finished run = run_tool({word, "pairs.csv"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "tangency: " + word + " is no subcommand; " + message + end);
+  }
 }
 
 TEST(RowStream, TerminalSeesTheProgressOfALargeFileOnly) {
   const TemporaryFolder folder;
-  const std::string large = folder.write("large.csv", kHeader + rows(600'000));
+  const std::string large = folder.write("large.csv", kHeader + rows(60'000));
   const std::string small = folder.write("small.csv", kHeader + rows(10));
   const Process::Place terminal{.folder = folder.path(""), .error_is_terminal = true};
   const Names to_file{"contact", "--threads", "1", "--out", "answers.csv"};

@@ -2,9 +2,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
+#include <sys/timerfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -25,8 +28,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Chosen: how often a tool that says nothing is looked after.
-constexpr int kLookMilliseconds = 20;
 // Chosen: what is kept of standard error to find its last line in.
 constexpr std::size_t kLastWords = 2000;
 
@@ -77,19 +78,25 @@ struct Pipe {
 };
 
 // Those that end this program and are not ignored, held back while it lives: a tool in a group of
-// its own is ended before they are obeyed.
+// its own is ended before they are obeyed. And SIGCHLD, which tells of the tool's end.
 class HeldSignals {
  public:
   HeldSignals() {
-    sigset_t held;
+    sigset_t held, child;
     ::sigemptyset(&held);
     for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
       struct sigaction action {};
       if (::sigaction(signal, nullptr, &action) != 0) fail("signals cannot be asked about");
       if (action.sa_handler != SIG_IGN) ::sigaddset(&held, signal);
     }
+    ::sigemptyset(&child);
+    ::sigaddset(&child, SIGCHLD);
+    ::signal(SIGCHLD, SIG_DFL);  // ignored, it would tell nothing
     arrivals_ = csv::Descriptor(::signalfd(-1, &held, SFD_CLOEXEC));
-    if (!arrivals_.is_open() || ::sigprocmask(SIG_BLOCK, &held, &before_) != 0) {
+    ends_ = csv::Descriptor(::signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK));
+    if (!arrivals_.is_open() || !ends_.is_open() ||
+        ::sigprocmask(SIG_BLOCK, &held, &before_) != 0 ||
+        ::sigprocmask(SIG_BLOCK, &child, nullptr) != 0) {
       fail("signals cannot be held back");
     }
   }
@@ -99,11 +106,25 @@ class HeldSignals {
 
   void restore() const { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
   int arrivals() const { return arrivals_.get(); }  // readable once one has come
+  int ends() const { return ends_.get(); }          // readable once a child has ended
 
  private:
-  csv::Descriptor arrivals_;
+  csv::Descriptor arrivals_, ends_;
   sigset_t before_{};
 };
+
+// Readable after so many seconds.
+csv::Descriptor timer(double seconds) {
+  constexpr double kLongest = 1e9;  // chosen: a life
+  const double whole = std::floor(std::min(seconds, kLongest));
+  itimerspec after{};
+  after.it_value.tv_sec = static_cast<time_t>(whole);
+  after.it_value.tv_nsec =
+      std::max(1L, static_cast<long>(1e9 * (std::min(seconds, kLongest) - whole)));
+  csv::Descriptor up(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC));
+  if (!up.is_open() || ::timerfd_settime(up.get(), 0, &after, nullptr) != 0) fail("no timer");
+  return up;
+}
 
 pid_t start(const std::string& command, int input, int output, int error,
             const HeldSignals& signals) {
@@ -131,25 +152,22 @@ class Watch {
       : tool_(tool), limits_(limits), run_(run) {
     output.theirs.close();
     error.theirs.close();
-    events_[0] = {output.ours.get(), POLLIN, 0};
-    events_[1] = {error.ours.get(), POLLIN, 0};
-    events_[kSignals] = {signals.arrivals(), POLLIN, 0};
+    if (limits.deadline < 0) timer_ = timer(limits.seconds);
+    events_ = {{{output.ours.get(), POLLIN, 0},
+                {error.ours.get(), POLLIN, 0},
+                {signals.ends(), POLLIN, 0},
+                {signals.arrivals(), POLLIN, 0},
+                {limits.deadline < 0 ? timer_.get() : limits.deadline, POLLIN, 0}}};
   }
 
+  // Then all that it started and that stayed in its group is ended too. What was written up to then
+  // is read, and nothing that comes later.
   void until_it_ends() {
-    bool quiet = false;
-    while (!stopped_ && !(ended_ && (quiet || are_closed()))) {
-      // An ended tool may leave a child that holds the pipes; what it left in them is read, and
-      // what it goes on to write is under the same limits.
-      quiet = !read_what_is_there();
-      if (!ended_) ended_ = ::waitpid(tool_, &status_, WNOHANG) == tool_;
-      if (elapsed() > limits_.seconds) stop("had not ended after " + shown(limits_.seconds) + " s");
-      if (bytes_ > limits_.most_bytes) {
-        stop("printed more than " + std::to_string(limits_.most_bytes) + " bytes");
-      }
-    }
+    while (!stopped_ && !ended_) wait_for_an_event();
     ::kill(-tool_, SIGKILL);
     if (!ended_) ::waitpid(tool_, &status_, 0);
+    for (std::size_t i = 0; i < kPipes; ++i) read_what_is_left(i);
+    if (!stopped_ && bytes_ > limits_.most_bytes) stop_at_bytes();
     if (!stopped_) describe_end();
     run_.seconds = elapsed();
     run_.last_words = last_line();
@@ -178,24 +196,46 @@ class Watch {
                              : "was ended by signal " + std::to_string(signal) + " (" +
                                    ::strsignal(signal) + ")";
   }
-  bool are_closed() const { return events_[0].fd < 0 && events_[1].fd < 0; }
-  // False where nothing has come for a while.
-  bool read_what_is_there() {
+  void stop_at_bytes() {
+    stop("printed more than " + std::to_string(limits_.most_bytes) + " bytes");
+  }
+  void wait_for_an_event() {
     // A closed end is asked no more: poll skips negative descriptors.
-    if (::poll(events_.data(), events_.size(), kLookMilliseconds) <= 0) return false;
-    if (events_[kSignals].revents != 0) stop("was interrupted");
-    for (std::size_t i = 0; i < kSignals; ++i) {
-      if (events_[i].fd < 0 || events_[i].revents == 0) continue;
-      const ssize_t got = ::read(events_[i].fd, buffer_.data(), buffer_.size());
-      if (got <= 0) {
-        events_[i].fd = -1;
-        continue;
-      }
-      keep(i == 0, {buffer_.data(), static_cast<std::size_t>(got)});
+    if (::poll(events_.data(), events_.size(), -1) <= 0) return;
+    for (std::size_t i = 0; i < kPipes; ++i) {
+      if (events_[i].fd >= 0 && events_[i].revents != 0) read_some(i, buffer_.size());
     }
+    if (bytes_ > limits_.most_bytes) stop_at_bytes();
+    if (events_[kEnds].revents != 0) {
+      signalfd_siginfo told;
+      [[maybe_unused]] const ssize_t got = ::read(events_[kEnds].fd, &told, sizeof told);
+      ended_ = ::waitpid(tool_, &status_, WNOHANG) == tool_;
+    }
+    if (!ended_ && events_[kDeadline].revents != 0) {
+      stop("had not ended after " + shown(limits_.seconds) + " s");
+    }
+    if (events_[kArrivals].revents != 0) stop("was interrupted");
+  }
+  // False at the end.
+  bool read_some(std::size_t i, std::size_t most) {
+    const ssize_t got = ::read(events_[i].fd, buffer_.data(), std::min(most, buffer_.size()));
+    if (got <= 0) {
+      events_[i].fd = -1;
+      return false;
+    }
+    keep(i == 0, {buffer_.data(), static_cast<std::size_t>(got)});
     return true;
   }
+  // What a pipe holds: it may be filled again by what has left the group.
+  void read_what_is_left(std::size_t i) {
+    int left = 0;
+    if (events_[i].fd < 0 || ::ioctl(events_[i].fd, FIONREAD, &left) != 0) return;
+    const std::size_t end = read_ + static_cast<std::size_t>(left);
+    while (read_ < end && read_some(i, end - read_)) {
+    }
+  }
   void keep(bool is_output, std::string_view text) {
+    read_ += text.size();
     if (is_output) {
       bytes_ += text.size();
       write_all(run_.output.get(), text);
@@ -217,10 +257,11 @@ class Watch {
   ToolLimits limits_;
   ToolRun& run_;
   Clock::time_point begin_ = Clock::now();
-  static constexpr std::size_t kSignals = 2;  // after both pipes
-  std::array<pollfd, 3> events_{};
+  static constexpr std::size_t kPipes = 2, kEnds = 2, kArrivals = 3, kDeadline = 4;
+  csv::Descriptor timer_;
+  std::array<pollfd, 5> events_{};
   std::array<char, 1 << 16> buffer_{};
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0, read_ = 0;  // of standard output, and of both
   std::string words_;
   bool ended_ = false, stopped_ = false;
   int status_ = 0;

@@ -12,6 +12,7 @@ namespace tangency::verify {
 struct ToolLimits {
   double seconds;          // of wall time
   std::size_t most_bytes;  // of standard output
+  int deadline = -1;       // a descriptor that is readable once the time is up, in place of a clock
 };
 
 struct ToolRun {
@@ -26,7 +27,8 @@ struct ToolRun {
 
 // `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
 // comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
-// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then is kept.
+// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then, and no
+// more, is kept: a tool waits for what it has started.
 // A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
 // by a shell.
 // Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.

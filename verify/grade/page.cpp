@@ -142,12 +142,13 @@ std::string table(const CorpusGrade& grade) {
 }  // namespace
 
 std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& title,
-                    const std::vector<std::string>& failures) {
+                    const std::vector<std::string>& failures, const std::string& verdict) {
   std::string page(kHead);
   page += "<h1>" + escaped(title) +
           "</h1>\n<p>Graded by tangency-verify. A gap's error is in units "
           "of L, the distance of the centres and both largest semi-axes; touches are answers "
           "<i>overlaps</i> on an external touch, which are not counted as wrong.</p>\n";
+  page += (failures.empty() ? "<p>" : "<p class=\"bad\">") + escaped(verdict) + "</p>\n";
   for (const std::string& failure : failures) {
     page += "<p class=\"bad\">" + escaped(failure) + "</p>\n";
   }

@@ -97,11 +97,53 @@ std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
     if (wrong == 0 && all.wrong > 0) where = grade.corpus + " row " + row_name(all.first_wrong);
     wrong += all.wrong;
   }
-  if (thresholds.wrong && wrong > *thresholds.wrong) {
+  if (wrong > thresholds.wrong) {
     lines.push_back(std::to_string(wrong) + " wrong answers are more than " +
-                    std::to_string(*thresholds.wrong) + "; the first: " + where);
+                    std::to_string(thresholds.wrong) + "; the first: " + where);
   }
   return lines;
+}
+
+std::string verdict(const std::vector<CorpusGrade>& grades, const Thresholds& thresholds,
+                    bool has_passed) {
+  Grade total;
+  FamilyGrade& sum = total.all;
+  for (const CorpusGrade& grade : grades) {
+    const Grade& g = grade.grade;
+    total.judges_words |= g.judges_words;
+    total.judges_normals |= g.judges_normals;
+    total.claims_bounds |= g.claims_bounds;
+    total.fault_count += g.fault_count;
+    sum.rows += g.all.rows;
+    sum.wrong += g.all.wrong;
+    sum.missing += g.all.missing;
+    sum.broken_bounds += g.all.broken_bounds;
+    sum.reversed += g.all.reversed;
+    for (const Errors& errors : {kGap, kNormal, kArea}) {
+      ErrorSummary& largest = sum.*errors.summary;
+      const ErrorSummary& one = g.all.*errors.summary;
+      largest.count += one.count;
+      largest.largest = std::max(largest.largest, one.largest);
+    }
+  }
+  const auto count = [](std::size_t number, const char* what) {
+    return ", " + std::to_string(number) + what;
+  };
+  std::string text = (has_passed ? "passed: " : "FAILED: ") + std::to_string(sum.rows) +
+                     " rows in " + std::to_string(grades.size()) +
+                     (grades.size() == 1 ? " corpus: " : " corpora: ");
+  text += total.judges_words ? std::to_string(sum.wrong) + " wrong" : "relations not answered";
+  if (thresholds.wrong > 0) text += " (" + std::to_string(thresholds.wrong) + " allowed)";
+  text += count(sum.missing, " missing");
+  if (total.claims_bounds) text += count(sum.broken_bounds, " bounds broken");
+  if (total.judges_normals) text += count(sum.reversed, " normals reversed");
+  text += count(total.fault_count, " faulty lines or cells");
+  for (const Errors& errors : {kGap, kNormal, kArea}) {
+    const ErrorSummary& largest = sum.*errors.summary;
+    if (largest.count > 0)
+      text += std::string(", largest ") + errors.title + ' ' + number(largest.largest);
+  }
+  return text;
 }
 
 std::string as_table(const CorpusGrade& grade) {

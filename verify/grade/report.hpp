@@ -25,13 +25,18 @@ struct CorpusGrade {
 };
 
 struct Thresholds {
-  std::optional<std::size_t> wrong;  // in all corpora together
+  std::size_t wrong = 0;  // most in all corpora together: none, unless more are allowed
   std::optional<double> gap_error, normal_error;
 };
 
 // What fails, one line each, naming corpora and rows; nothing where all is well.
 std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
                                   const Thresholds& thresholds);
+
+// One line, the last of a grade: passed or FAILED, and the totals over the corpora of what was
+// answered: rows, counts, the largest errors. What no answer was asked for is said too.
+std::string verdict(const std::vector<CorpusGrade>& grades, const Thresholds& thresholds,
+                    bool has_passed);
 
 std::string as_table(const CorpusGrade& grade);
 
@@ -54,6 +59,6 @@ std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades);
 std::string as_json(const std::vector<CorpusGrade>& grades);
 // `title` says what was graded. Self-contained, without scripts.
 std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& title,
-                    const std::vector<std::string>& failures);
+                    const std::vector<std::string>& failures, const std::string& verdict);
 
 }  // namespace tangency::verify

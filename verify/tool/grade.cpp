@@ -54,13 +54,17 @@ The grade, family by family:
   with median, 99 %, largest and the row of the largest; then rows that are answered twice,
   that the corpus does not have, or that cannot be read.
 
-Exit status: 0 every row answered, every threshold kept; 1 answers are missing, faulty or
-beyond a threshold, worse than the baseline, a claimed bound is broken, a normal is reversed,
-or the tool was ended by a signal, hung or printed without end (its own exit status is shown
-and decides nothing); 2 refused command line or corpus, or a failed write.
+The last line is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every
+reason to fail has a line before it.
+
+Exit status: 0 every row answered, none wrong, every threshold kept; 1 answers are wrong,
+missing, faulty or beyond a threshold, worse than the baseline, a claimed bound is broken, a
+normal is reversed, or the tool was ended by a signal, hung or printed without end (its own
+exit status is shown and decides nothing); 2 refused command line or corpus, or a failed
+write.
 
 Example:
-  $ tangency-verify grade --tool 'tangency contact' --max-wrong 0 --max-gap-error 1e-15
+  $ tangency-verify grade --tool 'tangency contact' --max-gap-error 1e-15
 )";
 
 struct Options {
@@ -68,6 +72,7 @@ struct Options {
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
+  bool demands_words = false;
   double slack = 0;
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
@@ -158,7 +163,7 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
   const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
   if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
-  const Demands demands{limits.wrong.has_value(), limits.gap_error.has_value(),
+  const Demands demands{options.demands_words, limits.gap_error.has_value(),
                         limits.normal_error.has_value() && truth.has_normals};
   if (options.tool.empty()) {
     require_readable(options.answers);
@@ -228,8 +233,11 @@ ExitStatus run(const Options& options) {
     append_named(failed_by, "worse than the baseline: ", beside.worse);
   }
   for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
+  const std::string judged = verdict(grades, options.thresholds, failed_by.empty());
   write(json, as_json(grades));
-  write(html, as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by));
+  write(html,
+        as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by, judged));
+  screen.write(judged + '\n');
   return failed_by.empty() ? passed : failed;
 }
 
@@ -301,7 +309,9 @@ Subcommand add_grade(CLI::App& program) {
       ->check(CLI::Validator(check_definition, ""))
       ->type_name("D");
   Thresholds& limits = options->thresholds;
-  app.add_option("--max-wrong", limits.wrong, "Most wrong answers, over all corpora")
+  app.add_option("--max-wrong", limits.wrong,
+                 "Most wrong answers, over all corpora (default: 0); relations, or crossings or "
+                 "types, must then be answered")
       ->check(whole_number())
       ->type_name("N");
   app.add_option("--max-gap-error", limits.gap_error, "Largest gap error")
@@ -330,8 +340,9 @@ Subcommand add_grade(CLI::App& program) {
       ->check(tool::not_empty())
       ->type_name("FILE");
   app.footer(kHelp);
-  return {&app, [options] {
+  return {&app, [options, &app] {
             require_fitting(*options);
+            options->demands_words = app.count("--max-wrong") > 0;
             return run(*options);
           }};
 }

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <exception>
-#include <iostream>
-#include <new>
-#include <sstream>
-#include <string>
 #include <vector>
 
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tool/program.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 
 namespace tangency::verify {
@@ -28,24 +22,6 @@ Exit status:
 `tangency-verify SUBCOMMAND --help` gives an example.
 )";
 
-int complain(const std::string& message) {
-  std::cerr << message << std::endl;
-  return refused;
-}
-
-// Help and the version go to standard output; whatever else stops the parsing is a refusal.
-int exit_after(const CLI::App& program, const CLI::ParseError& stop) {
-  if (stop.get_exit_code() == 0) {
-    std::ostringstream text;
-    program.exit(stop, text);
-    csv::OutputFile("-").write(text.str());
-    return passed;
-  }
-  std::string name = "tangency-verify";
-  for (const CLI::App* chosen : program.get_subcommands()) name += ' ' + chosen->get_name();
-  return complain(name + ": " + stop.what() + " (`" + name + " --help` says what is allowed)");
-}
-
 int run(int argc, char** argv) {
   CLI::App program(kProgramDescription, "tangency-verify");
   program.set_version_flag("--version", "tangency-verify " TANGENCY_VERSION);
@@ -58,7 +34,7 @@ int run(int argc, char** argv) {
       if (subcommand.app->parsed()) return subcommand.run();
     }
   } catch (const CLI::ParseError& stop) {
-    return exit_after(program, stop);
+    return tool::exit_after(program, stop, argc, argv);
   }
   return refused;
 }
@@ -67,13 +43,6 @@ int run(int argc, char** argv) {
 }  // namespace tangency::verify
 
 int main(int argc, char** argv) {
-  // A reader that has gone is then an error of write(2), which csv::OutputFile reports.
-  std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return tangency::verify::run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return tangency::verify::complain("tangency-verify: out of memory");
-  } catch (const std::exception& error) {
-    return tangency::verify::complain(error.what());
-  }
+  return tangency::tool::guarded("tangency-verify",
+                                 [&] { return tangency::verify::run(argc, argv); });
 }
