@@ -2,7 +2,7 @@
 /// @file
 /// What a caller has to keep, checked in every build: a call that was asked wrongly ends the process
 /// with one line on standard error instead of writing where it must not
-/// (docs/decisions/0008-broken-contracts-end-the-process.md). Internal.
+/// (docs/decisions/0009-broken-contracts-end-the-process.md). Internal.
 #pragma once
 
 #include <cstddef>

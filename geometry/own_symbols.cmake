@@ -2,7 +2,7 @@
 # Usage: cmake -D NM=nm -D OBJCOPY=objcopy -D LIBRARY=lib.a -D SUFFIX=.name -P own_symbols.cmake
 # Gives every symbol of a static library that a linker would merge with one of the same name, above
 # all the inline functions and templates of Eigen, a name of the library's own:
-# docs/decisions/0008-own-symbols.md.
+# docs/decisions/0010-own-symbols.md.
 cmake_minimum_required(VERSION 3.25)
 
 # NAME TYPE ...: weak functions and data (W, V), unique data (u), and what names a group of a

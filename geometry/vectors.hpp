@@ -5,7 +5,7 @@
 /// Each is an Eigen type that needs no more alignment than a double, whatever a file is compiled
 /// for: the alignment of Eigen::Vector2d, Matrix4d and Quaterniond depends on the instruction set
 /// and on Eigen's macros, and a library and a user who disagree on it crash. Eigen converts between
-/// these and its own in both directions: docs/decisions/0008-own-symbols.md says what that leaves
+/// these and its own in both directions: docs/decisions/0010-own-symbols.md says what that leaves
 /// out.
 #pragma once
 

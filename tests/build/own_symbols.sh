@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: own_symbols.sh LIBRARY ...
 # What a linker would merge with an equal name elsewhere in a program bears a name of the library's
-# own, and what a library takes from elsewhere is no template of Eigen: docs/decisions/0008-own-symbols.md.
+# own, and what a library takes from elsewhere is no template of Eigen: docs/decisions/0010-own-symbols.md.
 set -euo pipefail
 status=0
 for library in "$@"; do
