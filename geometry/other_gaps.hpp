@@ -14,7 +14,7 @@
 /// (1) Exchanging the bodies leaves the gap, reverses the normal and exchanges the points.
 /// (2) A common motion carries normal and points along; a common scaling scales gap and points.
 /// (3) The gap is > 0 where F > 1, and < 0 where F < 1: its sign is that of the signed gap, but for
-///     rounding of double-double: a touch need not be 0.
+///     an error of u L / 64: a touch need not be 0.
 /// (4) For two spheres it is the signed gap; in general it differs from it by O(gap^2 / radius of
 ///     curvature).
 ///
