@@ -151,7 +151,7 @@ QuarticRoots found_roots(const std::array<double, 5>& a) {
   for (int i = 0; i < roots.count; ++i) roots.root[static_cast<std::size_t>(i)].x *= sign;
   if (p.zeros > 0) add(roots, {0.0, 0.0, p.zeros % 2 == 1});
   std::sort(roots.root.begin(), roots.root.begin() + roots.count,
-            [](const QuarticRoot& p, const QuarticRoot& q) { return p.x < q.x; });
+            [](const QuarticRoot& r, const QuarticRoot& s) { return r.x < s.x; });
   return roots;
 }
 

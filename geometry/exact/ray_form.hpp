@@ -4,8 +4,7 @@
 ///
 /// With the form F of the body and x(t) = origin + t direction the level x(t)' F x(t) is
 /// C0 + 2 C1 t + C2 t^2, up to units, with C2 > 0: negative inside the body.
-///
-/// (1) Every sign is that of the stored doubles.
+/// Every sign is that of the stored doubles.
 #pragma once
 
 #include <tangency/geometry/exact/double_double.hpp>

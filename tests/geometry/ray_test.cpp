@@ -104,6 +104,21 @@ TEST(Ray, EndsOfAnIntervalThatAreHitsAreInItAndTheirNeighboursTell) {
 }
 
 // geometry/ray.hpp (5)
+TEST(Ray, HitBesideAnEndByLessThanRoundingIsOnItsTrueSide) {
+  // It was taken by its rounded t. At t = 2^(1/2), which is below the double next to it.
+  const Ellipsoid ball({0, 0, 0}, {1, 1, 1});
+  const Ray ray{{0, 0, 0}, {0.5, 0.5, 0}};
+  const double above = std::sqrt(2.0), below = std::nextafter(above, 0.0);
+  EXPECT_EQ(intersect(ball, ray, above).status, RayStatus::miss);
+  EXPECT_EQ(intersect(ball, ray, below).count, 1);
+  EXPECT_EQ(intersect(ball, ray, 0, above).count, 1);
+  EXPECT_EQ(intersect(ball, ray, 0, below).status, RayStatus::miss);
+  const RayHit hit = intersect(ball, ray, below, above);
+  ASSERT_EQ(hit.count, 1);
+  EXPECT_EQ(hit.points[0].t, above);
+}
+
+// geometry/ray.hpp (5)
 TEST(Ray, TangentOfATurnedSurfaceTouchesAtItsOrigin) {
   // The gradient at (0, -3, 4) is along (0, -3, 4) by symmetry: it is the end of an axis.
   const Ellipsoid e({0, 0, 0}, {2.5, 5, 10}, Eigen::Quaterniond(1, 2, 0, 0));

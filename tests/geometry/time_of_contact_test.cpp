@@ -53,14 +53,6 @@ TEST(TimeOfContact, LatestIsNoFurtherThanTheToleranceExactly) {
   }
 }
 
-TEST(TimeOfContact, ToleranceBelowTheSpacingOfTimesIsNotExceeded) {
-  // From a moment far from 0 the next double is further than the tolerance.
-  const Ellipsoid a = sphere({0, 0, 0}, 1), b = sphere({1e6, 0.1, 0}, 2);
-  const TimeOfContact found = time_of_contact(a, {}, b, flight({-1, 0, 0}), 2e6, 1e-11);
-  EXPECT_LE(mpq_class(found.latest) - mpq_class(found.time), mpq_class(1e-11));
-  EXPECT_NEAR(found.time, 1e6, 4);
-}
-
 TEST(TimeOfContact, IsNoneUntilTheHorizonAndThenContact) {
   const Ellipsoid a = sphere({0, 0, 0}, 1), b = sphere({10, 0, 0}, 2);
   const Motion approach = flight({-2, 0, 0});

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/geometry/polynomial.hpp>
@@ -126,22 +127,23 @@ class Sturm {
   std::vector<Polynomial> sequence_;
 };
 
-/// A sign change of p within (low, high), as narrow as 2^-80 of itself.
+/// A sign change of p within (low, high), as narrow as 2^-80 of itself or within a root's error.
 struct Crossing {
   Dyadic low, high;
 };
 
 /// The sign changes of p in (low, high), both of one sign and no roots: the interval is halved, in
 /// the exponent first.
+/// @param enclosed  all of the interval is within the error of a root
 void isolate(const Polynomial& p, const Sturm& sturm, const Dyadic& low, const Dyadic& high,
-             std::vector<Crossing>& found) {
+             bool enclosed, std::vector<Crossing>& found) {
   const int inside = sturm.variations_at(low) - sturm.variations_at(high);
   if (inside == 0) return;
   const Dyadic width = sum(high, minus(low)), far = low.mantissa < 0 ? low : high;
   const auto bits = [](const Dyadic& x) {
     return static_cast<long>(mpz_sizeinbase(x.mantissa.get_mpz_t(), 2)) + x.exponent;
   };
-  if (bits(width) < bits(far) - 80) {
+  if ((enclosed && inside == 1) || bits(width) < bits(far) - 80) {
     if (sign_at(p, low) * sign_at(p, high) < 0) found.push_back({low, high});
     return;
   }
@@ -152,17 +154,35 @@ void isolate(const Polynomial& p, const Sturm& sturm, const Dyadic& low, const D
   }
   // Sturm's theorem is of intervals whose ends are no multiple roots.
   while (sign_at(p, middle) == 0) middle = half(sum(middle, far));
-  isolate(p, sturm, low, middle, found);
-  isolate(p, sturm, middle, high, found);
+  isolate(p, sturm, low, middle, enclosed, found);
+  isolate(p, sturm, middle, high, enclosed, found);
 }
+
+/// Low and high end.
+using Enclosure = std::pair<Dyadic, Dyadic>;
 
 /// Those of p(0) != 0: every root is between 2^-4400 and 2^4400 in magnitude (Cauchy's bound, of
 /// coefficients that are integers below 2^2098).
-std::vector<Crossing> crossings(const Polynomial& p, const Sturm& sturm) {
+std::vector<Crossing> crossings(const Polynomial& p, const std::vector<Enclosure>& enclosures) {
+  const Sturm sturm(p);
   const Dyadic tiny{1, -4400}, huge{1, 4400};
+  std::vector<Dyadic> cuts{minus(huge), minus(tiny), tiny, huge};
+  for (const auto& [low, high] : enclosures) {
+    for (const Dyadic& end : {low, high}) {
+      const Dyadic size{abs(end.mantissa), end.exponent};
+      if (sign_at(p, end) != 0 && less(tiny, size) && less(size, huge)) cuts.push_back(end);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end(), less);
   std::vector<Crossing> found;
-  isolate(p, sturm, minus(huge), minus(tiny), found);
-  isolate(p, sturm, tiny, huge, found);
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const Dyadic &low = cuts[i], &high = cuts[i + 1];
+    if (low.mantissa < 0 && high.mantissa > 0) continue;
+    const bool enclosed = std::any_of(enclosures.begin(), enclosures.end(), [&](const auto& e) {
+      return !less(low, e.first) && !less(e.second, high);
+    });
+    isolate(p, sturm, low, high, enclosed, found);
+  }
   return found;
 }
 
@@ -261,7 +281,11 @@ class Check {
 
   bool every_sign_change_is_near() {
     ++tally_.closely;
-    const std::vector<Crossing> exact = crossings(p_, Sturm(p_));
+    std::vector<Enclosure> enclosures;
+    for (const QuarticRoot& root : roots_) {
+      if (std::isfinite(root.error)) enclosures.emplace_back(end(root, -1), end(root, 1));
+    }
+    const std::vector<Crossing> exact = crossings(p_, enclosures);
     for (const QuarticRoot& root : roots_) {
       const auto is_its = [&](const Crossing& c) { return is_within(c, root); };
       if (root.crosses && std::none_of(exact.begin(), exact.end(), is_its)) return false;
