@@ -99,10 +99,13 @@ struct Task {
     if (size > kHalf) return find_outside(first, n);
     const std::uint64_t room = kBoth * (kHalf - size);
     std::uint64_t outside = 0;
-    for (std::size_t i = first; i < first + n; ++i) {
-      const auto both = std::bit_cast<std::uint64_t>(pairs[i]);
-      outside |= (both + room) | both;
-    }
+    const auto look_at = [&](std::size_t some) {
+      for (std::size_t i = 0; i < some; ++i) {
+        const auto both = std::bit_cast<std::uint64_t>(pairs[first + i]);
+        outside |= (both + room) | both;
+      }
+    };
+    n == kBlock ? look_at(kBlock) : look_at(n);  // a constant number is taken two at once
     if ((outside & (kBoth * kHalf)) != 0) find_outside(first, n);
   }
   void find_outside(std::size_t first, std::size_t n) const {
@@ -302,9 +305,9 @@ void require_columns(const char* call, const GapColumns& columns, std::size_t co
   require("status", columns.status);
 }
 
-/// Calls answer(i, yes) with what a lane proves and doubtful(i) for the other pairs.
+/// What a lane proves, and doubtful(i) for the other pairs.
 template <class Answer, class Doubtful>
-void run_overlaps(const Task& task, const Answer& answer, const Doubtful& doubtful) {
+void run_overlaps(const Task& task, Answer* answers, const Doubtful& doubtful) {
   in_default_environment([&] {
     Workspace work;
     for (std::size_t first = 0; first < task.count; first += kBlock) {
@@ -312,11 +315,8 @@ void run_overlaps(const Task& task, const Answer& answer, const Doubtful& doubtf
       gather(task, first, count, work);
       const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
       for (std::size_t i = 0; i < count; ++i) {
-        if ((lanes.decided >> i & 1) != 0) {
-          answer(first + i, (lanes.meet >> i & 1) != 0);
-        } else {
-          doubtful(first + i);
-        }
+        const bool decided = (lanes.decided >> i & 1) != 0;
+        answers[first + i] = decided ? Answer((lanes.meet >> i & 1) != 0) : doubtful(first + i);
       }
     }
   });
@@ -412,18 +412,14 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept {
   contract::require_length("overlaps", "answers", answers.size(), list.pairs.size());
   const Task task = task_of("overlaps", bodies, list);
-  run_overlaps(
-      task, [&](std::size_t i, bool yes) { answers[i] = yes; },
-      [&](std::size_t i) { answers[i] = task.overlaps(i); });
+  run_overlaps(task, answers.data(), [&](std::size_t i) { return task.overlaps(i); });
 }
 
 void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
                         std::span<std::optional<bool>> answers) noexcept {
   contract::require_length("overlaps_by_filter", "answers", answers.size(), list.pairs.size());
   const Task task = task_of("overlaps_by_filter", bodies, list);
-  run_overlaps(
-      task, [&](std::size_t i, bool yes) { answers[i] = yes; },
-      [&](std::size_t i) { answers[i] = task.overlaps_by_filter(i); });
+  run_overlaps(task, answers.data(), [&](std::size_t i) { return task.overlaps_by_filter(i); });
 }
 
 }  // namespace tangency

@@ -17,7 +17,7 @@
 /// (6) Where overlaps_by_filter(a, b) answers, it is overlaps(a, b).
 ///
 /// The exact tier takes 15 us and a few kB for ordinary numbers; for numbers over the whole range of
-/// doubles 20 ms and some 100 kB at most (measured, docs/decisions/0008). Where memory ends it ends
+/// doubles 20 ms at most (measured, docs/decisions/0008-*). It allocates, and where memory ends ends
 /// the process. A caller who can neither wait nor allocate asks overlaps_by_filter().
 #pragma once
 

@@ -130,7 +130,7 @@ void* counted_reallocate(void* memory, std::size_t, std::size_t size) {
 void plain_free(void* memory, std::size_t) { std::free(memory); }
 
 // How long the exact tier works, without a clock: by the bytes of all its numbers. Containment by
-// linear bisection asked for %OLD% MB.
+// linear bisection asked for 749 MB, and the members of the pencil for 1142.
 TEST(ExactTier, WorksOnFewNumbersForTheSlowestKnownPair) {
   const Ellipsoid a({0x1.1719ca896a532p-2, 0x1.ee82af1968dbp+946, 0x1.ead646d985d92p+48},
                     {0x1.78b19aa964dfcp-999, 0x1.c493dfdc8efbp+1019, 0x1.20081796dc9aap+951},
@@ -150,7 +150,7 @@ TEST(ExactTier, WorksOnFewNumbersForTheSlowestKnownPair) {
   EXPECT_EQ(answer.relation, Relation::overlap);
   EXPECT_EQ(members, 33u);
   EXPECT_LT(of_relation, 4'000'000);
-  EXPECT_LT(of_pencil, 400'000'000);
+  EXPECT_LT(of_pencil, 200'000'000);
 }
 
 TEST(Allocation, HappensInNoGapOfAnotherDefinition) {

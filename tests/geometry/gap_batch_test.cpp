@@ -461,7 +461,7 @@ TEST(BodyArray, ThatWasMovedFromIsEmptyAndRefusesEveryIndex) {
   EXPECT_EQ(f.bodies.size(), 0u);  // NOLINT: what is left of it is promised
   EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, f.gaps), "and there are 0 bodies");
   signed_gaps(moved, {f.pairs, {}}, f.gaps);
-  EXPECT_TRUE(same_bits(f.gaps[64], signed_gap(f.two[0], f.two[1])));
+  expect_agreement(f.gaps[64], signed_gap(f.two[0], f.two[1]), 64);
   BodyArray assigned{{}};
   assigned = std::move(moved);
   EXPECT_EQ(assigned.size(), 2u);
@@ -481,7 +481,7 @@ TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
     EXPECT_NE(&(*bodies)[0], f.two.data());
     std::vector<Gap> gaps(65);
     signed_gaps(*bodies, {f.pairs, {}}, gaps);
-    EXPECT_TRUE(same_bits(gaps[0], signed_gap(f.two[0], f.two[1])));
+    expect_agreement(gaps[0], signed_gap(f.two[0], f.two[1]), 0);
   }
 }
 

@@ -143,7 +143,7 @@ TEST(IntegerPolynomial, IsCoprimeAlsoWhereAPrimeDividesItsLeadingCoefficients) {
 }
 
 /// A polynomial all of whose roots are positive, over binary places that doubles do not have, some
-/// so close together that only hundreds of digits tell them apart; and its greatest root.
+/// so close together that only hundreds of binary digits tell them apart; and its greatest root.
 struct Positive {
   IntegerPolynomial polynomial = IntegerPolynomial({mpz_class(1)});
   std::vector<mpq_class> roots;
@@ -178,10 +178,10 @@ std::vector<mpq_class> clustered_roots() {
   for (int i = 0; i < 3; ++i) {
     mpq_class base(*rc::gen::inRange(1, 9), *rc::gen::inRange(1, 4));
     base.canonicalize();
-    base = scaled(base, *rc::gen::inRange(-3000, 3000));
+    base = scaled(base, *rc::gen::inRange(-300, 300));
     roots.push_back(base);
     for (int k = 0; k < 2; ++k) {
-      roots.push_back(base + scaled(base, -*rc::gen::inRange(1, 4000)));
+      roots.push_back(base + scaled(base, -*rc::gen::inRange(1, 700)));
     }
   }
   return roots;
