@@ -194,12 +194,24 @@ Quaternion uniform_rotation(std::mt19937_64& random, int dimensions) {
   return {t * std::cos(second), s * std::sin(first), s * std::cos(first), t * std::sin(second)};
 }
 
+namespace {
+
+/// The cell's edges. @throws DoesNotFit
+Vec3 edges_for(const std::vector<Batch>& batches, const Placement& how) {
+  if (how.arrangement == Arrangement::random) return room_for(batches, how);
+  if (how.arrangement == Arrangement::lattice) return lattice_for(batches, how).edges;
+  if (!how.cell_size) throw DoesNotFit("an explicit arrangement needs cell.size");
+  return *how.cell_size;
+}
+
+}  // namespace
+
 void check_room(const std::vector<Batch>& batches, const Placement& how) {
-  if (how.arrangement == Arrangement::explicit_bodies && !how.cell_size)
-    throw DoesNotFit("an explicit arrangement needs cell.size");
-  const Vec3 edges = how.arrangement == Arrangement::random    ? room_for(batches, how)
-                     : how.arrangement == Arrangement::lattice ? lattice_for(batches, how).edges
-                                                               : *how.cell_size;
+  edges_for(batches, how);
+}
+
+void check_thickness(const std::vector<Batch>& batches, const Placement& how) {
+  const Vec3 edges = edges_for(batches, how);
   LeastCell least;
   for (const Batch& batch : batches) least.add(batch.shape.semi_axes(how.dimensions), batch.count);
   const auto thin = thin_place(Cell::box(edges, how.dimensions, how.walled), least);

@@ -59,6 +59,10 @@ constexpr double largest_bounding_fraction(int dimensions) { return dimensions =
 /// Is there room for them? @throws DoesNotFit, as place() would but for bad luck in random()
 void check_room(const std::vector<Batch>& batches, const Placement& how);
 
+/// Is the cell thick enough for a run (thin_cell.hpp)? place() serves thinner ones.
+/// @throws DoesNotFit
+void check_thickness(const std::vector<Batch>& batches, const Placement& how);
+
 /// place_on_lattice(), place_at_random() or the bodies as they are.
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 

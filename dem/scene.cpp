@@ -338,6 +338,7 @@ class Reader {
   void check_placement(const std::string& path, const toml::table& stage) const {
     try {
       check_room(scene_.batches(), scene_.placement());
+      check_thickness(scene_.batches(), scene_.placement());
     } catch (const DoesNotFit& error) {
       const toml::node* size = root_["cell"]["size"].node();
       if (size) source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());

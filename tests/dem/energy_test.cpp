@@ -51,7 +51,7 @@ struct Case {
 
 std::string scene(const Case& one, double time_step_factor) {
   return std::string("schema = 1\n") + one.cell +
-         "[particles.grain]\ncount = 30\nmean_radius = 10.0\nflatness = 1.0\nelongation = " +
+         "[particles.grain]\ncount = 50\nmean_radius = 10.0\nflatness = 1.0\nelongation = " +
          number(one.elongation) + "\n[contact]\n" + one.law +
          "[[stage]]\nkind = \"place\"\narrangement = \"random\"\nseed = 5\n"
          "[[stage]]\nkind = \"compress\"\nmean_stress = 60e6\nmax_strain_rate = 0.4\n"
