@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_loading.hpp>
@@ -402,10 +403,10 @@ double Scene::smallest_mean_radius() const {
 
 double Scene::servo_strain_rate(double stress) const {
   constexpr double inertial_number = 0.05;  // Chosen: a collapse takes up to 20 times a test's rate
-  double slowest = 0.0;                     // diameter sqrt(density)
+  double least = std::numeric_limits<double>::infinity();
   for (const auto& [name, batch] : particle_types)
-    slowest = std::max(slowest, 2.0 * batch.shape.mean_radius * std::sqrt(batch.density));
-  return inertial_number * std::sqrt(stress) / slowest;
+    least = std::min(least, std::sqrt(stress / batch.density) / (2.0 * batch.shape.mean_radius));
+  return inertial_number * least;
 }
 
 Placement Scene::placement() const {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <tangency/dem/files.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>

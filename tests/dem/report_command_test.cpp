@@ -257,9 +257,12 @@ TEST(SummaryPeaks, AreThoseOfTheHistorysRowsAlsoOfAResumedRun) {
   const std::string state = again + "/checkpoint.state";
   ASSERT_EQ(run_tool({"run", scene, "--out", again, "--quiet", "--resume", state}).status, 0);
   const auto resumed = nlohmann::json::parse(read_file(again + "/summary.json"));
-  for (const char* key : {"peak_friction_angle_deg", "strain_at_peak_friction",
-                          "peak_dilation_rate", "strain_at_peak_dilation"})
+  for (const char* key : {"peak_dilation_rate", "strain_at_peak_dilation"})
     EXPECT_EQ(resumed[key], summary[key]) << key;
+  // The row in which it was given up is one more of the dozen in a window at the peak, each up to 2
+  // degrees off their mean.
+  EXPECT_NEAR(resumed["peak_friction_angle_deg"].get<double>(), highest, 2.0 / 12.0);
+  EXPECT_NEAR(resumed["strain_at_peak_friction"].get<double>(), strain_there, 0.01);
 }
 
 }  // namespace
