@@ -71,13 +71,13 @@ TEST(RunAgain, AfterKillsAtAnyMomentEndsWithTheSameFiles) {
         "frames.xyz.part", "frames/1300.vtp", "checkpoint.state", "final.state", "summary.json"}) {
     std::vector<std::string> arguments{"run", scene, "--out", parts, "--quiet", "--threads", "1"};
     if (std::filesystem::exists(state)) arguments.insert(arguments.end(), {"--resume", state});
-    const std::string part = make_pipe(parts + "/" + file + ".part");
+    const std::string part = parts + "/" + file + ".part";
+    std::filesystem::remove(part);
+    const FullPipe pipe(part);
     Process run(arguments);
-    const int reader = run.meet_at(part, O_RDONLY);
-    EXPECT_GE(reader, 0) << file;
+    ASSERT_TRUE(pipe.is_met_by(run)) << file;
     run.send(SIGKILL);
     EXPECT_EQ(run.wait().signal, SIGKILL) << file;
-    ::close(reader);
     std::filesystem::remove(part);
     folder.write("parts/" + std::string(file) + ".part", "a half of it");
     ASSERT_TRUE(std::filesystem::exists(state)) << file;

@@ -192,6 +192,27 @@ std::string make_pipe(const std::string& path) {
   return path;
 }
 
+FullPipe::FullPipe(const std::string& path)
+    : pipe_(::open(make_pipe(path).c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)),
+      events_(::inotify_init1(IN_CLOEXEC)) {
+  const std::string some(4096, ' ');
+  while (::write(pipe_, some.data(), some.size()) > 0) {
+  }
+  if (::inotify_add_watch(events_, path.c_str(), IN_OPEN) < 0) throw std::runtime_error("no watch");
+}
+
+FullPipe::~FullPipe() {
+  ::close(pipe_);
+  ::close(events_);
+}
+
+bool FullPipe::is_met_by(const Process& tool) const {
+  std::array<pollfd, 2> events{{{events_, POLLIN, 0}, {tool.output_, 0, 0}}};
+  while (::poll(events.data(), events.size(), -1) < 0) {
+  }
+  return events[0].revents != 0 && events[1].revents == 0;
+}
+
 std::string read_to_end(int pipe) {
   std::string text;
   while (drain(pipe, text)) {

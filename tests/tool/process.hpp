@@ -71,6 +71,8 @@ class Process {
   Finished wait();
 
  private:
+  friend class FullPipe;
+
   pid_t pid_ = -1;
   int input_ = -1;
   int output_ = -1;
@@ -80,6 +82,21 @@ class Process {
 /// A new named pipe. A tool that opens it stands still until a test opens the other end, however
 /// slow the machine is.
 std::string make_pipe(const std::string& path);
+
+/// A new named pipe that is full: a tool that writes to it stands still in the middle of the write.
+class FullPipe {
+ public:
+  explicit FullPipe(const std::string& path);
+  ~FullPipe();
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+
+  /// Waits until the tool has opened it; false where it has ended instead.
+  bool is_met_by(const Process& tool) const;
+
+ private:
+  int pipe_, events_;
+};
 
 /// Reads a pipe to its end and closes it: what was written before, or "" for -1.
 std::string read_to_end(int pipe);
