@@ -151,6 +151,7 @@ void Process::close_output() { close_end(output_); }
 void Process::send(int signal) { ::kill(pid_, signal); }
 
 int Process::meet_at(const std::string& pipe, int how) {
+  ::signal(SIGPIPE, SIG_IGN);  // of this process, where it writes to a tool that has gone
   const int met = ::eventfd(0, EFD_CLOEXEC);
   // An end of the tool shows on its standard output, and lets the pipe be opened in its place.
   std::thread watch([&] {
@@ -159,13 +160,11 @@ int Process::meet_at(const std::string& pipe, int how) {
     if (events[1].revents == 0)
       ::close(::open(pipe.c_str(), (how == O_RDONLY ? O_WRONLY : O_RDONLY) | O_NONBLOCK));
   });
-  int end = ::open(pipe.c_str(), how | O_CLOEXEC);
+  const int end = ::open(pipe.c_str(), how | O_CLOEXEC);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto told = ::write(met, &one, sizeof one);
   watch.join();
   ::close(met);
-  std::array<pollfd, 1> tool{{{output_, 0, 0}}};
-  if (::poll(tool.data(), tool.size(), 0) > 0) close_end(end);
   return end;
 }
 

@@ -64,7 +64,7 @@ class Process {
   void send(int signal);
   pid_t id() const { return pid_; }
   /// Opens a named pipe, which waits until the tool opens its other end; it stays there until this
-  /// end is read from or written to. Returns -1 where the tool has ended instead.
+  /// end is read from or written to. Where the tool has ended instead, nothing comes from there.
   /// @param how  O_RDONLY or O_WRONLY
   int meet_at(const std::string& pipe, int how);
   /// Collects what is left of both outputs, then the exit status. Leaves the input open.
@@ -98,7 +98,7 @@ class FullPipe {
   int pipe_, events_;
 };
 
-/// Reads a pipe to its end and closes it: what was written before, or "" for -1.
+/// Reads a pipe to its end and closes it: what was written to it.
 std::string read_to_end(int pipe);
 
 /// Names that appear in a folder from now on.
