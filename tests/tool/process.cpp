@@ -157,8 +157,10 @@ int Process::meet_at(const std::string& pipe, int how) {
   std::thread watch([&] {
     std::array<pollfd, 2> events{{{output_, 0, 0}, {met, POLLIN, 0}}};
     ::poll(events.data(), events.size(), -1);
-    if (events[1].revents == 0)
-      ::close(::open(pipe.c_str(), (how == O_RDONLY ? O_WRONLY : O_RDONLY) | O_NONBLOCK));
+    if (events[1].revents != 0) return;
+    const int other = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+    ::poll(&events[1], 1, -1);
+    ::close(other);
   });
   const int end = ::open(pipe.c_str(), how | O_CLOEXEC);
   const std::uint64_t one = 1;
