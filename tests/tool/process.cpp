@@ -151,21 +151,22 @@ void Process::close_output() { close_end(output_); }
 void Process::send(int signal) { ::kill(pid_, signal); }
 
 int Process::meet_at(const std::string& pipe, int how) {
+  ::signal(SIGPIPE, SIG_IGN);  // of this process, where it writes to a tool that has gone
   const int met = ::eventfd(0, EFD_CLOEXEC);
   // An end of the tool shows on its standard output, and lets the pipe be opened in its place.
   std::thread watch([&] {
     std::array<pollfd, 2> events{{{output_, 0, 0}, {met, POLLIN, 0}}};
     ::poll(events.data(), events.size(), -1);
-    if (events[1].revents == 0)
-      ::close(::open(pipe.c_str(), (how == O_RDONLY ? O_WRONLY : O_RDONLY) | O_NONBLOCK));
+    if (events[1].revents != 0) return;
+    const int other = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+    ::poll(&events[1], 1, -1);
+    ::close(other);
   });
-  int end = ::open(pipe.c_str(), how | O_CLOEXEC);
+  const int end = ::open(pipe.c_str(), how | O_CLOEXEC);
   const std::uint64_t one = 1;
   [[maybe_unused]] const auto told = ::write(met, &one, sizeof one);
   watch.join();
   ::close(met);
-  std::array<pollfd, 1> tool{{{output_, 0, 0}}};
-  if (::poll(tool.data(), tool.size(), 0) > 0) close_end(end);
   return end;
 }
 
@@ -190,6 +191,27 @@ Finished Process::wait() {
 std::string make_pipe(const std::string& path) {
   if (::mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("mkfifo failed");
   return path;
+}
+
+FullPipe::FullPipe(const std::string& path)
+    : pipe_(::open(make_pipe(path).c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)),
+      events_(::inotify_init1(IN_CLOEXEC)) {
+  const std::string some(4096, ' ');
+  while (::write(pipe_, some.data(), some.size()) > 0) {
+  }
+  if (::inotify_add_watch(events_, path.c_str(), IN_OPEN) < 0) throw std::runtime_error("no watch");
+}
+
+FullPipe::~FullPipe() {
+  ::close(pipe_);
+  ::close(events_);
+}
+
+bool FullPipe::is_met_by(const Process& tool) const {
+  std::array<pollfd, 2> events{{{events_, POLLIN, 0}, {tool.output_, 0, 0}}};
+  while (::poll(events.data(), events.size(), -1) < 0) {
+  }
+  return events[0].revents != 0 && events[1].revents == 0;
 }
 
 std::string read_to_end(int pipe) {

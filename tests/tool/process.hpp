@@ -64,13 +64,15 @@ class Process {
   void send(int signal);
   pid_t id() const { return pid_; }
   /// Opens a named pipe, which waits until the tool opens its other end; it stays there until this
-  /// end is read from or written to. Returns -1 where the tool has ended instead.
+  /// end is read from or written to. Where the tool has ended instead, nothing comes from there.
   /// @param how  O_RDONLY or O_WRONLY
   int meet_at(const std::string& pipe, int how);
   /// Collects what is left of both outputs, then the exit status. Leaves the input open.
   Finished wait();
 
  private:
+  friend class FullPipe;
+
   pid_t pid_ = -1;
   int input_ = -1;
   int output_ = -1;
@@ -81,7 +83,22 @@ class Process {
 /// slow the machine is.
 std::string make_pipe(const std::string& path);
 
-/// Reads a pipe to its end and closes it: what was written before, or "" for -1.
+/// A new named pipe that is full: a tool that writes to it stands still in the middle of the write.
+class FullPipe {
+ public:
+  explicit FullPipe(const std::string& path);
+  ~FullPipe();
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+
+  /// Waits until the tool has opened it; false where it has ended instead.
+  bool is_met_by(const Process& tool) const;
+
+ private:
+  int pipe_, events_;
+};
+
+/// Reads a pipe to its end and closes it: what was written to it.
 std::string read_to_end(int pipe);
 
 /// Names that appear in a folder from now on.
