@@ -4,7 +4,7 @@
 /// in which that bounds f: docs/derivations/gap-certificate.md, section 3.
 #pragma once
 
-#include <tangency/geometry/exact/double_double_vector.hpp>
+#include <tangency/geometry/exact/double_double_body.hpp>
 
 namespace tangency::methods {
 
