@@ -100,9 +100,8 @@ Vec2 Ellipse::support_point(const Vec2& n) const noexcept {
 }
 
 double Ellipse::level(const Vec2& point) const noexcept {
-  return in_default_environment([&] {
-    return turned_back(axis_, point - centre_).cwiseQuotient(semi_axes_).squaredNorm();
-  });
+  return in_default_environment(
+      [&] { return turned_back(axis_, point - centre_).cwiseQuotient(semi_axes_).squaredNorm(); });
 }
 
 }  // namespace tangency

@@ -202,7 +202,8 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) 
             // the time that is left.
             const Vec3& n = jump.normal_before;
             const double h_a = a.support(n), h_b = b.support(n);
-            const exact::DoubleDoubleSide side_a(a, exact::exactly(n)), side_b(b, exact::exactly(n));
+            const exact::DoubleDoubleSide side_a(a, exact::exactly(n)),
+                side_b(b, exact::exactly(n));
             const methods::Bend bend =
                 methods::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
             const double value = n.dot(b.centre()) - h_a - h_b;
