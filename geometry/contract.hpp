@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a caller has to keep, checked in every build: a call that was asked wrongly ends the process
-/// with one line on standard error instead of writing where it must not
+/// What a caller has to keep, checked in every build: a call that was asked wrongly ends the
+/// process with one line on standard error instead of writing where it must not
 /// (docs/decisions/0009-broken-contracts-end-the-process.md). Internal.
 #pragma once
 

@@ -39,8 +39,8 @@ struct LaneShape;
 template <class T>
 concept TemporaryEllipsoids =
     std::ranges::contiguous_range<T> && std::ranges::sized_range<T> &&
-    !std::is_lvalue_reference_v<T> && !std::ranges::borrowed_range<T> &&
-    std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
+    !std::is_lvalue_reference_v<T> &&
+    !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
 
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
 /// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
@@ -57,7 +57,8 @@ class BodyArray {
 
   std::size_t size() const noexcept { return bodies_.size(); }
   const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
-  /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed by different threads.
+  /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed
+  /// by different threads.
   void refresh(std::size_t i) noexcept;
 
   const methods::LaneBody* lanes() const noexcept { return lanes_.data(); }
@@ -118,7 +119,8 @@ struct GapColumns {
 /// signed_gap() of every pair.
 ///
 /// Here and below a length that does not match, an index that is none and a separation that is not
-/// finite end the process with one line on standard error, in every build.
+/// finite end the process with one line on standard error, in every build; indices in overlaps()
+/// and overlaps_by_filter() only where asserts are on (a release build does not look at them).
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}) noexcept;
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
@@ -145,8 +147,8 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
 /// floating-point environment; given separations are taken as they are.
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept;
 
-/// overlaps_by_filter() of every pair: nothing where only the exact tier would know. In bounded time,
-/// and allocates nothing.
+/// overlaps_by_filter() of every pair: nothing where only the exact tier would know. In bounded
+/// time, and allocates nothing.
 void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
                         std::span<std::optional<bool>> answers) noexcept;
 

@@ -16,9 +16,9 @@
 /// (5) overlaps(a, b) if and only if the true signed gap is < 0.
 /// (6) Where overlaps_by_filter(a, b) answers, it is overlaps(a, b).
 ///
-/// The exact tier takes 15 us and a few kB for ordinary numbers; for numbers over the whole range of
-/// doubles 20 ms at most (measured, docs/decisions/0008-*). It allocates, and where memory ends ends
-/// the process. A caller who can neither wait nor allocate asks overlaps_by_filter().
+/// The exact tier takes 15 us and a few kB for ordinary numbers; for numbers over the whole range
+/// of doubles 20 ms at most (measured, docs/decisions/0008-*). It allocates, and where memory ends
+/// ends the process. A caller who can neither wait nor allocate asks overlaps_by_filter().
 #pragma once
 
 #include <optional>
@@ -67,8 +67,8 @@ inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 }
 
 /// The same by the filter alone: nothing where only the exact tier would know, at a touch or some
-/// 1e-30 of the size from one, and for shapes or scales that are extreme. In bounded time (at most a
-/// few us), and allocates nothing.
+/// 1e-30 of the size from one, and for shapes or scales that are extreme. In bounded time (at most
+/// a few us), and allocates nothing.
 std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 }  // namespace tangency

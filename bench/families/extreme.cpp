@@ -187,7 +187,9 @@ RawEllipsoid HeaviestPairs::body() {
 
 RawPair HeaviestPairs::next() {
   constexpr double most = std::numeric_limits<double>::max();
-  const auto nudged = [&](double x) { return std::nextafter(x, random_() % 2 == 0 ? most : -most); };
+  const auto nudged = [&](double x) {
+    return std::nextafter(x, random_() % 2 == 0 ? most : -most);
+  };
   RawPair pair;
   pair.a = pair.b = body();
   RawEllipsoid& b = pair.b;

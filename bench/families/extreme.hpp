@@ -51,8 +51,8 @@ struct RawPair {
 
 /// What exact arithmetic finds hardest: every number of a body drawn log-uniformly from 2^-range to
 /// 2^range, and B one sixth of the time another such body, else A with a centre, a semi-axis or a
-/// quaternion nudged by one unit in the last place, with semi-axes grown by powers of two, or doubled
-/// and moved. Touching and nested pairs are frequent among them.
+/// quaternion nudged by one unit in the last place, with semi-axes grown by powers of two, or
+/// doubled and moved. Touching and nested pairs are frequent among them.
 class HeaviestPairs {
  public:
   /// @param range  1 to 1074, of exponents

@@ -24,23 +24,23 @@ bool is_binomial(const IntegerPolynomial& p) {
 }  // namespace
 
 Containment containment(const PairPolynomials& pair) {
-  const IntegerPolynomial quartic = pair.quartic.reflected();   // R
-  const IntegerPolynomial shapes = -pair.shapes.reflected();    // C
+  const IntegerPolynomial quartic = pair.quartic.reflected();  // R
+  const IntegerPolynomial shapes = -pair.shapes.reflected();   // C
   // Then A's shape, put about B's centre, would not be inside B's.
   if (largest_root_exceeds_one(shapes)) return Containment::none;
   const int discriminant = discriminant_sign(quartic);
   if (discriminant < 0) return Containment::none;
   const IntegerPolynomial distinct = discriminant > 0 ? quartic : square_free_part(quartic);
   if (discriminant == 0 && !all_roots_are_real(distinct)) return Containment::none;
-  const IntegerPolynomial block = discriminant_sign(shapes) != 0 ? shapes : square_free_part(shapes);
+  const IntegerPolynomial block =
+      discriminant_sign(shapes) != 0 ? shapes : square_free_part(shapes);
   switch (compare_largest_roots(distinct, block)) {
     case 1:
-      return discriminant > 0 || multiplicity_of_largest_root(quartic) == 1
-                 ? Containment::interior
-                 : Containment::touching;
+      return discriminant > 0 || multiplicity_of_largest_root(quartic) == 1 ? Containment::interior
+                                                                            : Containment::touching;
     case 0:
-      return discriminant == 0 && multiplicity_of_largest_root(quartic) >
-                                      multiplicity_of_largest_root(shapes)
+      return discriminant == 0 &&
+                     multiplicity_of_largest_root(quartic) > multiplicity_of_largest_root(shapes)
                  ? Containment::touching
                  : Containment::none;
     default:

@@ -21,7 +21,8 @@ namespace tangency::exact {
 
 enum class Containment { none, touching, interior };
 
-/// Does B contain A? Requires the polynomials of (A, B), whose interiors meet and who are not equal.
+/// Does B contain A? Requires the polynomials of (A, B), whose interiors meet and who are not
+/// equal.
 Containment containment(const PairPolynomials& pair);
 
 /// Are A and B the same point set?

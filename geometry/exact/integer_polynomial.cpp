@@ -85,8 +85,8 @@ void IntegerPolynomial::trim() {
   while (!coefficients_.empty() && coefficients_.back() == 0) coefficients_.pop_back();
 }
 
-// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i). Powers of two in d, mostly
-// all of it, are shifts.
+// With x = n/d, d > 0, Horner's rule on the sum of c_i n^i d^(degree - i). Powers of two in d,
+// mostly all of it, are shifts.
 int IntegerPolynomial::sign_at(const mpq_class& x) const {
   if (is_zero()) return 0;
   const mpz_class& numerator = x.get_num();
@@ -203,8 +203,8 @@ IntegerPolynomial gcd(IntegerPolynomial a, IntegerPolynomial b) {
   return a.sign_at_plus_infinity() < 0 ? -a : a;
 }
 
-// A common root would be a common factor, whose leading coefficient divides both leading ones: where
-// these are not 0 modulo a prime the factor keeps its degree there.
+// A common root would be a common factor, whose leading coefficient divides both leading ones:
+// where these are not 0 modulo a prime the factor keeps its degree there.
 bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b) {
   const std::vector<std::uint64_t> ra = modular(a), rb = modular(b);
   if (ra.back() != 0 && rb.back() != 0 && modular_coprime(ra, rb)) return true;

@@ -62,8 +62,8 @@ IntegerPolynomial positive_pseudo_remainder(IntegerPolynomial a, const IntegerPo
 /// Primitive, with a leading coefficient > 0; zero where both are zero.
 IntegerPolynomial gcd(IntegerPolynomial a, IntegerPolynomial b);
 
-/// Have they no common root, real or complex? Requires two that are not zero. Quick where the answer
-/// is yes.
+/// Have they no common root, real or complex? Requires two that are not zero. Quick where the
+/// answer is yes.
 bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b);
 
 /// a / b. Requires that b != 0 divides a in integers (by Gauss' lemma enough: b is primitive and

@@ -114,9 +114,7 @@ PairPolynomials pair_polynomials(const Ellipsoid& a, const Ellipsoid& b) {
           without_powers_of_two({d0, d1, d2, d3})};
 }
 
-PairPolynomials PairPolynomials::exchanged() const {
-  return {reversed(quartic), reversed(shapes)};
-}
+PairPolynomials PairPolynomials::exchanged() const { return {reversed(quartic), reversed(shapes)}; }
 
 Position position(const IntegerPolynomial& quartic) {
   const auto c = quartic.coefficients();

@@ -188,15 +188,16 @@ void RealRoot::halve() { cut(halfway(low_, high_, least_root(*p_))); }
 void RealRoot::narrow() {
   if (is_exact()) return;
   const bool same_scale = low_ > 0 ? high_ <= 4 * low_ : high_ < 0 && low_ >= 4 * high_;
-  const mp_bitcnt_t shift = digits_ + std::max(mpz_scan1(low_.get_den_mpz_t(), 0),
-                                               mpz_scan1(high_.get_den_mpz_t(), 0));
+  const mp_bitcnt_t shift =
+      digits_ + std::max(mpz_scan1(low_.get_den_mpz_t(), 0), mpz_scan1(high_.get_den_mpz_t(), 0));
   const mpz_class low = scaled(low_, shift), high = scaled(high_, shift);
   const mpz_class at_low = value_at(*p_, low, shift), at_high = value_at(*p_, high, shift);
   if (!same_scale || sgn(at_low) * sgn(at_high) >= 0) return halve();
 
   const mpz_class part = (high - low) >> digits_;
   const mpz_class before = (at_low << digits_) / (at_low - at_high);  // parts, below 2^digits
-  for (const mpz_class& at : {mpz_class(low + before * part), mpz_class(low + (before + 1) * part)}) {
+  for (const mpz_class& at :
+       {mpz_class(low + before * part), mpz_class(low + (before + 1) * part)}) {
     mpq_class end = at;
     end >>= shift;
     if (low_ < end && end < high_) cut(end);
@@ -229,8 +230,7 @@ int compare(RealRoot& a, RealRoot& b) {
   const auto apart = [&] { return a.high_ <= b.low_ || b.high_ <= a.low_; };
   if (!apart() && !a.is_exact() && !b.is_exact()) {
     const mpq_class low = std::max(a.low_, b.low_), high = std::min(a.high_, b.high_);
-    if (!coprime(*a.p_, *b.p_) &&
-        roots_inside(SturmSequence(gcd(*a.p_, *b.p_)), low, high) != 0) {
+    if (!coprime(*a.p_, *b.p_) && roots_inside(SturmSequence(gcd(*a.p_, *b.p_)), low, high) != 0) {
       return 0;
     }
   }

@@ -154,28 +154,28 @@ Fraction squared_half_width(const Ellipsoid& e, int i, int exponent) {
        {2 * (x * v - w * y), 2 * (y * v + w * x), w * w - x * x - y * y + v * v}}};
   mpz_class sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const mpz_class term =
-        r[static_cast<std::size_t>(i)][k] * exact::to_integer(e.semi_axes()[static_cast<int>(k)], exponent);
+    const mpz_class term = r[static_cast<std::size_t>(i)][k] *
+                           exact::to_integer(e.semi_axes()[static_cast<int>(k)], exponent);
     sum += term * term;
   }
   const mpz_class norm = w * w + x * x + y * y + v * v;
   return {sum, norm * norm};
 }
 
-/// Is the side, at a distance (side - centre) sign from the centre, no nearer than the solid reaches?
+/// Is the side, at a distance (side - centre) sign from the centre, no nearer than the solid
+/// reaches?
 bool encloses(const Ellipsoid& e, int i, double side, int sign) {
   if (!std::isfinite(side)) return side == sign * kInf;
   const Vec3 &c = e.centre(), &r = e.semi_axes();
   const std::array<double, 5> lengths{c[i], side, r[0], r[1], r[2]};
   const int unit = exact::common_exponent(lengths);
-  const mpz_class distance =
-      sign * (exact::to_integer(side, unit) - exact::to_integer(c[i], unit));
+  const mpz_class distance = sign * (exact::to_integer(side, unit) - exact::to_integer(c[i], unit));
   const Fraction h2 = squared_half_width(e, i, unit);
   return distance > 0 && distance * distance * h2.denominator >= h2.numerator;
 }
 
-// Against exact arithmetic: ordinary bodies far and near, needles and discs, and every number over the
-// whole range of exponents.
+// Against exact arithmetic: ordinary bodies far and near, needles and discs, and every number over
+// the whole range of exponents.
 TEST(Ellipsoid, BoundingBoxEnclosesOnEachOfAHundredThousandSides) {
   std::mt19937_64 random(20261122);
   const auto uniform = [&](double low, double high) {
@@ -200,9 +200,10 @@ TEST(Ellipsoid, BoundingBoxEnclosesOnEachOfAHundredThousandSides) {
 
 TEST(Ellipsoid, BoundingBoxEnclosesInEveryRoundingModeAndAmongSubnormals) {
   const double tiny = std::numeric_limits<double>::denorm_min();
-  std::vector<Ellipsoid> bodies{Ellipsoid({0, tiny, -tiny}, {tiny, 3 * tiny, 0x1p-1040}, {1, 2, 3, 4}),
-                                Ellipsoid({1, 1e300, -1e-300}, {tiny, 1e-300, 5}, {1, 2, 3, 4}),
-                                Ellipsoid({0.1, 0.7, -3}, {0.1, 0.3, 0.7}, {0.1, 0.2, 0.3, 0.4})};
+  std::vector<Ellipsoid> bodies{
+      Ellipsoid({0, tiny, -tiny}, {tiny, 3 * tiny, 0x1p-1040}, {1, 2, 3, 4}),
+      Ellipsoid({1, 1e300, -1e-300}, {tiny, 1e-300, 5}, {1, 2, 3, 4}),
+      Ellipsoid({0.1, 0.7, -3}, {0.1, 0.3, 0.7}, {0.1, 0.2, 0.3, 0.4})};
   for (const auto& environment : testing::all_environments()) {
     for (const Ellipsoid& built : bodies) {
       std::array<double, 6> sides;
@@ -229,8 +230,8 @@ RC_GTEST_PROP(EllipsoidProperty, BoundingBoxTouchesTheSolidOnAllSixSides, ()) {
   const auto box = e.bounding_box();
   for (int i = 0; i < 3; ++i) {
     // 40 u are promised, 8 u are for support().
-    const double bound =
-        kU * (40 * (e.support(Vec3::Unit(i)) + std::abs(e.centre()[i])) + 8 * e.largest_semi_axis());
+    const double bound = kU * (40 * (e.support(Vec3::Unit(i)) + std::abs(e.centre()[i])) +
+                               8 * e.largest_semi_axis());
     const Vec3 unit = Vec3::Unit(i);
     RC_ASSERT(std::abs(box.max()[i] - (e.centre()[i] + e.support(unit))) <= bound);
     RC_ASSERT(std::abs(box.min()[i] - (e.centre()[i] - e.support(unit))) <= bound);

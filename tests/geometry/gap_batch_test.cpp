@@ -414,16 +414,17 @@ TEST(BrokenContract, OfLengthsEndsTheProcessAndNamesThem) {
                "follow_gaps: normal: 64");
   EXPECT_DEATH(gap_derivatives(f.bodies, {f.pairs, {}}, few, derivatives),
                "gap_derivatives: gaps: 64");
-  EXPECT_DEATH(overlaps(f.bodies, {f.pairs, {}}, std::span(f.yes).first(3)), "overlaps: answers: 3");
+  EXPECT_DEATH(overlaps(f.bodies, {f.pairs, {}}, std::span(f.yes).first(3)),
+               "overlaps: answers: 3");
 }
 
 TEST(BrokenContract, OfAnIndexEndsTheProcessAndNamesThePair) {
   for (const std::uint32_t bad : {2u, 0x7fffffffu, 0x80000000u, 0x80000002u, 0xffffffffu}) {
     Few f;
     f.pairs[64].b = bad;
-    EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, f.gaps),
-                 "tangency: signed_gaps: pairs.64..b = " + std::to_string(bad) +
-                     ", and there are 2 bodies");
+    EXPECT_DEATH(
+        signed_gaps(f.bodies, {f.pairs, {}}, f.gaps),
+        "tangency: signed_gaps: pairs.64..b = " + std::to_string(bad) + ", and there are 2 bodies");
     f.pairs[64].b = 1;
     f.pairs[3].a = bad;
     EXPECT_DEATH(overlaps(f.bodies, {f.pairs, {}}, f.yes), "overlaps: pairs.3..a = ");
@@ -431,10 +432,12 @@ TEST(BrokenContract, OfAnIndexEndsTheProcessAndNamesThePair) {
   Few f;
   std::vector<GapDerivatives> derivatives(65);
   f.pairs[7] = {0, 2};
-  EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, {}}, f.separations, f.gaps), "follow_gaps: pairs.7.");
+  EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, {}}, f.separations, f.gaps),
+               "follow_gaps: pairs.7.");
   EXPECT_DEATH(gap_derivatives(f.bodies, {f.pairs, {}}, f.gaps, derivatives),
                "gap_derivatives: pairs.7.");
-  EXPECT_DEATH(overlaps_by_filter(f.bodies, {f.pairs, {}}, f.known), "overlaps_by_filter: pairs.7.");
+  EXPECT_DEATH(overlaps_by_filter(f.bodies, {f.pairs, {}}, f.known),
+               "overlaps_by_filter: pairs.7.");
   EXPECT_DEATH(f.bodies.refresh(2), "BodyArray::refresh: body 2, and there are 2 bodies");
 }
 
@@ -446,7 +449,8 @@ TEST(BrokenContract, OfASeparationThatIsNotFiniteEndsTheProcess) {
       Few f;
       f.separations[5][axis] = bad;
       const PairList list{f.pairs, f.separations};
-      EXPECT_DEATH(signed_gaps(f.bodies, list, f.gaps), "signed_gaps: separation = .*: must be finite");
+      EXPECT_DEATH(signed_gaps(f.bodies, list, f.gaps),
+                   "signed_gaps: separation = .*: must be finite");
       EXPECT_DEATH(follow_gaps(f.bodies, list, f.separations, f.gaps), "follow_gaps: separation");
       EXPECT_DEATH(overlaps(f.bodies, list, f.yes), "overlaps: separation");
       EXPECT_DEATH(signed_gap(f.two[0], f.two[1], f.separations[5]), "signed_gap: separation");
@@ -488,11 +492,10 @@ TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#define GUIDE_EXAMPLE(number)                                                                    \
-  void guide_example_##number(const Ellipsoid& a, const Ellipsoid& b,                            \
-                              std::vector<Ellipsoid>& ellipsoids,                                \
-                              const std::vector<IndexedPair>& pairs,                             \
-                              const std::vector<Vec3>& separations)
+#define GUIDE_EXAMPLE(number)                                                     \
+  void guide_example_##number(                                                    \
+      const Ellipsoid& a, const Ellipsoid& b, std::vector<Ellipsoid>& ellipsoids, \
+      const std::vector<IndexedPair>& pairs, const std::vector<Vec3>& separations)
 #include "guide_examples.inc"
 #pragma GCC diagnostic pop
 

@@ -194,8 +194,7 @@ RC_GTEST_PROP(LargestRootProperty, ComparisonIsThatOfTheNumbersHoweverCloseTheyA
   const mpq_class most_f = *std::max_element(f.roots.begin(), f.roots.end());
   const mpq_class most_g = *std::max_element(g.roots.begin(), g.roots.end());
   const int expected = cmp(most_f, most_g);
-  RC_ASSERT(compare_largest_roots(f.polynomial, -g.polynomial) ==
-            (expected > 0) - (expected < 0));
+  RC_ASSERT(compare_largest_roots(f.polynomial, -g.polynomial) == (expected > 0) - (expected < 0));
   RC_TAG((expected > 0) - (expected < 0));
 }
 

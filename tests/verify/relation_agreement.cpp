@@ -131,8 +131,9 @@ int main(int argc, char** argv) {
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("--per-class", per_class, "random pairs of each class")->capture_default_str();
   app.add_option("--adversarial", adversarial, "adversarial pairs")->capture_default_str();
-  app.add_option("--heaviest", heaviest,
-                 "pairs of numbers over the whole range of doubles; the oracle takes a second a pair")
+  app.add_option(
+         "--heaviest", heaviest,
+         "pairs of numbers over the whole range of doubles; the oracle takes a second a pair")
       ->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   app.add_option("--threads", threads)->capture_default_str();
