@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <sstream>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_keys.hpp>
@@ -241,7 +242,9 @@ TEST(Scene, ThatGrowsNeedsAShapeAndIncrementsThatAreSmall) {
       growing("elongation = 1.5\nincrements = 2\n"),
       "scene.toml:15: stage[1].increments = 2: 5 or more: an increment would change a semi-axis "
       "by 0.0237 of itself, and at most 0.01 is allowed");
-  EXPECT_EQ(growing("elongation = 9000.0\n").find("scene.toml:12: stage[1].increments = 200: "), 0u)
+  EXPECT_TRUE(std::regex_search(
+      growing("elongation = 9000.0\n"),
+      std::regex("^scene.toml:12: stage\\[1\\].increments = 200: [0-9]+ or more: ")))
       << growing("elongation = 9000.0\n");
   EXPECT_EQ(refusal_with("kind = \"compress\"", "kind = \"compress\"\nelongation = 1.5")
                 .find("scene.toml:14: stage[1].elongation: no such key in a stage of this kind"),
