@@ -158,7 +158,7 @@ void Results::write_summary(const Simulation& simulation, const RunCost& cost) c
   nlohmann::ordered_json summary;
   for (const Field& field : row_of(simulation))
     std::visit([&](const auto& value) { summary[field.name] = value; }, field.value);
-  // The state has gone on to the stage after the last; the last row has not, and this its last cell.
+  // The state has gone on to the stage after the last: the last row's last cell.
   summary["stage_cycle"] = std::stoll(history_.substr(history_.rfind(',') + 1));
   add_peaks(summary, directory_ / "history.csv", simulation.scene());
   summary["particles"] = state.particles.size();
