@@ -2,6 +2,7 @@
 #include <cmath>
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/fire.hpp>
+#include <tangency/dem/parallel.hpp>
 #include <vector>
 
 namespace tangency::dem {

@@ -53,7 +53,7 @@ struct ContactCurvature {
 /// one by 2^-91 beta times the larger aspect ratio more, with the larger beta; directions by as
 /// much as the bodies'. Two large curvatures that are nearly parallel leave a small one that
 /// depends on the angle between them: it is computed in double-double. For pairs whose longest
-/// semi-axis is up to 1e70 times the shortest. Assumes the default floating-point environment.
+/// semi-axis is up to 1e70 times the shortest. In any floating-point environment.
 /// @param normal  unit, from A to B: Gap::normal
 ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
                                    const Vec3& normal) noexcept;

@@ -126,7 +126,8 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
            joined(keys, " and ");
   // Velocities decay by damping times the step a cycle, contacts that swing at half that rate.
   const std::string still = "particles still move though nothing strains them; ";
-  const double a_cycle = 0.5 * stage.damping * stage.time_step_factor;
+  // Stages without a rate of damping await balance, and have been spoken of.
+  const double a_cycle = 0.5 * stage.damping.value_or(0.0) * stage.time_step_factor;
   if (!(a_cycle > 0.0)) return still + "raise damping to 0.5";
   const double more = std::log(fraction / sound) / a_cycle;
   return still + "raise duration to " +
