@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <tangency/bench/families/displacement.hpp>
+#include <tangency/verify/families/displacement.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <vector>
