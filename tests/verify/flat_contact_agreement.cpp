@@ -108,9 +108,9 @@ class Source {
     const double ratio = below(4) == 0 ? log_uniform(1e-8, 1e8) : log_uniform(0.1, 10);
     const double size = ratio * a.largest_semi_axis();
     const bool parallel = below(3) > 0;
-    const Ellipsoid b = body(
-        size, parallel ? (below(2) == 0 ? a.orientation() : turned(a.orientation(), direction()))
-                       : orientation());
+    Quaternion q = parallel ? a.orientation() : Quaternion(orientation());
+    if (parallel && below(2) > 0) q = turned(q, direction());
+    const Ellipsoid b = body(size, q);
     const Vec3 face = a.rotation().col(2), along = a.rotation().col(below(2));
     const double thickness = a.smallest_semi_axis() + b.smallest_semi_axis();
     const double reach = a.largest_semi_axis() + b.largest_semi_axis();
