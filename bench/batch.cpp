@@ -20,12 +20,12 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/level.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 

@@ -18,7 +18,6 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/level.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
@@ -26,6 +25,7 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 

@@ -13,10 +13,10 @@
 #include <cstdio>
 #include <iostream>
 #include <string>
-#include <tangency/verify/families/displacement.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/displacement.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace {

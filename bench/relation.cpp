@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/families/adversarial.hpp>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/exact/pair_quartic.hpp>
 #include <tangency/geometry/methods/overlap_filter.hpp>
 #include <tangency/geometry/relation.hpp>
+#include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace {
@@ -44,8 +44,8 @@ std::vector<Family> make_families() {
     tangency::families::ManufacturedContacts contacts(shape, kSeed);
     for (std::size_t i = 0; i < kInCache; ++i) {
       const auto c = contacts.next();
-      family.a.push_back(verify::to_ellipsoid(c.a));
-      family.b.push_back(verify::to_ellipsoid(c.b));
+      family.a.push_back(to_ellipsoid(c.a));
+      family.b.push_back(to_ellipsoid(c.b));
       family.relative_gap.push_back(std::abs(c.gap) / c.smallest_semi_axis);
       if (tangency::overlaps(family.a.back(), family.b.back()) != (c.gap < 0)) {
         std::fprintf(stderr, "%s: pair %zu answered wrongly: no timing\n", shape.name.c_str(), i);
@@ -59,8 +59,8 @@ std::vector<Family> make_families() {
       kSeed, 2000, [&](const tangency::verify::AdversarialPair& p) {
         Family& family = hostile[std::string(p.family)];
         family.name = p.family;
-        family.a.push_back(verify::to_ellipsoid(p.a));
-        family.b.push_back(verify::to_ellipsoid(p.b));
+        family.a.push_back(to_ellipsoid(p.a));
+        family.b.push_back(to_ellipsoid(p.b));
         if (tangency::overlaps(family.a.back(), family.b.back()) !=
             tangency::verify::exact_overlaps(p.a, p.b)) {
           std::fprintf(stderr, "%s: a pair answered wrongly: no timing\n", family.name.c_str());

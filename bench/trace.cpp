@@ -17,10 +17,10 @@
 #include <map>
 #include <random>
 #include <string>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include <tangency/verify/families/manufactured.hpp>
-#include <tangency/verify/families/support.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/speed_accuracy/pairs.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
+#include <tangency/verify/families/support.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {

@@ -5,10 +5,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include <tangency/verify/families/extreme.hpp>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency::speed_accuracy {

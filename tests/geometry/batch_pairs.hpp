@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency::testing {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
 namespace tangency {

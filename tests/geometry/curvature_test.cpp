@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/verify/families/extreme.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
@@ -22,6 +21,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/verify/families/extreme.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace tangency {
 namespace {

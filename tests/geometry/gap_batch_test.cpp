@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/families/adversarial.hpp>
-#include <tangency/verify/families/extreme.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
+#include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace tangency {
 namespace {

@@ -9,17 +9,17 @@
 #include <limits>
 #include <random>
 
-#include <tangency/verify/families/adversarial.hpp>
-#include <tangency/verify/families/extreme.hpp>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {

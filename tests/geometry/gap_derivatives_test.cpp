@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <random>
 
-#include <tangency/verify/families/manufactured.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {

@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <limits>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency {
 namespace {

@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <string>
 
-#include <tangency/verify/families/extreme.hpp>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 
 namespace tangency {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <tangency/geometry/exact/conic_pair.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 

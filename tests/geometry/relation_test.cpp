@@ -8,11 +8,11 @@
 #include <set>
 #include <vector>
 
+#include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <tangency/tests/geometry/floating_point_guard.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency {

@@ -9,8 +9,8 @@
 
 #include <tangency/geometry/methods/moving_pair.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/time_of_contact.hpp>
 
 namespace tangency {

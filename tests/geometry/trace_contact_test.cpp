@@ -6,11 +6,11 @@
 
 #include <bit>
 #include <cmath>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace tangency {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace tangency {

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <vector>
 
-#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency::peers {
 namespace {

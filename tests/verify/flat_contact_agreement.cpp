@@ -14,9 +14,9 @@
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
 #include <tangency/tests/verify/raw_sampler.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 
 namespace {

@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/verify/families/extreme.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 

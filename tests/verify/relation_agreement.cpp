@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
+#include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <tangency/geometry/relation.hpp>
-#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace {
