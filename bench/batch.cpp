@@ -20,12 +20,12 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/level.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap_batch.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 
@@ -67,8 +67,8 @@ Family make_family(const tangency::families::ContactFamily& shape, std::size_t c
   tangency::families::ManufacturedContacts contacts(shape, kSeed);
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto c = contacts.next();
-    f.bodies.push_back(tangency::testing::to_ellipsoid(c.a));
-    f.bodies.push_back(tangency::testing::to_ellipsoid(c.b));
+    f.bodies.push_back(tangency::verify::to_ellipsoid(c.a));
+    f.bodies.push_back(tangency::verify::to_ellipsoid(c.b));
     f.pairs.push_back({2 * i, 2 * i + 1});
     f.truth.push_back(c.gap);
     f.smallest_semi_axis.push_back(c.smallest_semi_axis);

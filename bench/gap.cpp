@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 
@@ -40,8 +40,8 @@ Family make_family(const tangency::families::ContactFamily& shape) {
   tangency::families::ManufacturedContacts contacts(shape, kSeed);
   for (std::size_t i = 0; i < kInCache; ++i) {
     const auto c = contacts.next();
-    f.a.push_back(tangency::testing::to_ellipsoid(c.a));
-    f.b.push_back(tangency::testing::to_ellipsoid(c.b));
+    f.a.push_back(tangency::verify::to_ellipsoid(c.a));
+    f.b.push_back(tangency::verify::to_ellipsoid(c.b));
     f.gap.push_back(c.gap);
     f.smallest_semi_axis.push_back(c.smallest_semi_axis);
     f.previous_normal.push_back(

@@ -18,14 +18,14 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/level.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 
@@ -54,8 +54,8 @@ Family make_family(const tangency::families::ContactFamily& shape) {
     const auto c = contacts.next();
     f.raw_a.push_back(c.a);
     f.raw_b.push_back(c.b);
-    f.a.push_back(tangency::testing::to_ellipsoid(c.a));
-    f.b.push_back(tangency::testing::to_ellipsoid(c.b));
+    f.a.push_back(tangency::verify::to_ellipsoid(c.a));
+    f.b.push_back(tangency::verify::to_ellipsoid(c.b));
     f.truth.push_back({c.gap, c.smallest_semi_axis});
     f.bodies.insert(f.bodies.end(), {f.a.back(), f.b.back()});
     const auto first = static_cast<std::uint32_t>(2 * i);

@@ -14,10 +14,10 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <tangency/bench/families/displacement.hpp>
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
+#include <tangency/verify/families/displacement.hpp>
 #include <vector>
 
 namespace {

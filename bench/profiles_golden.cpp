@@ -3,7 +3,7 @@
 //   profiles_golden > tests/data/profiles/displacement.csv
 // One row a displacement, in columns that `tangency contact` reads (a., b.), the bodies being the
 // stored doubles, and further
-//   contact, motion, displacement   of bench/families/displacement.hpp
+//   contact, motion, displacement   of verify/families/displacement.hpp
 //   overlap                         minus the signed gap of those doubles, found in 150 digits
 //                                   (verify/oracles/gap.hpp), rounded to double; proven global
 //   trace                           the depth of the scheme of curves in long double, to 12 digits,
@@ -13,10 +13,10 @@
 #include <cstdio>
 #include <iostream>
 #include <string>
-#include <tangency/bench/families/displacement.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/displacement.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace {
@@ -72,7 +72,7 @@ int main() {
       for (int step = -kSteps; step <= kSteps; ++step) {
         const double s = displacement_of(motion, step);
         const Ellipsoid b = displaced(contact, motion, s);
-        const auto truth = verify::signed_gap(testing::to_raw(contact.a), testing::to_raw(b));
+        const auto truth = verify::signed_gap(verify::to_raw(contact.a), verify::to_raw(b));
         if (!truth.global) {
           std::cerr << contact.name << ", " << to_string(motion) << ' ' << s << ": not proven\n";
           return 1;

@@ -13,20 +13,20 @@
 #include <string>
 #include <vector>
 
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/ratio.hpp>
 #include <tangency/geometry/exact/pair_quartic.hpp>
 #include <tangency/geometry/methods/overlap_filter.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace {
 
 using tangency::Ellipsoid;
 using tangency::Tier;
-using tangency::testing::to_ellipsoid;
+using tangency::verify::to_ellipsoid;
 
 using tangency::bench::kInCache;
 constexpr std::uint64_t kSeed = 20261122;

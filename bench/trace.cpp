@@ -17,10 +17,10 @@
 #include <map>
 #include <random>
 #include <string>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/trace_contact.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace {
@@ -70,7 +70,7 @@ std::vector<Sample> draw(ContactFamily family, double depth) {
   std::vector<Sample> samples;
   while (samples.size() < kPairs) {
     const auto c = contacts.next();
-    const Ellipsoid a = testing::to_ellipsoid(c.a), b = testing::to_ellipsoid(c.b);
+    const Ellipsoid a = verify::to_ellipsoid(c.a), b = verify::to_ellipsoid(c.b);
     if (c.gap >= -0.5 * depth * (a.least_radius() + b.least_radius())) continue;
     samples.push_back({a, b, -c.gap, {c.normal[0], c.normal[1], c.normal[2]}, c.size});
   }

@@ -382,53 +382,6 @@ class Reader {
 
 }  // namespace
 
-std::vector<Batch> Scene::batches() const {
-  std::vector<Batch> all;
-  for (const ParticleType& type : particle_types) all.push_back(type.batch);
-  return all;
-}
-
-std::size_t Scene::particle_count() const {
-  std::size_t count = 0;
-  for (const ParticleType& type : particle_types) count += type.batch.count;
-  return count;
-}
-
-double Scene::smallest_mean_radius() const {
-  double smallest = particle_types.front().batch.shape.mean_radius;
-  for (const ParticleType& type : particle_types)
-    smallest = std::min(smallest, type.batch.shape.mean_radius);
-  return smallest;
-}
-
-double Scene::servo_strain_rate(double stress) const {
-  constexpr double inertial_number = 0.05;  // Chosen: a collapse takes up to 20 times a test's rate
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [name, batch] : particle_types)
-    least = std::min(least, std::sqrt(stress / batch.density) / (2.0 * batch.shape.mean_radius));
-  return inertial_number * least;
-}
-
-Placement Scene::placement() const {
-  const Place& place = stages.front().place.value();
-  return {cell_size,
-          place.jitter * smallest_mean_radius(),
-          place.seed,
-          place.arrangement,
-          place.bounding_fraction,
-          dimensions,
-          walled,
-          bodies};
-}
-
-Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const {
-  Shape shape = particle_types[type].batch.shape;
-  for (std::size_t k = 0; k < stages.size() && k <= stage; ++k)
-    if (const auto& growth = stages[k].growth)
-      shape = growth->shape_after(shape, k < stage ? growth->increments : increments);
-  return shape;
-}
-
 void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name) {
   std::vector<std::size_t> counts(scene.particle_types.size(), 0);
   for (const Body& body : bodies) ++counts.at(body.type);

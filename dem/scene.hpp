@@ -1,89 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A scene: everything that determines a run. scene_keys.hpp has the keys and what they may be.
+/// Reads a scene: scene_keys.hpp has the keys and what they may be.
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <tangency/dem/contacts.hpp>
-#include <tangency/dem/growth.hpp>
-#include <tangency/dem/loading.hpp>
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/sample.hpp>
 #include <tangency/dem/scene_error.hpp>
+#include <tangency/dem/scene_model.hpp>
 #include <vector>
 
 namespace tangency::dem {
-
-struct ParticleType {
-  std::string name;
-  Batch batch;
-};
-
-/// Puts the particles into the cell.
-struct Place {
-  Arrangement arrangement;
-  std::uint64_t seed;
-  double jitter;             ///< in mean radii of the smallest type
-  double bounding_fraction;  ///< of a random arrangement without a cell size
-  /// Of an explicit arrangement whose bodies do not stand in the scene: a table of them.
-  std::string file;
-};
-
-/// How a stage moves, and when it ends: as soon as all that is set holds.
-struct Drive {
-  Loading loading;
-  std::optional<double> damping;  ///< in 1 / characteristic_time(); without: as in fire.hpp
-  double time_step_factor;        ///< in characteristic_time()
-  std::optional<double> friction_coefficient;
-  std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
-  std::optional<double> max_unbalanced_ratio;  ///< of every particle
-  std::optional<double> axial_strain;          ///< compression reached, logarithmic
-  std::optional<std::int64_t> duration;        ///< cycles
-  std::int64_t max_cycles;
-};
-
-/// Either places or moves; one that moves may also grow the particles, and then ends when they are
-/// grown, relaxed to its max_inertial_fraction and at the mean stress.
-struct Stage {
-  std::string name;
-  std::optional<Place> place;
-  std::optional<Drive> drive;
-  std::optional<Growth> growth;  ///< set besides drive
-};
-
-struct OutputIntervals {
-  std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
-  double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
-};
-
-struct Scene {
-  int dimensions = 3;
-  std::array<bool, 3> walled{};
-  std::optional<Vec3> cell_size;
-  Vec3 gravity = Vec3::Zero();
-  Rotation rotation = Rotation::full;
-  Branch branch = Branch::follow;
-  std::vector<ParticleType> particle_types;
-  std::vector<Body> bodies;  ///< of an explicit arrangement
-  ContactLaws laws;
-  std::vector<Stage> stages;  ///< the first, and no other, places
-  OutputIntervals output;
-
-  std::vector<Batch> batches() const;
-  std::size_t particle_count() const;
-  bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
-  double smallest_mean_radius() const;
-  /// The strain rate that a servo may use by default to hold a stress, linear: that of an inertial
-  /// number of 0.05 of the slowest type, fifty times what a quasi-static test has.
-  double servo_strain_rate(double stress) const;
-  Placement placement() const;
-  /// The shape of a type in stage number `stage` after so many increments of it; in a stage that
-  /// does not grow these do not matter.
-  Shape shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const;
-};
 
 /// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema
 Scene load_scene(const std::filesystem::path& file);

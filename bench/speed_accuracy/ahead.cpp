@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include <tangency/bench/families/manufactured.hpp>
-#include <tangency/bench/families/support.hpp>
 #include <tangency/bench/moment_ago.hpp>
 #include <tangency/bench/speed_accuracy/pairs.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
+#include <tangency/verify/families/support.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
@@ -157,8 +157,8 @@ ListedPairs listed_pairs(const std::string& family, int touching, std::size_t co
   for (std::uint32_t i = 0; i < count; ++i) {
     families::ManufacturedContact c = contacts.next();
     while (c.gap >= 0) c = contacts.next();
-    const Ellipsoid a = testing::to_ellipsoid(c.a);
-    Ellipsoid b = testing::to_ellipsoid(c.b);
+    const Ellipsoid a = verify::to_ellipsoid(c.a);
+    Ellipsoid b = verify::to_ellipsoid(c.b);
     double gap = c.gap;
     if (!touches[i]) {
       const auto part = static_cast<double>(families::uniform(random, kNearest, kFurthest));

@@ -5,10 +5,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/moment_ago.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency::speed_accuracy {
@@ -64,7 +64,7 @@ void add(Pairs& pairs, RawPair pair) {
   }
   pairs.raw.push_back(pair.a);
   pairs.raw.push_back(pair.b);
-  const Ellipsoid a = testing::to_ellipsoid(pair.a), b = testing::to_ellipsoid(pair.b);
+  const Ellipsoid a = verify::to_ellipsoid(pair.a), b = verify::to_ellipsoid(pair.b);
   pairs.bodies.push_back(a);
   pairs.bodies.push_back(b);
   pairs.list.push_back({2 * i, 2 * i + 1});

@@ -11,7 +11,7 @@
 #include <string>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
-#include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/run_options.hpp>
 #include <tangency/geometry/tool/descriptor.hpp>
 
 namespace tangency::dem {

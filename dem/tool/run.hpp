@@ -3,19 +3,9 @@
 /// tangency-dem run.
 #pragma once
 
-#include <filesystem>
-#include <optional>
+#include <tangency/dem/tool/run_options.hpp>
 
 namespace tangency::dem {
-
-struct RunOptions {
-  std::filesystem::path scene;
-  std::filesystem::path out;
-  std::optional<std::filesystem::path> resume;
-  int threads = 0;  ///< 0: as many as OpenMP offers
-  bool quiet = false;
-  bool replace = false;  ///< take away the results of another run
-};
 
 /// What the program returns. A run that a signal ended returns 128 + the signal, as shells do.
 enum ExitStatus : int {

@@ -5,8 +5,8 @@
 set -euo pipefail
 cd "$1"
 status=0
-folders=(bench check demo dem docs geometry tests verify CMakeLists.txt CHANGELOG.md README.md LICENSE
-         CITATION.cff CONTRIBUTING.md SECURITY.md .ci .github)
+folders=(bench check demo dem docs geometry tests verify CMakeLists.txt CHANGELOG.md CITATION.cff
+         CONTRIBUTING.md LICENSE README.md SECURITY.md .ci .github)
 
 while read -r file; do
   case $file in *.png | *.json) continue ;; esac  # neither has comments

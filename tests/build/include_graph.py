@@ -220,7 +220,8 @@ def main():
     for circle in circles:
         print("a circle of includes: " + ", ".join(circle))
     against = list(floors.against(tree))
-    print("\n".join(against))
+    for arrow in against:
+        print(arrow)
     print(f"{len(tree.units)} units, {sum(map(len, tree.units.values()))} arrows, "
           f"{len(circles)} circles, {len(against)} arrows against the floors")
     return 1 if circles or against else 0

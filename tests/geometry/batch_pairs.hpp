@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap_batch.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency::testing {
 
@@ -28,8 +28,8 @@ inline Family contacts(const families::ContactFamily& shape, std::size_t count) 
   families::ManufacturedContacts source(shape, kSeed);
   for (std::size_t i = 0; i < count; ++i) {
     const auto c = source.next();
-    f.a.push_back(to_ellipsoid(c.a));
-    f.b.push_back(to_ellipsoid(c.b));
+    f.a.push_back(verify::to_ellipsoid(c.a));
+    f.b.push_back(verify::to_ellipsoid(c.b));
   }
   return f;
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
 namespace tangency {
@@ -203,7 +203,7 @@ RC_GTEST_PROP(ClosestPointProperty, NoSurfacePointIsCloser, ()) {
 
 RC_GTEST_PROP(ClosestPointProperty, AgreesWithTheOracleToRounding, ()) {
   const auto [e, p] = *body_and_point();
-  const auto raw = testing::to_raw(e);
+  const auto raw = verify::to_raw(e);
   const auto truth = verify::nearest(raw, verify::from_centre(raw, {p[0], p[1], p[2]}));
   const auto error = static_cast<double>(abs(closest_point(e, p).distance - truth.distance));
   RC_ASSERT(error <=

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include <tangency/bench/families/manufactured.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
 namespace {
 
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 using verify::Real;
 using verify::Real3;
 

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <tangency/bench/families/displacement.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
+#include <tangency/verify/families/displacement.hpp>
 #include <vector>
 
 namespace tangency {

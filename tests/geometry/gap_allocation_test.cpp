@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/families/extreme.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
@@ -21,7 +20,8 @@
 #include <tangency/geometry/pencil.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/trace_contact.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace {
 
@@ -60,7 +60,7 @@ std::vector<Bodies> all_pairs() {
   const auto draw = [&](auto pairs) {
     for (int i = 0; i < kPairs; ++i) {
       const auto pair = pairs.next();
-      all.push_back({testing::to_ellipsoid(pair.a), testing::to_ellipsoid(pair.b)});
+      all.push_back({verify::to_ellipsoid(pair.a), verify::to_ellipsoid(pair.b)});
     }
   };
   for (const auto& family : families::extreme_families())

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/families/extreme.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace tangency {
 namespace {
@@ -42,8 +42,8 @@ std::vector<Family> ordinary_families() {
     families::DeepPairs source(shape, kSeed);
     for (int i = 0; i < 40; ++i) {
       const families::RawPair p = source.next();
-      f.a.push_back(testing::to_ellipsoid(p.a));
-      f.b.push_back(testing::to_ellipsoid(p.b));
+      f.a.push_back(verify::to_ellipsoid(p.a));
+      f.b.push_back(verify::to_ellipsoid(p.b));
     }
     all.push_back(std::move(f));
   }

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/extreme.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 namespace tangency {
 namespace {
@@ -60,16 +60,16 @@ std::vector<Family> make_families() {
   for (const auto& shape : families::contact_classes()) all.push_back(contacts(shape, 1000));
   Family hostile{"adversarial", {}, {}};
   verify::for_each_adversarial_pair(kSeed, 1000, [&](const verify::AdversarialPair& p) {
-    hostile.a.push_back(testing::to_ellipsoid(p.a));
-    hostile.b.push_back(testing::to_ellipsoid(p.b));
+    hostile.a.push_back(verify::to_ellipsoid(p.a));
+    hostile.b.push_back(verify::to_ellipsoid(p.b));
   });
   all.push_back(std::move(hostile));
   const auto add = [&](const auto& shape, auto source) {
     Family f{shape.name, {}, {}};
     for (int i = 0; i < 60; ++i) {
       const families::RawPair p = source.next();
-      f.a.push_back(testing::to_ellipsoid(p.a));
-      f.b.push_back(testing::to_ellipsoid(p.b));
+      f.a.push_back(verify::to_ellipsoid(p.a));
+      f.b.push_back(verify::to_ellipsoid(p.b));
     }
     all.push_back(std::move(f));
   };

@@ -9,23 +9,23 @@
 #include <limits>
 #include <random>
 
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/methods/gap_finish.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/methods/gap_search.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
 namespace {
 
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 
 constexpr double kU = 0x1p-53;
 constexpr std::uint64_t kSeed = 20261122;

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <random>
 
-#include <tangency/bench/families/manufactured.hpp>
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency {
@@ -21,7 +21,7 @@ using families::ContactFamily;
 using families::ManufacturedContact;
 using testing::changed, testing::gradient_of, testing::is_angle;
 using testing::RealPair;
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 using verify::GapTruth;
 using verify::Real;
 
@@ -231,7 +231,7 @@ ManufacturedContact on_a_face(std::mt19937_64& random, double aspect) {
   const Ellipsoid other({0, 0, 0}, {r, r, unit(random) > 0 ? r : r / aspect}, any());
   const double gap = 0.5 * (disc.least_radius() + other.least_radius()) * unit(random);
   const Vec3 d = disc.support_point(n) + other.support_point(n) + gap * n;
-  return {testing::to_raw(disc), testing::to_raw(other.moved_to(d)), {n[0], n[1], n[2]}, gap, 0, 0};
+  return {verify::to_raw(disc), verify::to_raw(other.moved_to(d)), {n[0], n[1], n[2]}, gap, 0, 0};
 }
 
 TEST(GapDerivatives, OnTheFacesOfDiscsAreWithinTheirPublishedBounds) {

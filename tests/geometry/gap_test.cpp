@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <limits>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/methods/gap_factored.hpp>
 #include <tangency/geometry/methods/gap_newton.hpp>
 #include <tangency/geometry/methods/gap_proof.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using Eigen::Quaterniond;
 using families::ContactFamily;
 using families::ManufacturedContact;
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 
 constexpr double kU = 0x1p-53;
 constexpr std::uint64_t kSeed = 20261122;

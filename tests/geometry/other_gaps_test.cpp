@@ -9,17 +9,17 @@
 #include <cstdio>
 #include <string>
 
-#include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 
 namespace tangency {
 namespace {
 
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 using verify::Real;
 using verify::Real3;
 
@@ -177,7 +177,7 @@ struct Errors {
 
 /// Both definitions of one pair, which has an answer by the first, against 100 digits.
 void hold_against_oracle(const Ellipsoid& a, const Ellipsoid& b) {
-  const auto truth = verify::perram_wertheim(testing::to_raw(a), testing::to_raw(b));
+  const auto truth = verify::perram_wertheim(verify::to_raw(a), verify::to_raw(b));
   ASSERT_TRUE(truth.has_value());
   const OtherGap planes = perram_wertheim_gap(a, b), midpoint = midpoint_potential_gap(a, b);
   ASSERT_EQ(planes.status, OtherGapStatus::ok);

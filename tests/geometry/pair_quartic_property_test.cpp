@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <tangency/geometry/exact/conic_pair.hpp>
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -46,7 +46,7 @@ RC_GTEST_PROP(PairQuarticProperty, PositiveRootsTellThePosition, ()) {
   const Pair p = *tangency::testing::any_pair();
   const IntegerPolynomial quartic = pair_quartic(p.a, p.b);
   const int distinct = SturmSequence(quartic).roots_above(0);
-  switch (verify::exact_relation(tangency::testing::to_raw(p.a), tangency::testing::to_raw(p.b))
+  switch (verify::exact_relation(tangency::verify::to_raw(p.a), tangency::verify::to_raw(p.b))
               .relation) {
     case verify::Relation::separate:
       RC_ASSERT(distinct == 2 && position(quartic) == Position::apart);

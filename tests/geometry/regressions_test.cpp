@@ -15,7 +15,7 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/csv.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -88,7 +88,7 @@ void expect_same_gap(const Answer& x, const Answer& y, Relation truth) {
 TEST(Regressions, PairsKeepEveryPromise) {
   for_each_regression("pairs.csv", [](const Row& row) {
     const Ellipsoid a = body(row, "a."), b = body(row, "b.");
-    EXPECT_EQ(verify::name(verify::exact_relation(testing::to_raw(a), testing::to_raw(b)).relation),
+    EXPECT_EQ(verify::name(verify::exact_relation(verify::to_raw(a), verify::to_raw(b)).relation),
               row.expected);
     const Relation truth = relation(a, b).relation;
     EXPECT_EQ(to_string(truth), row.expected);

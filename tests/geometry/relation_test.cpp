@@ -8,11 +8,11 @@
 #include <set>
 #include <vector>
 
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency {
@@ -91,7 +91,7 @@ TEST(Relation, OfTheHeaviestPairsIsTheOracles) {
   families::HeaviestPairs pairs(20261122, 40);  // the oracle needs a second at 1074
   for (int i = 0; i < 36; ++i) {
     const families::RawPair p = pairs.next();
-    const RelationAnswer answer = relation(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b));
+    const RelationAnswer answer = relation(verify::to_ellipsoid(p.a), verify::to_ellipsoid(p.b));
     const verify::ExactRelation truth = verify::exact_relation(p.a, p.b);
     ASSERT_EQ(to_string(answer.relation), verify::name(truth.relation)) << i;
     ASSERT_EQ(static_cast<int>(answer.inner), static_cast<int>(truth.inner)) << i;
@@ -105,7 +105,7 @@ TEST(Relation, OfGenericPairsComesFromTheFilter) {
     families::ManufacturedContacts contacts(family, 20261122);
     for (int i = 0; i < 5000; ++i) {
       const auto c = contacts.next();
-      const Ellipsoid a = testing::to_ellipsoid(c.a), b = testing::to_ellipsoid(c.b);
+      const Ellipsoid a = verify::to_ellipsoid(c.a), b = verify::to_ellipsoid(c.b);
       const OverlapAnswer answer = overlap_answer(a, b);
       ASSERT_EQ(answer.tier, Tier::filter) << family.name << ' ' << i;
       ASSERT_EQ(answer.overlaps, c.gap < 0) << family.name << ' ' << i;
@@ -121,7 +121,7 @@ TEST(Relation, OfPairsWithinRoundingOfATouchComesFromTheFilter) {
     families::ManufacturedContacts contacts(family, 20261122);
     for (int i = 0; i < 300; ++i) {
       const auto c = contacts.next();
-      const auto answer = overlap_answer(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b));
+      const auto answer = overlap_answer(verify::to_ellipsoid(c.a), verify::to_ellipsoid(c.b));
       ASSERT_EQ(answer.tier, Tier::filter) << family.name << ' ' << i << ", gap " << c.gap;
     }
   }
@@ -132,10 +132,10 @@ TEST(Relation, OfExactTouchesComesFromTheExactTier) {
   verify::for_each_adversarial_pair(1, 4000, [&](const verify::AdversarialPair& p) {
     if (!p.relation || p.relation->relation != verify::Relation::external_touch) return;
     ++touches;
-    const auto answer = relation(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b));
+    const auto answer = relation(verify::to_ellipsoid(p.a), verify::to_ellipsoid(p.b));
     ASSERT_EQ(answer.tier, Tier::exact) << p.family;
     ASSERT_EQ(answer.relation, Relation::external_touch) << p.family;
-    ASSERT_EQ(overlaps_by_filter(testing::to_ellipsoid(p.a), testing::to_ellipsoid(p.b)),
+    ASSERT_EQ(overlaps_by_filter(verify::to_ellipsoid(p.a), verify::to_ellipsoid(p.b)),
               std::nullopt)
         << p.family;
   });
@@ -149,7 +149,7 @@ TEST(Relation, IsTheSameInEveryRoundingModeAndWithSubnormalsFlushed) {
   };
   std::vector<Case> cases;
   const auto add = [&](const verify::RawEllipsoid& a, const verify::RawEllipsoid& b) {
-    cases.push_back({a, b, relation(testing::to_ellipsoid(a), testing::to_ellipsoid(b))});
+    cases.push_back({a, b, relation(verify::to_ellipsoid(a), verify::to_ellipsoid(b))});
   };
   verify::for_each_adversarial_pair(2, 1900,
                                     [&](const verify::AdversarialPair& p) { add(p.a, p.b); });
@@ -167,7 +167,7 @@ TEST(Relation, IsTheSameInEveryRoundingModeAndWithSubnormalsFlushed) {
   for (const auto& environment : testing::all_environments()) {
     const testing::EnvironmentGuard guard(environment);
     for (const Case& c : cases) {
-      const RelationAnswer now = relation(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b));
+      const RelationAnswer now = relation(verify::to_ellipsoid(c.a), verify::to_ellipsoid(c.b));
       ASSERT_EQ(now.relation, c.answer.relation) << environment.name;
       ASSERT_EQ(now.inner, c.answer.inner) << environment.name;
     }

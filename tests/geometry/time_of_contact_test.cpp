@@ -9,8 +9,8 @@
 
 #include <tangency/geometry/methods/moving_pair.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/generators.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/time_of_contact.hpp>
 
 namespace tangency {
@@ -129,8 +129,8 @@ TEST(TimeOfContact, SpinningRodHitsWhenItsFlankDoes) {
   const TimeOfContact found =
       time_of_contact(rod, flight({0, 0, 0}, {0, 0, 1}), sphere({0, 2, 0}, r), {}, 3, kTolerance);
   ASSERT_EQ(found.status, Status::contact);
-  const verify::MovingBody a{testing::to_raw(rod), {{}, {0, 0, 1}, {}}};
-  const verify::MovingBody b{testing::to_raw(sphere({0, 2, 0}, r)), {}};
+  const verify::MovingBody a{verify::to_raw(rod), {{}, {0, 0, 1}, {}}};
+  const verify::MovingBody b{verify::to_raw(sphere({0, 2, 0}, r)), {}};
   const auto truth = verify::first_contact(a, b, 3, 1e-12);
   ASSERT_EQ(truth.status, verify::FirstContact::Status::contact);
   EXPECT_LE(found.time, truth.to);

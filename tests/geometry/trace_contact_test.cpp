@@ -6,11 +6,11 @@
 
 #include <bit>
 #include <cmath>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace tangency {
@@ -94,7 +94,7 @@ TEST(TraceContact, CountsTheCurvesOfWholeLevels) {
   int middle = 0, more = 0;
   for (int i = 0; i < 50; ++i) {
     const auto c = contacts.next();
-    const TraceContact t = trace_contact(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b));
+    const TraceContact t = trace_contact(verify::to_ellipsoid(c.a), verify::to_ellipsoid(c.b));
     if (t.status != TraceStatus::ok || t.cone != TraceCone::published) continue;
     EXPECT_TRUE(std::has_single_bit(static_cast<unsigned>(t.curves) + 1)) << t.curves;
     ++(t.curves == 1 ? middle : more);
@@ -265,7 +265,7 @@ double median_difference(double depth, int refinements) {
   while (difference.size() < 400) {
     const auto c = contacts.next();
     if (c.gap >= -0.5 * depth) continue;
-    const TraceFound<double> t = scheme(testing::to_ellipsoid(c.a), testing::to_ellipsoid(c.b),
+    const TraceFound<double> t = scheme(verify::to_ellipsoid(c.a), verify::to_ellipsoid(c.b),
                                         {.turned_to_the_pair = true, .refinements = refinements});
     if (t.status == TraceStatus::ok) difference.push_back(std::abs(t.gap / c.gap - 1));
   }

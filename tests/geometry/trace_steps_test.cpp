@@ -7,9 +7,9 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/trace_contact.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <vector>
 
 namespace tangency {
@@ -131,7 +131,7 @@ TEST(TraceContact, IsThePublishedSchemeDoneByStepsWithoutItsFormulas) {
   for (int i = 0; i < 400; ++i) {
     const auto c = contacts.next();
     if (c.gap > -0.005 * c.smallest_semi_axis) continue;
-    const Ellipsoid a = testing::to_ellipsoid(c.a), b = testing::to_ellipsoid(c.b);
+    const Ellipsoid a = verify::to_ellipsoid(c.a), b = verify::to_ellipsoid(c.b);
     const auto steps = by_steps(a, b);
     const TraceContact t = trace_contact(a, b);
     if (!steps || t.status != TraceStatus::ok) continue;

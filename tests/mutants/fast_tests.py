@@ -73,7 +73,7 @@ def _users(root):
     """Of a room, those that include it. A source without a header of its name defines something of
     those that it includes from its folder, so these count as its users too."""
     users = collections.defaultdict(set)
-    for folder in ("geometry", "tests", "bench/families", "verify"):
+    for folder in ("geometry", "tests", "verify/families", "verify"):
         for path in pathlib.Path(root, folder).rglob("*.[ch]pp"):
             name = path.relative_to(root).as_posix()
             for used in INCLUDE.findall(path.read_text()):

@@ -10,16 +10,16 @@
 #include <numbers>
 #include <vector>
 
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 namespace tangency::peers {
 namespace {
 
-using testing::to_ellipsoid;
+using verify::to_ellipsoid;
 
 /// The largest error seen of any peer on pairs of unit size and moderate shape is 1e-3 (FCL's
 /// signed distance at its default tolerance); a wrong convention costs 0.1 and more in the cases

@@ -14,15 +14,15 @@
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
-#include <tangency/tests/support/conversions.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
 #include <tangency/tests/verify/raw_sampler.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 
 namespace {
 
 using namespace tangency;
-using testing::to_ellipsoid, testing::to_raw;
+using verify::to_ellipsoid, verify::to_raw;
 using verify::Real, verify::Real3;
 
 constexpr double kU = 0x1p-53;
@@ -61,7 +61,7 @@ struct Worst {
       row += digits;
     };
     for (const Ellipsoid* e : {&pair.a, &pair.b}) {
-      const auto raw = to_raw(*e);
+      const auto raw = verify::to_raw(*e);
       for (const double v : raw.centre) add(v);
       for (const double v : raw.semi_axes) add(v);
       for (const double v : raw.orientation) add(v);
@@ -108,9 +108,9 @@ class Source {
     const double ratio = below(4) == 0 ? log_uniform(1e-8, 1e8) : log_uniform(0.1, 10);
     const double size = ratio * a.largest_semi_axis();
     const bool parallel = below(3) > 0;
-    const Ellipsoid b = body(
-        size, parallel ? (below(2) == 0 ? a.orientation() : turned(a.orientation(), direction()))
-                       : orientation());
+    Quaternion q = parallel ? a.orientation() : Quaternion(orientation());
+    if (parallel && below(2) > 0) q = turned(q, direction());
+    const Ellipsoid b = body(size, q);
     const Vec3 face = a.rotation().col(2), along = a.rotation().col(below(2));
     const double thickness = a.smallest_semi_axis() + b.smallest_semi_axis();
     const double reach = a.largest_semi_axis() + b.largest_semi_axis();
@@ -171,7 +171,7 @@ bool check_definitions(Source& source, long count) {
   long answers[2] = {}, unknown[2] = {}, misses = 0, wrong = 0;
   for (long i = 0; i < count; ++i) {
     const Pair p = source.apart();
-    const auto truth = verify::perram_wertheim(to_raw(p.a), to_raw(p.b));
+    const auto truth = verify::perram_wertheim(verify::to_raw(p.a), verify::to_raw(p.b));
     if (!truth) continue;
     const OtherGap found[] = {perram_wertheim_gap(p.a, p.b), midpoint_potential_gap(p.a, p.b)};
     const verify::DefinedGap* const right[] = {&truth->tangent_planes,
@@ -251,7 +251,7 @@ bool check_curvatures(Source& source, long count) {
   for (long i = 0; i < count; ++i) {
     const auto [pair, n] = source.touching();
     const ContactCurvature found = contact_curvature(pair.a, pair.b, n);
-    const auto shapes = separation(verify::real(to_raw(pair.a)), verify::real(to_raw(pair.b)));
+    const auto shapes = separation(verify::real(verify::to_raw(pair.a)), verify::real(verify::to_raw(pair.b)));
     const Real3 up = unit({n[0], n[1], n[2]});
     int least;
     n.cwiseAbs().minCoeff(&least);
@@ -322,7 +322,7 @@ bool check_derivatives(Source& source, long count) {
       ++degenerate;
       continue;
     }
-    const testing::RealPair pair{verify::real(to_raw(p.a)), verify::real(to_raw(p.b))};
+    const testing::RealPair pair{verify::real(verify::to_raw(p.a)), verify::real(verify::to_raw(p.b))};
     const auto truth_of = [&](const testing::RealPair& at) {
       return gradient_of(at,
                          stationary_gap(at.a, at.b, {gap.normal[0], gap.normal[1], gap.normal[2]}));

@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/bench/families/extreme.hpp>
 #include <tangency/geometry/gap.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
@@ -86,8 +86,8 @@ double distance(const Vec3& v, const Real3& w) {
 
 void compare(const RawPair& pair, const GapTruth& truth, const std::string& family,
              const Limits& limits, Tally& tally) {
-  const Ellipsoid a = tangency::testing::to_ellipsoid(pair.a);
-  const Ellipsoid b = tangency::testing::to_ellipsoid(pair.b);
+  const Ellipsoid a = tangency::verify::to_ellipsoid(pair.a);
+  const Ellipsoid b = tangency::verify::to_ellipsoid(pair.b);
   const Gap gap = signed_gap(a, b);
   const double axes = a.largest_semi_axis() + b.largest_semi_axis();
   const double size = (b.centre() - a.centre()).stableNorm() + axes;
@@ -177,9 +177,9 @@ class FacePairs {
       pair.b.semi_axes[random_() % 3] *= longer;
       pair.b.semi_axes[random_() % 3] *= longer;
     }
-    const Ellipsoid a = tangency::testing::to_ellipsoid(pair.a);
+    const Ellipsoid a = tangency::verify::to_ellipsoid(pair.a);
     const Vec3 n = a.rotation().col(static_cast<int>(across));
-    const double reach = tangency::testing::to_ellipsoid(pair.b).support(n);
+    const double reach = tangency::verify::to_ellipsoid(pair.b).support(n);
     // Apart or overlapping by 1e-18 to 0.1 of the radius; a sphere at any depth as well.
     double height = reach + radius * (random_() % 2 == 0 ? 1 : -1) * log_uniform(1e-18, 0.1);
     if (family_.sphere && random_() % 4 == 0) height = reach * uniform(-1, 1);

@@ -15,7 +15,7 @@
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/ray.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
 namespace {
@@ -95,7 +95,7 @@ class Source {
 
   /// A point on, near, inside, outside or far from the body, or on one of its symmetry planes.
   Vec3 point(const RawEllipsoid& raw) {
-    const auto e = tangency::testing::to_ellipsoid(raw);
+    const auto e = tangency::verify::to_ellipsoid(raw);
     const Vec3 surface = e.support_point(direction());
     const double size = e.largest_semi_axis();
     Vec3 y = e.rotation().transpose() * surface;
@@ -170,7 +170,7 @@ bool check_points(Source& source, long count) {
   for (long i = 0; i < count; ++i) {
     const RawEllipsoid e = source.body();
     const Triple p = triple(source.point(e));
-    const auto found = tangency::closest_point(tangency::testing::to_ellipsoid(e), vec(p));
+    const auto found = tangency::closest_point(tangency::verify::to_ellipsoid(e), vec(p));
     const Vector120 from = from_centre(e, p);
     const auto truth = nearest(e, from);
     const Digits120 size = length(from) + longest(e), unit = kU * size;
@@ -204,7 +204,7 @@ bool check_spheres(Source& source, long count) {
     const Vector120 from = from_centre(e, p);
     const Digits120 size = length(from) + longest(e) + r;
     const Digits120 truth = nearest(e, from).distance - r;
-    value.see(abs(signed_gap(sphere, tangency::testing::to_ellipsoid(e)).gap - truth) / (kU * size),
+    value.see(abs(signed_gap(sphere, tangency::verify::to_ellipsoid(e)).gap - truth) / (kU * size),
               e, p, {r, 0, 0});
     const double other = e.semi_axes[0];
     const Digits120 between = length(from);
@@ -227,7 +227,7 @@ bool check_walls(Source& source, long count) {
     const Triple through = triple(source.point(e));
     const Vec3 n = source.direction() * source.log_uniform(1e-100, 1e100);
     const double offset = source.below(8) == 0 ? 0 : n.dot(vec(through));
-    const auto found = signed_gap(tangency::testing::to_ellipsoid(e), tangency::Plane{n, offset});
+    const auto found = signed_gap(tangency::verify::to_ellipsoid(e), tangency::Plane{n, offset});
     const auto truth = tangency::verify::wall(e, triple(n), offset);
     const Digits120 unit = kU * (abs(truth.centre_distance) + longest(e));
     value.see(abs(found.gap - truth.gap) / unit, e, triple(n), {offset, 0, 0});
@@ -250,7 +250,7 @@ struct Line {
 /// Lines through, past and along the surface: grazing within 1e-3 to 1e-25 of it, from inside, from
 /// 1e12 times the size away, with directions of any length.
 Line any_line(Source& source, const RawEllipsoid& raw) {
-  const auto e = tangency::testing::to_ellipsoid(raw);
+  const auto e = tangency::verify::to_ellipsoid(raw);
   Vec3 n = source.direction(), at = e.support_point(n), along = source.direction();
   const double size = e.largest_semi_axis();
   switch (source.below(4)) {
@@ -286,7 +286,7 @@ bool check_rays(Source& source, long count) {
     constexpr double kEver = std::numeric_limits<double>::infinity();
     const double begin = source.below(2) == 0 ? 0 : -kEver;
     const auto found =
-        intersect(tangency::testing::to_ellipsoid(e), {vec(origin), vec(direction)}, begin, kEver);
+        intersect(tangency::verify::to_ellipsoid(e), {vec(origin), vec(direction)}, begin, kEver);
     const Vector120 from = from_centre(e, origin), along = digits(vec(direction));
     const auto truth = tangency::verify::line(e, from, along);
     const Digits120 speed = length(along), size = length(from) + longest(e), unit = kU * size;

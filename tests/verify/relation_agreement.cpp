@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/extreme.hpp>
-#include <tangency/bench/families/manufactured.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/extreme.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace {
@@ -57,7 +57,7 @@ void print_hex(const RawEllipsoid& e) {
 
 void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_view family,
              Tallies& tallies) {
-  const auto a = tangency::testing::to_ellipsoid(raw_a), b = tangency::testing::to_ellipsoid(raw_b);
+  const auto a = tangency::verify::to_ellipsoid(raw_a), b = tangency::verify::to_ellipsoid(raw_b);
   const double before = processor_time();
   const auto relation = tangency::relation(a, b);
   const double taken = processor_time() - before;

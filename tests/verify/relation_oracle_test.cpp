@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <tangency/bench/families/adversarial.hpp>
+#include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 #include <utility>
 

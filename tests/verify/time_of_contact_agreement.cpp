@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <tangency/geometry/time_of_contact.hpp>
-#include <tangency/tests/support/conversions.hpp>
+#include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/time_of_contact.hpp>
 
 namespace {
@@ -170,7 +170,7 @@ class Source {
 MovingBody raw(const Moving& m) {
   const auto triple = [](const Vec3& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
   return {
-      tangency::testing::to_raw(m.body),
+      tangency::verify::to_raw(m.body),
       {triple(m.motion.velocity), triple(m.motion.angular_velocity), triple(m.motion.pivot_arm)}};
 }
 

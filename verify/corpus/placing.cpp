@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
-#include <tangency/bench/families/adversarial.hpp>
 #include <tangency/verify/corpus/placing.hpp>
+#include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/oracles/ascent.hpp>
 #include <utility>
 

@@ -35,7 +35,7 @@ Real placed_gap(const EllipsoidPair& pair, const Real3& n);
 using PairDraw = std::function<std::optional<EllipsoidPair>(Draw&)>;
 InputFamily<EllipsoidPair> drawn_family(std::string name, std::size_t count, PairDraw draw_pair);
 
-// The family of this name of bench/families/adversarial.hpp: one of those made of integers alone.
+// The family of this name of verify/families/adversarial.hpp: one of those made of integers alone.
 InputFamily<EllipsoidPair> integer_family(std::string_view name, std::size_t count);
 
 }  // namespace tangency::verify

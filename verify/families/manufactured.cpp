@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/bench/families/manufactured.hpp>
+#include <tangency/verify/families/manufactured.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <tangency/bench/families/support.hpp>
+#include <tangency/verify/families/support.hpp>
 
 namespace tangency::families {
 std::span<const ContactFamily> contact_classes() {

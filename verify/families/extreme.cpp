@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/bench/families/extreme.hpp>
+#include <tangency/verify/families/extreme.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include <tangency/bench/families/support.hpp>
+#include <tangency/verify/families/support.hpp>
 
 namespace tangency::families {
 namespace {

@@ -6,17 +6,17 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/verify/oracles/raw.hpp>
 
-namespace tangency::testing {
+namespace tangency::verify {
 
-inline Ellipsoid to_ellipsoid(const verify::RawEllipsoid& raw) {
+inline Ellipsoid to_ellipsoid(const RawEllipsoid& raw) {
   const auto& [c, r, q] = raw;
   return {{c[0], c[1], c[2]}, {r[0], r[1], r[2]}, Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
 }
 
-inline verify::RawEllipsoid to_raw(const Ellipsoid& e) {
+inline RawEllipsoid to_raw(const Ellipsoid& e) {
   const Vec3 &c = e.centre(), &r = e.semi_axes();
-  const Eigen::Quaterniond& q = e.orientation();
+  const Quaternion q = e.orientation();
   return {{c[0], c[1], c[2]}, {r[0], r[1], r[2]}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
-}  // namespace tangency::testing
+}  // namespace tangency::verify

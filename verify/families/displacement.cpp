@@ -2,7 +2,7 @@
 #include <Eigen/LU>
 #include <cassert>
 #include <cmath>
-#include <tangency/bench/families/displacement.hpp>
+#include <tangency/verify/families/displacement.hpp>
 
 namespace tangency::families {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <tangency/bench/families/exact_contact.hpp>
+#include <tangency/verify/families/exact_contact.hpp>
 
 namespace tangency::verify::construction {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tangency/bench/families/adversarial.hpp>
-#include <tangency/bench/families/exact_contact.hpp>
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/exact_contact.hpp>
 #include <utility>
 
 namespace tangency::verify {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What tangency-dem run was asked for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace tangency::dem {
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> resume;
+  int threads = 0;  ///< 0: as many as OpenMP offers
+  bool quiet = false;
+  bool replace = false;  ///< take away the results of another run
+};
+
+}  // namespace tangency::dem
