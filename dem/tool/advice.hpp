@@ -32,8 +32,8 @@ std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& p
 /// For a stage that is to have so many more cycles than have been: "raise max_cycles to 12000".
 std::string advice_on_cycles(const Simulation& simulation, double more);
 
-/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's mean
-/// weight along such axes is below that share of the mean contact force.
+/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's
+/// mean weight along such axes is below that share of the mean contact force.
 std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share);
 
 }  // namespace tangency::dem

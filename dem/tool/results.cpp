@@ -109,9 +109,8 @@ bool is_of(const std::string& row, const Simulation& simulation) {
   const State& state = simulation.state();
   std::istringstream cells(row);
   std::string cell;
-  for (const Field& field :
-       history_fields(state.cycle, state.time, stage_of(row), state.stage_cycle,
-                      simulation.observe())) {
+  for (const Field& field : history_fields(state.cycle, state.time, stage_of(row),
+                                           state.stage_cycle, simulation.observe())) {
     std::getline(cells, cell, ',');
     const bool is_kept =
         field.name == "time" || field.name.ends_with("_work") || field.name.ends_with("_loss");
