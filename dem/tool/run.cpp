@@ -93,7 +93,9 @@ class Run {
   int execute() {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
-    if (!results_.has_rows()) results_.add_row(simulation_);
+    // A run that is over would leave no row in a directory of its own.
+    if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished()))
+      results_.add_row(simulation_);
     if (simulation_.state().cycle == 0) results_.add_frame(simulation_);
     try {
       while (!simulation_.finished()) {
