@@ -34,8 +34,8 @@ double stored(const Contact& contact) { return contact.normal_energy + contact.s
 /// of dc overlap^(5/2).
 double gained_by_curvature(const Contact& before, const Contact& after) {
   const double ratio = after.overlap / before.overlap, power = ratio * ratio * std::sqrt(ratio);
-  return 0.5 * (after.normal_energy - before.normal_energy * power +
-                after.normal_energy / power - before.normal_energy);
+  return 0.5 * (after.normal_energy - before.normal_energy * power + after.normal_energy / power -
+                before.normal_energy);
 }
 
 }  // namespace
@@ -111,9 +111,9 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
   // Half way through the step, but for the strain, which move() takes from where it began.
   const Contact& from = touched ? before : contact;
   const Vec3 strained = step.dt * (step.cell.rate * from.branch);
-  const Vec3 moved = strained + step.dt * relative_velocity(step.particles, pair,
-                                                            0.5 * (from.arm + contact.arm),
-                                                            0.5 * (from.branch + contact.branch));
+  const Vec3 moved =
+      strained + step.dt * relative_velocity(step.particles, pair, 0.5 * (from.arm + contact.arm),
+                                             0.5 * (from.branch + contact.branch));
   double sliding = before.shear.energy;  // of a spring that is let go
   if (touches) {
     contact.overlap = -touch.gap;

@@ -21,10 +21,10 @@ struct Contact {
   /// c_b - c_a. To a wall: to where it is touched, so that force times branch is the work that the
   /// wall's motion does per strain.
   Vec3 branch = Vec3::Zero();
-  Vec3 arm = Vec3::Zero();     ///< contact point - c_a; of touching pairs only
-  Vec3 force = Vec3::Zero();   ///< of a on b; 0 for pairs apart
-  ShearState shear;            ///< stays 0 without friction
-  double overlap = 0.0;        ///< length; > 0 where the pair touches, else 0
+  Vec3 arm = Vec3::Zero();    ///< contact point - c_a; of touching pairs only
+  Vec3 force = Vec3::Zero();  ///< of a on b; 0 for pairs apart
+  ShearState shear;           ///< stays 0 without friction
+  double overlap = 0.0;       ///< length; > 0 where the pair touches, else 0
   double normal_force = 0.0;
   double normal_stiffness = 0.0;  ///< at this overlap; of touching pairs only
   double normal_energy = 0.0;

@@ -56,9 +56,9 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const N
 
 /// A step that is stable for the contacts as they are: 2 / sqrt(2 s), s the largest stiffness over
 /// inertia of any particle, shifts and turns together. No assembly's frequency is above sqrt(2 s),
-/// since a spring stores k |u_b - u_a|^2 / 2 <= k |u_a|^2 + k |u_b|^2; it is reached where neighbours
-/// swing the other way, by two equal spheres or a lattice of them. Normals and arms count as fixed.
-/// Infinite without contacts.
+/// since a spring stores k |u_b - u_a|^2 / 2 <= k |u_a|^2 + k |u_b|^2; it is reached where
+/// neighbours swing the other way, by two equal spheres or a lattice of them. Normals and arms
+/// count as fixed. Infinite without contacts.
 double critical_time_step(const Particles& particles, const Contacts& contacts,
                           const NeighbourList& list);
 

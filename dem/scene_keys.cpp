@@ -140,8 +140,7 @@ constexpr std::array table{
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", positive, "", "shear",
         "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
-        "0.05, "
-        "or axial_strain_rate where that is more"},
+        "0.05, or axial_strain_rate where that is more"},
     Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", positive, "", "servo",
         "The same"},
     Key{"stage", "servo_gain", real, "-", "0.5", ratio, "", "shear servo",
@@ -159,8 +158,7 @@ constexpr std::array table{
     Key{"stage", "damping", real, "sqrt(K_max/m_min)", "(adaptive)", between(0.0, 10.0), "",
         "relax unload",
         "The same; without: velocities are turned towards the forces, and taken away where they "
-        "run "
-        "against them, by the fast inertial relaxation engine"},
+        "run against them, by the fast inertial relaxation engine"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",

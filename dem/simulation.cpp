@@ -215,8 +215,8 @@ double Simulation::kinetic_energy_now() const {
 
 void Simulation::step() {
   assert(!finished());
-  require_single_contacts();
   if (state_.stage_cycle == 0) state_.cell.reference_edges = state_.cell.edges;
+  require_single_contacts();
   if (!is_grown() && is_relaxed()) grow();
   const double dt = time_step();
   state_.cell.rate = next_rate(dt);

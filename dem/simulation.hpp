@@ -61,7 +61,8 @@ class Simulation {
 
   /// One cycle of the current stage. Requires !finished().
   /// @throws Diverged
-  /// @throws CellTooThin  where the cell is, or would be after this cycle: the state is as it was
+  /// @throws CellTooThin  where the cell is, or would be after this cycle: nothing has moved then,
+  ///                      and the state can be saved
   void step();
 
   /// Where the current stage is. Requires !finished().

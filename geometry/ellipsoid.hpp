@@ -95,8 +95,8 @@ class Ellipsoid {
   /// Is the point in the closed solid (up to rounding of level())?
   bool contains(const Vec3& point) const noexcept { return level(point) <= 1.0; }
 
-  /// An axis-aligned box that encloses the solid, by at most 40 u:
-  /// docs/derivations/bounding-box.md.
+  /// An axis-aligned box that encloses the solid, each side no further out than 40 u (|c| + half
+  /// width) + 2^-91 of the largest semi-axis: docs/derivations/bounding-box.md.
   Eigen::AlignedBox3d bounding_box() const noexcept;
 
  private:

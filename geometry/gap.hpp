@@ -57,6 +57,7 @@ struct Gap {
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// @param separation  finite, here and below: else the process ends with one line on standard error
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago

@@ -68,6 +68,7 @@ struct Task {
     require_finite_separation(i);
     if (previous_normal != nullptr) {
       const Vec3 d = separations ? separations[i] : Vec3(b(i).centre() - a(i).centre());
+      if (!d.allFinite()) return signed_gap(a(i), b(i));  // that of the centres, which overflows
       return follow_gap(a(i), b(i), d, *previous_normal);
     }
     return separations ? signed_gap(a(i), b(i), separations[i]) : signed_gap(a(i), b(i));

@@ -129,7 +129,8 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> a
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy = {}) noexcept;
 
-/// follow_gap() of every pair; where `separations` is empty, of the rounded c_B - c_A.
+/// follow_gap() of every pair; where `separations` is empty, of the rounded c_B - c_A, and
+/// signed_gap() where that overflows.
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,

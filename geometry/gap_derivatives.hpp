@@ -80,6 +80,7 @@ struct GapDerivatives {
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres.
+/// @param separation  finite: else the process ends with one line on standard error
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept;
 

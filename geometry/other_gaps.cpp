@@ -208,8 +208,8 @@ OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
     return separation != nullptr ? WideFloat((*separation)[i])
                                  : WideFloat(b.centre()[i]) - WideFloat(a.centre()[i]);
   };
-  const bool coincide = separation != nullptr ? *separation == Vec3::Zero()
-                                              : a.centre() == b.centre();
+  const bool coincide =
+      separation != nullptr ? *separation == Vec3::Zero() : a.centre() == b.centre();
   if (coincide) return nothing(OtherGapStatus::not_applicable);
   double ratio = 0.0;
   Measured result = by_double_double(a, b, separation, ratio, measure);
@@ -228,8 +228,7 @@ OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept {
-  return in_default_environment(
-      [&] { return answer(a, b, &separation, BetweenTangentPlanes{}); });
+  return in_default_environment([&] { return answer(a, b, &separation, BetweenTangentPlanes{}); });
 }
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
@@ -238,8 +237,7 @@ OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept {
-  return in_default_environment(
-      [&] { return answer(a, b, &separation, AlongTheNormal{}); });
+  return in_default_environment([&] { return answer(a, b, &separation, AlongTheNormal{}); });
 }
 
 }  // namespace tangency

@@ -86,7 +86,8 @@ Parts moved(const Parts& p, const Mat3& r, const Vec3& translation) {
 }
 
 std::optional<Ellipsoid> solid_of(const Quadric& quadric) {
-  if (classify_coefficients(quadric.coefficients()).type != QuadricType::real_ellipsoid) return std::nullopt;
+  if (classify_coefficients(quadric.coefficients()).type != QuadricType::real_ellipsoid)
+    return std::nullopt;
   auto [p, unit_exponent] = normalised(parts_of(quadric));
   if (p.block.trace() < 0.0) p = {-p.block, -p.column, -p.constant};
 

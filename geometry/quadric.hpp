@@ -42,9 +42,8 @@ class InvalidQuadric : public std::invalid_argument {
 /// (2) gradient(x) is the derivative of evaluate at x; at the centre of a central quadric it is 0.
 /// (3) q.moved(r, t).evaluate(R x + t) = q.evaluate(x), R = rotation_of(r).
 /// (4) q.scaled(s).evaluate(s x) = s q.evaluate(x).
-/// (5) from_ellipsoid(e) is negative inside e, positive outside, and
-/// from_ellipsoid(e).to_ellipsoid()
-///     is e, as a solid.
+/// (5) from_ellipsoid(e) is negative inside e, positive outside, and to_ellipsoid() of it is e, as
+///     a solid.
 /// All up to rounding.
 class Quadric {
  public:

@@ -99,7 +99,8 @@ class Chord {
   int place_of(double t) {
     const double scaled = std::scalbn(t, -exponent_);
     if (std::abs(scaled) > kBeyond) return t < 0.0 ? -2 : 2;
-    const auto [level, slope] = sign_ == 0 ? Signs{1, integers().slope_sign(t)} : signs_at(t, scaled);
+    const auto [level, slope] =
+        sign_ == 0 ? Signs{1, integers().slope_sign(t)} : signs_at(t, scaled);
     return level < 0 ? 0 : level == 0 ? slope : 2 * slope;
   }
 

@@ -17,8 +17,9 @@
 /// (6) Where overlaps_by_filter(a, b) answers, it is overlaps(a, b).
 ///
 /// The exact tier takes 15 us and a few kB for ordinary numbers; for numbers over the whole range
-/// of doubles 20 ms at most (measured, docs/decisions/0008-*). It allocates, and where memory ends
-/// ends the process. A caller who can neither wait nor allocate asks overlaps_by_filter().
+/// of doubles 20 ms at most (measured, docs/decisions/0009-broken-contracts-end-the-process.md). It
+/// allocates, and where memory ends ends the process. A caller who can neither wait nor allocate
+/// asks overlaps_by_filter().
 #pragma once
 
 #include <optional>

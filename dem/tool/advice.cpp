@@ -38,8 +38,8 @@ std::string text_of(const Vec3& v) {
   return "[ " + rounded_down(v[0]) + ", " + rounded_down(v[1]) + ", " + rounded_down(v[2]) + " ]";
 }
 
-/// Keys of the stage that strain it, each with `share` of what it is.
-std::vector<std::string> slower_rates(const Drive& stage, double share, int dimensions) {
+/// Keys of the stage that strain it at a given rate, each with `share` of what it is.
+std::vector<std::string> slower_strains(const Drive& stage, double share, int dimensions) {
   std::vector<std::string> keys;
   const Mat3 rate = -share * stage.loading.strain_rate;
   const int axial = dimensions - 1;
@@ -50,6 +50,12 @@ std::vector<std::string> slower_rates(const Drive& stage, double share, int dime
     if (!strain.isZero(0.0)) keys.push_back("strain_rate to " + text_of(strain));
     if (!shear.isZero(0.0)) keys.push_back("shear_rate to " + text_of(shear));
   }
+  return keys;
+}
+
+/// The same, and the bound of its servo.
+std::vector<std::string> slower_rates(const Drive& stage, double share, int dimensions) {
+  std::vector<std::string> keys = slower_strains(stage, share, dimensions);
   if (!stage.loading.targets.empty())
     keys.push_back("max_strain_rate to " +
                    rounded_down(share * stage.loading.servo.max_strain_rate));
@@ -132,6 +138,26 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
   const double more = std::log(fraction / sound) / a_cycle;
   return still + "raise duration to " +
          whole_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
+}
+
+std::string advice_on_servo(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const Drive& stage = *simulation.stage().drive;
+  const Servo& servo = stage.loading.servo;
+  double largest = 0.0;
+  for (const Target& target : stage.loading.targets) largest = std::max(largest, target.wanted);
+  const double fast = scene.servo_strain_rate(largest);
+  const auto raised = [](const char* key, double from, double to) {
+    return std::string("raise ") + key + " from " + text_of(from, 3) + " to " + text_of(to, 3);
+  };
+  if (servo.max_strain_rate < 0.5 * fast)
+    return raised("max_strain_rate", servo.max_strain_rate, fast);
+  if (servo.published_gain > 0.0) return "leave published_gain out, whose servo rings";
+  if (const double gain = Servo().gain; servo.gain < 0.5 * gain)
+    return raised("servo_gain", servo.gain, gain);
+  const auto keys = slower_strains(stage, 0.5, scene.dimensions);
+  if (!keys.empty()) return "lower " + joined(keys, " and ");
+  return "raise duration to " + whole_up(2.0 * static_cast<double>(stage.duration.value_or(0)));
 }
 
 std::string advice_on_step(const Simulation& simulation, double share) {

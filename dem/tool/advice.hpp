@@ -15,6 +15,11 @@ namespace tangency::dem {
 /// stage ends in balance, how much of it to ask for.
 std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound);
 
+/// For a stress that was not held: "raise servo_gain from 0.005 to 0.5", of the servo's keys the
+/// first that is too small for its stress; where none is, half of the rates that strain the stage,
+/// or twice its duration.
+std::string advice_on_servo(const Simulation& simulation);
+
 /// "lower time_step_factor to 0.2", a share of what it is.
 std::string advice_on_step(const Simulation& simulation, double share);
 
@@ -27,8 +32,8 @@ std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& p
 /// For a stage that is to have so many more cycles than have been: "raise max_cycles to 12000".
 std::string advice_on_cycles(const Simulation& simulation, double more);
 
-/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's mean
-/// weight along such axes is below that share of the mean contact force.
+/// "gravity along z acts where no wall bears it: ...", or "" where walls bear it or a particle's
+/// mean weight along such axes is below that share of the mean contact force.
 std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share);
 
 }  // namespace tangency::dem

@@ -109,9 +109,8 @@ bool is_of(const std::string& row, const Simulation& simulation) {
   const State& state = simulation.state();
   std::istringstream cells(row);
   std::string cell;
-  for (const Field& field :
-       history_fields(state.cycle, state.time, stage_of(row), state.stage_cycle,
-                      simulation.observe())) {
+  for (const Field& field : history_fields(state.cycle, state.time, stage_of(row),
+                                           state.stage_cycle, simulation.observe())) {
     std::getline(cells, cell, ',');
     const bool is_kept =
         field.name == "time" || field.name.ends_with("_work") || field.name.ends_with("_loss");
@@ -121,10 +120,12 @@ bool is_of(const std::string& row, const Simulation& simulation) {
 }
 
 /// Is the directory's history, as far as it goes, that of the run which the state is of? A row of
-/// its cycle tells; without one its place does.
+/// its cycle tells; without one, and before the first cycle, where all runs are alike, its place
+/// does.
 bool is_history_of(const fs::path& directory, const fs::path& state, const Simulation& simulation) {
+  const std::int64_t cycle = simulation.state().cycle;
   for (const std::string& row : rows_in(directory))
-    if (cycle_of(row) == simulation.state().cycle) return is_of(row, simulation);
+    if (cycle > 0 && cycle_of(row) == cycle) return is_of(row, simulation);
   std::error_code none;
   return fs::equivalent(directory / "checkpoint.state", state, none) ||
          fs::equivalent(directory / "final.state", state, none);

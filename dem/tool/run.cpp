@@ -93,7 +93,9 @@ class Run {
   int execute() {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
-    if (!results_.has_rows()) results_.add_row(simulation_);
+    // A run that is over would leave no row in a directory of its own.
+    if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished()))
+      results_.add_row(simulation_);
     if (simulation_.state().cycle == 0) results_.add_frame(simulation_);
     try {
       while (!simulation_.finished()) {
@@ -251,33 +253,12 @@ class Run {
                                target.name + " at " + short_text(target.wanted) + ": ";
       if (seen.watched == 0 && stage.duration)
         warn(held + "it never came there and ended at " + short_text(target.measured(stress)) +
-             "; " + remedy());
+             "; " + advice_on_servo(simulation_));
       else if (share > sound_missed_share || std::abs(seen.worst) > sound_miss)
         warn(held + "it was off by more than " + short_text(100.0 * held_within) + " % in " +
              short_text(100.0 * share) + " % of the cycles, by " + short_text(100.0 * seen.worst) +
-             " % at worst; " + remedy());
+             " % at worst; " + advice_on_servo(simulation_));
     }
-  }
-
-  /// What to change, of the keys that the stage has, so that its servo holds.
-  std::string remedy() const {
-    const Drive& stage = *simulation_.stage().drive;
-    const Servo& servo = stage.loading.servo;
-    double largest = 0.0;
-    for (const Target& target : stage.loading.targets) largest = std::max(largest, target.wanted);
-    const double fast = simulation_.scene().servo_strain_rate(largest);
-    const auto change = [](const char* how, const char* key, double from, double to) {
-      return std::string(how) + " " + key + " from " + short_text(from) + " to " + short_text(to);
-    };
-    if (servo.max_strain_rate < 0.5 * fast)
-      return change("raise", "max_strain_rate", servo.max_strain_rate, fast);
-    if (servo.published_gain > 0.0) return "leave published_gain out, whose servo rings";
-    if (const double gain = Servo().gain; servo.gain < 0.5 * gain)
-      return change("raise", "servo_gain", servo.gain, gain);
-    if (!stage.axial_strain) return "lower the rates of the stage, or lengthen its duration";
-    const int axial = simulation_.scene().dimensions - 1;
-    const double rate = -stage.loading.strain_rate(axial, axial);
-    return change("lower", "axial_strain_rate", rate, 0.5 * rate);
   }
 
   std::string unmet_criterion() const {

@@ -48,8 +48,8 @@ class Approach {
   }
   bool is_root() const { return sgn(c_[0]) == 0; }
 
-  /// floor(2^shift s / slack) with s = p / p' at y = 0, p' > 0: the largest root lies within
-  /// [s, n s] below, n the degree, since 1 / s is the sum of the inverse distances of all roots.
+  /// floor(s) with s = p / p' at y = 0, p' > 0: the largest root lies within [s, n s] below, n the
+  /// degree, since 1 / s is the sum of the inverse distances of all roots.
   mpz_class newton_step() const { return c_[0] / c_[1]; }
 
   /// Newton's step for p / p', which finds a root of any multiplicity, and a narrow cluster of

@@ -7,7 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <exception>
 #include <iostream>
+#include <new>
 #include <numeric>
 #include <sstream>
 #include <string>

@@ -154,11 +154,11 @@ TEST(RunCommand, AReaderThatHasGoneEndsEverySubcommandWithoutAWord) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", small_scene()), out = folder.path("out");
   ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  Process::Place gone;
+  gone.reader_has_gone = true;
   for (const Arguments& arguments : {Arguments{"--version"}, Arguments{"--help"},
                                      Arguments{"schema"}, Arguments{"report", out}}) {
-    Process tool(arguments);
-    tool.close_output();
-    const Finished run = tool.wait();
+    const Finished run = run_tool(arguments, "", gone);
     EXPECT_EQ(run.signal, SIGPIPE) << arguments[0];
     EXPECT_EQ(run.err, "") << arguments[0];
   }
@@ -221,8 +221,8 @@ TEST(RunCommand, WarnsOfAStressThatWasNotHeldAndSaysWhatToChange) {
   const std::string missed = with(held, "axial_strain_rate",
                                   "servo_gain = 0.005\nmax_strain_rate = 0.001\naxial_strain_rate");
   const auto warnings = [&](const std::string& scene) {
-    return run_tool(
-               {"run", folder.write("scene.toml", scene), "--out", folder.path("out"), "--quiet"})
+    return run_tool({"run", folder.write("scene.toml", scene), "--out", folder.path("out"),
+                     "--replace", "--quiet"})
         .err;
   };
   EXPECT_EQ(warnings(held).find("did not hold"), std::string::npos);

@@ -69,7 +69,9 @@ TEST(RunSignals, EndARunThatTheyFindInItsCycles) {
     const std::string history = make_pipe(folder.path("out/history.csv.part")),
                       state = make_pipe(folder.path("out/checkpoint.state.part"));
     Started run(folder);
-    run.give_scene(small_scene() + "checkpoint_interval = 50\n");
+    std::string scene = small_scene();
+    scene += "checkpoint_interval = 50\n";
+    run.give_scene(scene);
     const int reader = run.process().meet_at(history, O_RDONLY);
     run.process().send(number);
     read_to_end(reader);

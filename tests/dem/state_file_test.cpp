@@ -62,9 +62,9 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
   save_state(half_way().state(), folder.path("a.state"));
   const std::string bytes = read_whole(folder.path("a.state")).value();
   std::string changed = bytes;
-  changed[8] = 4;
+  changed[8] = 3;
   EXPECT_EQ(failure(folder.write("v.state", changed)),
-            folder.path("v.state") + ": state of version 4: this program reads version 3");
+            folder.path("v.state") + ": state of version 3: this program reads version 4");
   changed = bytes;
   changed[bytes.size() / 2] ^= 1;
   EXPECT_EQ(failure(folder.write("d.state", changed)),
@@ -75,7 +75,7 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
   EXPECT_EQ(failure(folder.write("t.state", small_scene())), folder.path("t.state") + none);
   EXPECT_EQ(failure(folder.write("e.state", "")), folder.path("e.state") + none);
   EXPECT_EQ(failure(folder.path("missing.state")),
-            folder.path("missing.state") + ": cannot be read: a state of an earlier run");
+            folder.path("missing.state") + ": cannot be read: No such file or directory");
 }
 
 TEST(StateFile, OfAnotherSceneIsRefused) {

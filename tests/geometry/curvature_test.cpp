@@ -15,9 +15,9 @@
 namespace tangency {
 namespace {
 
-using verify::to_ellipsoid;
 using verify::Real;
 using verify::Real3;
+using verify::to_ellipsoid;
 
 constexpr double kU = 0x1p-53;
 constexpr std::uint64_t kSeed = 20261122;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -171,6 +172,8 @@ void add_relations(const Input& in, Bits& bits) {
   const RelationAnswer found = relation(pair.a, pair.b);
   // Which tier answers the yes/no question may depend on the environment, the answer may not.
   bits.add(found.relation, found.inner, found.tier, overlaps(pair.a, pair.b));
+  const std::optional<bool> by_filter = overlaps_by_filter(pair.a, pair.b);
+  bits.add(by_filter.has_value(), by_filter.value_or(false));
 }
 
 void add_primitives(const Input& in, Bits& bits) {
@@ -190,6 +193,8 @@ void add_primitives(const Input& in, Bits& bits) {
   const ContactCurvature k = contact_curvature(a, b, in.normal);
   bits.add(k.a, k.b, k.relative);
   bits.add(a.support(d), a.support_point(in.normal), a.level(b.centre()));
+  const Eigen::AlignedBox3d box = a.bounding_box();
+  bits.add(box.min(), box.max());
 }
 
 void add_plane(const Input& in, Bits& bits) {
@@ -240,8 +245,9 @@ void add_others(const Input& in, Bits& bits) {
   bits.add(trace.status, trace.gap, trace.normal, trace.arm_a, trace.arm_b);
   const QuarticRoots roots = quartic_roots(in.quartic);
   for (const QuarticRoot& r : roots.root) bits.add(roots.count, r.x, r.error, r.crosses);
-  const Classification type = classify(Quadric(in.quadric));
-  bits.add(type.type, type.tier);
+  const Quadric quadric(in.quadric);
+  const Classification type = classify(quadric);
+  bits.add(type.type, type.tier, quadric.evaluate(in.normal), quadric.gradient(in.normal));
 }
 
 /// Calls that may take milliseconds.

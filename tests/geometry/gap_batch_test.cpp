@@ -510,6 +510,24 @@ TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
   guide_example_2(f.two[0], f.two[1], f.two, f.pairs, f.separations);
 }
 
+TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {
+  const Few f;
+  for (const double size : {1.0, 0x1p1023}) {
+    const Vec3 axes(size, 0.75 * size, 0.5 * size);
+    const std::vector<Ellipsoid> two{Ellipsoid({0x1.8p1023, 0, 0}, axes),
+                                     Ellipsoid({-0x1.8p1023, 1, 0}, axes)};
+    const BodyArray bodies(two);
+    const std::vector<Vec3> normals(f.pairs.size(), Vec3(-1, 0, 0));
+    std::vector<Gap> gaps(f.pairs.size());
+    follow_gaps(bodies, {f.pairs, {}}, normals, gaps);
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      const Gap expected = signed_gap(two[f.pairs[i].a], two[f.pairs[i].b]);
+      EXPECT_EQ(gaps[i].gap, expected.gap) << size << ' ' << i;
+      EXPECT_EQ(gaps[i].normal, expected.normal) << size << ' ' << i;
+    }
+  }
+}
+
 TEST(GapBatch, ARefreshedBodyIsTheChangedOne) {
   Family f = contacts(families::contact_classes()[1], 20);
   Indexed in(f);

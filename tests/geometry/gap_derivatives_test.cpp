@@ -21,9 +21,9 @@ using families::ContactFamily;
 using families::ManufacturedContact;
 using testing::changed, testing::gradient_of, testing::is_angle;
 using testing::RealPair;
-using verify::to_ellipsoid;
 using verify::GapTruth;
 using verify::Real;
+using verify::to_ellipsoid;
 
 constexpr double kU = 0x1p-53;
 constexpr std::uint64_t kSeed = 20261122;
@@ -107,8 +107,8 @@ struct Worst {
       const auto row = static_cast<std::size_t>(k);
       add_gradient(c, k, at[row]);
       const Real difference = (above[row] - below[row]) / (2 * kStep);
-      // Of the oracle's derivatives this is one triangle as often as the other; the kernel's entries
-      // on both sides of the diagonal are held to it.
+      // Of the oracle's derivatives this is one triangle as often as the other; the kernel's
+      // entries on both sides of the diagonal are held to it.
       add_hessian(c, k, j % 18, difference - c.half_commutator(k, j % 18));
       add_hessian(c, j % 18, k, difference - c.half_commutator(k, j % 18));
     }

@@ -487,13 +487,13 @@ TEST(GradeCommand, AnOutputThatCannotBeWrittenIsRefusedBeforeTheToolIsStarted) {
 
 TEST(GradeCommand, AReaderThatHasGoneEndsItWithoutAWordAndLeavesNothing) {
   const TemporaryFolder folder;
+  Process::Place gone;
+  gone.reader_has_gone = true;
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--help"},
         {"generate", "--list"},
         {"grade", "--tool", kKernel, "--corpus", "near", "--json", folder.path("grade.json")}}) {
-    Process tool(arguments);
-    tool.close_output();
-    const Finished run = tool.wait();
+    const Finished run = run_tool(arguments, "", gone);
     EXPECT_EQ(run.signal, SIGPIPE) << arguments[0];
     EXPECT_EQ(run.err, "") << arguments[0];
   }

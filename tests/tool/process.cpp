@@ -100,6 +100,7 @@ Process::Process(const std::vector<std::string>& arguments, const Place& place) 
     close_end(output.theirs);
     output.theirs = ::open(place.standard_output.c_str(), O_WRONLY | O_CLOEXEC);
   }
+  if (place.reader_has_gone) close_end(output.ours);
   std::vector<char*> argv{const_cast<char*>(TANGENCY_TOOL)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -145,8 +146,6 @@ std::string Process::read_output_line() {
   for (char c = 0; c != '\n' && ::read(output_, &c, 1) == 1;) line += c;
   return line;
 }
-
-void Process::close_output() { close_end(output_); }
 
 void Process::send(int signal) { ::kill(pid_, signal); }
 

@@ -47,6 +47,7 @@ class Process {
     std::string folder{};            ///< working directory
     std::string standard_output{};   ///< a file to open in place of the pipe
     bool error_is_terminal = false;  ///< standard error is a pseudo-terminal
+    bool reader_has_gone = false;    ///< of standard output, before the tool starts
     bool ignores_hangup = false;     ///< as under nohup
   };
 
@@ -60,7 +61,6 @@ class Process {
   void close_input();
   /// One line of standard output; waits for it. Empty at the end of the output.
   std::string read_output_line();
-  void close_output();
   void send(int signal);
   pid_t id() const { return pid_; }
   /// Opens a named pipe, which waits until the tool opens its other end; it stays there until this

@@ -194,11 +194,7 @@ TEST(RowStream, ReaderThatHasGoneEndsItWithoutAWord) {
         {"ellipse", ellipses},
         {"--help", ""},
         {"--version", ""}}) {
-    Process tool({subcommand});
-    tool.close_output();
-    tool.write_input(input);
-    tool.close_input();
-    const Finished run = tool.wait();
+    const Finished run = run_tool({subcommand}, input, {.reader_has_gone = true});
     EXPECT_EQ(run.signal, SIGPIPE) << subcommand;
     EXPECT_EQ(run.err, "") << subcommand;
   }

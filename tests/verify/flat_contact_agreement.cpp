@@ -22,8 +22,8 @@
 namespace {
 
 using namespace tangency;
-using verify::to_ellipsoid, verify::to_raw;
 using verify::Real, verify::Real3;
+using verify::to_ellipsoid, verify::to_raw;
 
 constexpr double kU = 0x1p-53;
 
@@ -251,7 +251,8 @@ bool check_curvatures(Source& source, long count) {
   for (long i = 0; i < count; ++i) {
     const auto [pair, n] = source.touching();
     const ContactCurvature found = contact_curvature(pair.a, pair.b, n);
-    const auto shapes = separation(verify::real(verify::to_raw(pair.a)), verify::real(verify::to_raw(pair.b)));
+    const auto shapes =
+        separation(verify::real(verify::to_raw(pair.a)), verify::real(verify::to_raw(pair.b)));
     const Real3 up = unit({n[0], n[1], n[2]});
     int least;
     n.cwiseAbs().minCoeff(&least);
@@ -322,7 +323,8 @@ bool check_derivatives(Source& source, long count) {
       ++degenerate;
       continue;
     }
-    const testing::RealPair pair{verify::real(verify::to_raw(p.a)), verify::real(verify::to_raw(p.b))};
+    const testing::RealPair pair{verify::real(verify::to_raw(p.a)),
+                                 verify::real(verify::to_raw(p.b))};
     const auto truth_of = [&](const testing::RealPair& at) {
       return gradient_of(at,
                          stationary_gap(at.a, at.b, {gap.normal[0], gap.normal[1], gap.normal[2]}));
