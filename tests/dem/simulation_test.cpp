@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <tangency/dem/state_file.hpp>
 
@@ -168,13 +169,25 @@ TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
                         start.mass[i] * motion.gravity;
       forces.moment[i] = along * start.angular_velocity[i];
     }
+    // The power of the forces over the root of the energy: how far they are along the velocities.
+    const auto alignment = [&](const Particles& now) {
+      double power = 0.0;
+      for (std::size_t i = 0; i < now.size(); ++i)
+        power += (forces.force[i] + now.mass[i] * motion.gravity).dot(now.velocity[i]) +
+                 forces.moment[i].dot(now.angular_velocity[i]);
+      return power / std::sqrt(kinetic_energy(now));
+    };
     Particles p = start;
-    Fire fire;
+    Fire fire{0.05, 3};
     const double before = kinetic_energy_at(p, forces, motion, 0.01);
     const double taken = fire.steer(p, forces, motion, 0.01);
     EXPECT_NEAR(taken, before - kinetic_energy_at(p, forces, motion, 0.01), 1e-12 * before);
     EXPECT_LE(kinetic_energy(p), kinetic_energy(start) * (1.0 + 1e-12));
-    EXPECT_EQ(fire.downhill, along > 0.0 ? 1 : 0);
+    EXPECT_EQ(fire.downhill, along > 0.0 ? 4 : 0);
+    EXPECT_EQ(fire.mixing, along > 0.0 ? 0.05 : Fire().mixing) << "a new stretch begins anew";
+    if (across > 0.0) {
+      EXPECT_GT(alignment(p), (1.0 + 1e-6) * alignment(start)) << "turned towards the forces";
+    }
     return p;
   };
   EXPECT_GT(kinetic_energy(steered(1.0, 1.0)), 0.5 * kinetic_energy(start));

@@ -85,6 +85,14 @@ TEST(ShortestPeriod, IsNotThatOfTheHeightsWhereEdgesAreMovedByOthers) {
   EXPECT_LT(cell.heights().minCoeff(), 0.2);
 }
 
+/// No edge is shorter by any number of one other, and all three together are.
+TEST(ShortestPeriod, MayTakeAllThreeEdges) {
+  Cell cell = Cell::box(Vec3::Ones());
+  cell.edges << 10.0, -4.0, -4.0, 0.0, 9.0, -7.0, 0.0, 0.0, 6.0;
+  EXPECT_EQ(cell.translation(cell.shortest_period()).cwiseAbs(), Vec3(2.0, 2.0, 6.0));
+  EXPECT_NEAR(shortest_by_force(cell, 5), std::sqrt(44.0), 1e-12);
+}
+
 struct Touching {
   NeighbourList list;
   Contacts contacts;

@@ -203,6 +203,10 @@ TEST(Ellipsoid, BoundingBoxEnclosesInEveryRoundingModeAndAmongSubnormals) {
   std::vector<Ellipsoid> bodies{
       Ellipsoid({0, tiny, -tiny}, {tiny, 3 * tiny, 0x1p-1040}, {1, 2, 3, 4}),
       Ellipsoid({1, 1e300, -1e-300}, {tiny, 1e-300, 5}, {1, 2, 3, 4}),
+      // Half widths of a few units of the least number, where rounding is a large part of them.
+      Ellipsoid({0, 0, 0}, {5 * tiny, 9 * tiny, 3 * tiny}, {1, 2, 3, 4}),
+      Ellipsoid({0, 0, 0}, {40 * tiny, 7 * tiny, 23 * tiny}, {4, -1, 2, 1}),
+      Ellipsoid({0, 0, 0}, {11 * tiny, 13 * tiny, 2 * tiny}, {1, 1, -3, 2}),
       Ellipsoid({0.1, 0.7, -3}, {0.1, 0.3, 0.7}, {0.1, 0.2, 0.3, 0.4})};
   for (const auto& environment : testing::all_environments()) {
     for (const Ellipsoid& built : bodies) {

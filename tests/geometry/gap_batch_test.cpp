@@ -474,15 +474,20 @@ TEST(BodyArray, ThatWasMovedFromIsEmptyAndRefusesEveryIndex) {
 
 TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
   const Few f;
-  BodyArray of_vector(std::vector<Ellipsoid>{f.two});
+  std::optional<BodyArray> of_vector(std::vector<Ellipsoid>{f.two});
   const BodyArray of_array(std::array<Ellipsoid, 2>{f.two[0], f.two[1]});
-  const BodyArray moved(std::move(of_vector));
+  const BodyArray moved(std::move(*of_vector));
+  of_vector.reset();
   const BodyArray of_lvalue(f.two), of_span((std::span<const Ellipsoid>(f.two)));
   EXPECT_EQ(&of_lvalue[0], f.two.data());
   EXPECT_EQ(&of_span[0], f.two.data());
   for (const BodyArray* bodies : {&moved, &of_array}) {
     ASSERT_EQ(bodies->size(), 2u);
     EXPECT_NE(&(*bodies)[0], f.two.data());
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ((*bodies)[i].centre(), f.two[i].centre());  // kept, and by no one else
+      EXPECT_EQ((*bodies)[i].semi_axes(), f.two[i].semi_axes());
+    }
     std::vector<Gap> gaps(65);
     signed_gaps(*bodies, {f.pairs, {}}, gaps);
     expect_agreement(gaps[0], signed_gap(f.two[0], f.two[1]), 0);

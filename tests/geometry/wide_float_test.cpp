@@ -89,7 +89,8 @@ TEST(WideFloat, HoldsEveryDoubleExactlyAndGivesTheNearestBack) {
       EXPECT_EQ(static_cast<double>(WideFloat(v)), v) << environment.name;
     }
   }
-  EXPECT_EQ(static_cast<double>(WideFloat(1.0) / WideFloat(3.0)), 1.0 / 3.0);
+  EXPECT_EQ(static_cast<double>(WideFloat(1.0) / WideFloat(3.0)), 1.0 / 3.0);  // rounded down
+  EXPECT_EQ(static_cast<double>(WideFloat(1.0) / WideFloat(5.0)), 1.0 / 5.0);  // up
   EXPECT_EQ(static_cast<double>(WideFloat(kMost) * WideFloat(2.0)),
             std::numeric_limits<double>::infinity());
   EXPECT_EQ(static_cast<double>(WideFloat(kLeast) * WideFloat(kLeast)), 0.0);
