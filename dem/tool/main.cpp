@@ -28,8 +28,8 @@ constexpr const char* program_help = R"(
 constexpr const char* run_help = R"(
 DIR receives:
   history.csv        a row every history_interval cycles and at the end of each stage, where a
-                     stage that ends at once has strains of 0; first one of the start, in another
-                     DIR than before of the state that the run goes on from
+                     stage that ends at once has strains of 0; first one of the start, or of the
+                     state itself where a run that is over is resumed in another DIR
   summary.json       of a complete run: the values of its last row, and the keys below
   final.state        of a complete run: where another scene of the same particles goes on
   checkpoint.state   every checkpoint_interval cycles, every minute or

@@ -217,7 +217,7 @@ TEST(RunAgain, AFinishedStateInAnEmptyPlaceHasARowAndAReport) {
   const auto whole = lines_of(read_file(out + "/history.csv")),
              rows = lines_of(read_file(empty + "/history.csv"));
   ASSERT_EQ(rows.size(), 2u);
-  // The last row of the run, but for the energy error: no stage is left whose time step it is of.
+  // The last row of the run, but for the cycles of its stage, which the state has gone on from.
   EXPECT_EQ(rows[1].substr(0, rows[1].rfind(',')), whole.back().substr(0, whole.back().rfind(',')));
   const Finished report = run_tool({"report", empty});
   EXPECT_EQ(report.status, 0) << report.err;
