@@ -318,9 +318,10 @@ void run_overlaps(const Task& task, Answer* answers, const Doubtful& doubtful) {
 #endif
       gather(task, first, count, work);
       const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
+      Answer* const to = answers + first;  // a copy: bytes are written, which could be anything
       for (std::size_t i = 0; i < count; ++i) {
         const bool decided = (lanes.decided >> i & 1) != 0;
-        answers[first + i] = decided ? Answer((lanes.meet >> i & 1) != 0) : doubtful(first + i);
+        to[i] = decided ? Answer((lanes.meet >> i & 1) != 0) : doubtful(first + i);
       }
     }
   });
