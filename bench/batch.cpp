@@ -12,17 +12,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include <tangency/bench/level.hpp>
-#include <tangency/bench/moment_ago.hpp>
-#include <tangency/bench/ratio.hpp>
+#include <tangency/bench/instruction_set.hpp>
+#include <tangency/bench/moved_back.hpp>
+#include <tangency/bench/yardstick.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>

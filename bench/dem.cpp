@@ -13,8 +13,9 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <tangency/dem/simulation.hpp>
 #include <vector>
+
+#include <tangency/dem/simulation.hpp>
 
 namespace {
 

@@ -5,15 +5,17 @@
 // By class: cold with the certificate (signed_gap), cold without (estimate_gap), and warm
 // (follow_gap from the normal of a moment ago, when B was 1e-4 of the smallest semi-axis
 // away and turned by as much in rad).
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
 
-#include <tangency/bench/moment_ago.hpp>
-#include <tangency/bench/ratio.hpp>
+#include <tangency/bench/moved_back.hpp>
+#include <tangency/bench/yardstick.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>

@@ -7,10 +7,13 @@
 // DIR/samples.csv has a row a sample: the periodic cell's edges, and what to expect of it.
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <exception>
 #include <iostream>
 #include <string>
-#include <tangency/dem/files.hpp>
+
 #include <tangency/dem/simulation.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 namespace {
 

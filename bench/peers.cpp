@@ -8,20 +8,22 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <tangency/bench/level.hpp>
+#include <tangency/bench/instruction_set.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
-#include <tangency/bench/ratio.hpp>
+#include <tangency/bench/yardstick.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>

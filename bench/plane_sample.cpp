@@ -14,15 +14,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
-#include <tangency/geometry/methods/trace_scheme.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/trace/scheme.hpp>
 #include <tangency/geometry/trace_contact.hpp>
-#include <vector>
 
 namespace {
 
@@ -95,8 +97,8 @@ double trace_depth(const Ellipse& a, const Ellipse& b, const Vec2& d) {
 }
 
 double single_trace_depth(const Ellipse& a, const Ellipse& b, const Vec2& d) {
-  const auto trace = methods::trace_scheme<float>(
-      methods::trace_body<float>(spheroid_of(a)), methods::trace_body<float>(spheroid_of(b)),
+  const auto trace = detail::trace_scheme<float>(
+      detail::trace_body<float>(spheroid_of(a)), detail::trace_body<float>(spheroid_of(b)),
       Vec3(d[0], d[1], 0.0).cast<float>(), {.turned_to_the_pair = false});
   return trace.status == TraceStatus::ok ? -static_cast<double>(trace.gap) : std::nan("");
 }

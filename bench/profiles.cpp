@@ -14,11 +14,12 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
+
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/displacement.hpp>
-#include <vector>
 
 namespace {
 
@@ -38,14 +39,14 @@ std::optional<double> by_trace(const Ellipsoid& a, const Ellipsoid& b) {
   return -contact.gap;
 }
 
-constexpr double parallel = 1e-12;  // rad: rounding of stored axes and centres, generously
+constexpr double kParallel = 1e-12;  // rad: rounding of stored axes and centres, generously
 
 /// The section of a body by the plane through its centre along e1 and e2, two of its own axes but
 /// for sign and order; nothing where they are not.
 std::optional<Ellipse> section(const Ellipsoid& body, const Vec3& e1, const Vec3& e2) {
   const Vec3 across = e1.cross(e2);
   for (int k = 0; k < 3; ++k) {
-    if (body.rotation().col(k).cross(across).norm() > parallel) continue;
+    if (body.rotation().col(k).cross(across).norm() > kParallel) continue;
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     const Vec3 first = body.rotation().col(i), &centre = body.centre();
     return Ellipse({centre.dot(e1), centre.dot(e2)}, {body.semi_axes()[i], body.semi_axes()[j]},
@@ -59,7 +60,7 @@ std::optional<double> by_chord(const Ellipsoid& a, const Ellipsoid& b) {
   const Vec3 d = b.centre() - a.centre();
   for (int k = 0; k < 3; ++k) {
     const auto axes = a.rotation();
-    if (std::abs(axes.col(k).dot(d)) > parallel * d.norm()) continue;
+    if (std::abs(axes.col(k).dot(d)) > kParallel * d.norm()) continue;
     const Vec3 e1 = axes.col((k + 1) % 3), e2 = axes.col((k + 2) % 3);
     const std::optional<Ellipse> in_a = section(a, e1, e2), in_b = section(b, e1, e2);
     if (!in_a || !in_b) continue;
@@ -69,11 +70,11 @@ std::optional<double> by_chord(const Ellipsoid& a, const Ellipsoid& b) {
   return std::nullopt;
 }
 
-constexpr std::array<Scheme, 2> schemes{{{"trace", by_trace}, {"chord", by_chord}}};
+constexpr std::array<Scheme, 2> kSchemes{{{"trace", by_trace}, {"chord", by_chord}}};
 
-constexpr double short_over_long = 0.7;  // the thesis' spheroids
-constexpr double initial_overlap = 0.02;
-constexpr int steps = 40;  // either way
+constexpr double kShortOverLong = 0.7;  // the thesis' spheroids
+constexpr double kInitialOverlap = 0.02;
+constexpr int kSteps = 40;  // either way
 
 /// The largest motion either way, chosen so that overlap, loss of contact and the departure from
 /// the expansion all show: in short semi-axes, in radians for the rotation.
@@ -89,8 +90,8 @@ std::vector<Sample> follow(const families::DisplacementContact& contact, Motion 
                            double end) {
   std::vector<Sample> samples;
   Vec3 normal = contact.normal;
-  for (int i = 1; i <= steps; ++i) {
-    const double displacement = end * i / steps;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double displacement = end * i / kSteps;
     const Ellipsoid b = displaced(contact, motion, displacement);
     const Gap gap = follow_gap(contact.a, b, b.centre() - contact.a.centre(), normal);
     samples.push_back({displacement, -gap.gap, gap.status});
@@ -123,10 +124,10 @@ std::string text_of(double value) {
 
 int main() {
   std::cout << "contact,motion,displacement,overlap,expected,published,status";
-  for (const Scheme& scheme : schemes) std::cout << ',' << scheme.name;
+  for (const Scheme& scheme : kSchemes) std::cout << ',' << scheme.name;
   std::cout << '\n';
-  for (const auto& contact : families::displacement_contacts(short_over_long, initial_overlap)) {
-    for (const Motion motion : families::motions) {
+  for (const auto& contact : families::displacement_contacts(kShortOverLong, kInitialOverlap)) {
+    for (const Motion motion : families::kMotions) {
       const families::OverlapExpansion expansion = expected_overlap(contact, motion);
       for (const Sample& sample : profile(contact, motion)) {
         const double s = sample.displacement;
@@ -137,7 +138,7 @@ int main() {
                   << text_of(published_overlap(contact, motion, s)) << ','
                   << name_of(sample.status);
         const Ellipsoid b = displaced(contact, motion, s);
-        for (const Scheme& scheme : schemes) {
+        for (const Scheme& scheme : kSchemes) {
           const std::optional<double> overlap = scheme.overlap(contact.a, b);
           std::cout << ',' << (overlap ? text_of(*overlap) : "");
         }

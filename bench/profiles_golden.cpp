@@ -13,8 +13,9 @@
 #include <cstdio>
 #include <iostream>
 #include <string>
-#include <tangency/geometry/methods/trace_scheme.hpp>
+
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/trace/scheme.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/displacement.hpp>
 #include <tangency/verify/oracles/gap.hpp>
@@ -43,8 +44,8 @@ void write_body(const Ellipsoid& e) {
 std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
   if (relation(a, b).relation != Relation::overlap) return {};
   using Real = long double;
-  const auto found = methods::trace_scheme<Real>(
-      methods::trace_body<Real>(a), methods::trace_body<Real>(b), b.centre().cast<Real>(), {});
+  const auto found = detail::trace_scheme<Real>(
+      detail::trace_body<Real>(a), detail::trace_body<Real>(b), b.centre().cast<Real>(), {});
   if (found.status != TraceStatus::ok) return {};
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.11Le", -found.gap);
@@ -68,7 +69,7 @@ int main() {
   }
   std::cout << "contact,motion,displacement,overlap,trace\n";
   for (const auto& contact : families::displacement_contacts(kShortOverLong, kOverlap)) {
-    for (const families::Motion motion : families::motions) {
+    for (const families::Motion motion : families::kMotions) {
       for (int step = -kSteps; step <= kSteps; ++step) {
         const double s = displacement_of(motion, step);
         const Ellipsoid b = displaced(contact, motion, s);

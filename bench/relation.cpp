@@ -7,16 +7,18 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <tangency/bench/ratio.hpp>
-#include <tangency/geometry/exact/pair_quartic.hpp>
-#include <tangency/geometry/methods/overlap_filter.hpp>
+#include <tangency/bench/yardstick.hpp>
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/relation/exact_pair.hpp>
+#include <tangency/geometry/relation/overlap_filter.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
@@ -116,7 +118,7 @@ int main(int argc, char** argv) {
     add(
         "filter_alone_gap_above_1e-6/" + family.name, family,
         [](const Ellipsoid& a, const Ellipsoid& b) {
-          return tangency::methods::OverlapFilter(a, b, b.centre() - a.centre()).answer();
+          return tangency::detail::OverlapFilter(a, b, b.centre() - a.centre()).answer();
         },
         0);
     add(

@@ -4,24 +4,27 @@
 // that promises no wrong answer has one, the program names the pair and ends with status 1.
 // docs/speed-accuracy.md says how it was run and what came out.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include <tangency/bench/level.hpp>
-#include <tangency/bench/speed_accuracy/ahead.hpp>
+#include <tangency/bench/instruction_set.hpp>
 #include <tangency/bench/speed_accuracy/count.hpp>
 #include <tangency/bench/speed_accuracy/methods.hpp>
+#include <tangency/bench/speed_accuracy/overlaps_first.hpp>
 #include <tangency/bench/speed_accuracy/picture.hpp>
 #include <tangency/bench/speed_accuracy/report.hpp>
 #include <tangency/bench/speed_accuracy/timing.hpp>
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 
 namespace {
 

@@ -13,22 +13,26 @@
 //   4. Rounding: float and double against long double.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
-#include <tangency/geometry/methods/trace_scheme.hpp>
+#include <vector>
+
+#include <tangency/geometry/trace/scheme.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <vector>
 
 namespace {
 
 using namespace tangency;
+using detail::TraceFound;
+using detail::TraceOptions;
 using families::ContactFamily;
-using methods::TraceFound;
-using methods::TraceOptions;
 
 constexpr std::uint64_t kSeed = 20261122;
 constexpr int kPairs = 2000;
@@ -89,8 +93,8 @@ std::vector<ContactFamily> all_families() {
 
 template <class Real = double>
 TraceFound<Real> scheme(const Ellipsoid& a, const Ellipsoid& b, const TraceOptions& options = {}) {
-  return methods::trace_scheme<Real>(methods::trace_body<Real>(a), methods::trace_body<Real>(b),
-                                     (b.centre() - a.centre()).cast<Real>(), options);
+  return detail::trace_scheme<Real>(detail::trace_body<Real>(a), detail::trace_body<Real>(b),
+                                    (b.centre() - a.centre()).cast<Real>(), options);
 }
 
 /// Of a list in any order; of an empty one nan.

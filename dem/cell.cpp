@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/cell.hpp>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
-#include <tangency/dem/cell.hpp>
 #include <vector>
 
 namespace tangency::dem {

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+
 #include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::dem {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <tangency/dem/contact_law.hpp>
+
+#include <algorithm>
 
 namespace tangency::dem {
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+
 #include <tangency/dem/hertz.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/ellipsoid.hpp>

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/contacts.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tangency/dem/contacts.hpp>
+#include <cstdint>
+#include <span>
+#include <utility>
+
 #include <tangency/dem/parallel.hpp>
 
 namespace tangency::dem {
@@ -10,7 +15,7 @@ namespace {
 
 /// A normal that turns by more in a step has gone over to another branch: its cosine. Chosen: 26
 /// degrees, where a step turns neighbours by a hundredth of that.
-constexpr double same_branch = 0.9;
+constexpr double kSameBranch = 0.9;
 
 std::size_t type_of(const Particles& particles, std::int32_t body, std::size_t walls) {
   const auto i = static_cast<std::size_t>(body);
@@ -70,7 +75,7 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
   const Step step{particles, cell, list.pairs(), laws, dt, branch};
   const std::size_t blocks = (step.pairs.size() + Bodies::block - 1) / Bodies::block;
   work_.assign(blocks, {});
-#pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= worth_sharing)
+#pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= kWorthSharing)
   for (std::size_t k = 0; k < blocks; ++k) update_block(k, step);
   add_up(list, particles.size());
   ContactWork sum;
@@ -136,7 +141,7 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
   work.sliding += sliding;
   work.boundary -= mean_force.dot(strained);
   if (!touches || !touched) return;
-  if (before.normal.dot(contact.normal) < same_branch)
+  if (before.normal.dot(contact.normal) < kSameBranch)
     work.branch += stored(contact) - stored(before) + sliding + mean_force.dot(moved);
   else if (law.hertz)
     work.branch += gained_by_curvature(before, contact);
@@ -162,7 +167,7 @@ void Contacts::restore(std::vector<Contact> records, const Particles& particles,
 void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
   resultants_.force.resize(particles);
   resultants_.moment.resize(particles);
-#pragma omp parallel for schedule(static) if (particles >= worth_sharing)
+#pragma omp parallel for schedule(static) if (particles >= kWorthSharing)
   for (std::size_t i = 0; i < particles; ++i) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {

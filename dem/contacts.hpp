@@ -7,11 +7,13 @@
 /// writes its own record and each particle adds its own pairs in the order of the list.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
-#include <tangency/dem/contact_law.hpp>
-#include <tangency/dem/neighbours.hpp>
-#include <tangency/dem/touches.hpp>
 #include <vector>
+
+#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/narrow_phase.hpp>
+#include <tangency/dem/neighbours.hpp>
 
 namespace tangency::dem {
 

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+
 #include <tangency/dem/motion.hpp>
 
 namespace tangency::dem {

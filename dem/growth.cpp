@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/growth.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <tangency/dem/growth.hpp>
 
 namespace tangency::dem {
 

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+
 #include <tangency/dem/particles.hpp>
 
 namespace tangency::dem {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/hertz.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tangency/dem/hertz.hpp>
 #include <utility>
 
 namespace tangency::dem {

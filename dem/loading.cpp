@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/loading.hpp>
+
 #include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
-#include <tangency/dem/loading.hpp>
 
 namespace tangency::dem {
 namespace {
 
 /// The integral part works this much slower than the proportional one; 4 would be critical damping
 /// of the two on a pure spring, more keeps them apart while the particles' own motion lags behind.
-constexpr double integral_slowness = 20.0;
+constexpr double kIntegralSlowness = 20.0;
 
 /// Unit tensor of the axes that strain.
 Mat3 unit(int dimensions) { return Vec3(1.0, 1.0, dimensions == 3 ? 1.0 : 0.0).asDiagonal(); }
@@ -70,7 +72,7 @@ double Servo::rate(const Target& target, const Stress& measured, double dt,
   const double wanted = gain * (error + memory.integral) / dt;
   const double allowed = std::clamp(wanted, -max_strain_rate, max_strain_rate);
   // No wind-up: the integral rests while the rate is at its bound.
-  if (integral && allowed == wanted) memory.integral += gain / integral_slowness * error;
+  if (integral && allowed == wanted) memory.integral += gain / kIntegralSlowness * error;
   return -allowed;
 }
 
@@ -95,7 +97,7 @@ void Loading::watch(const Stress& measured, bool on_arrival,
   if (!(scale > 0.0)) return;
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const double off = (targets[k].measured(measured) - targets[k].wanted) / scale;
-    const bool held = std::abs(off) <= held_within;
+    const bool held = std::abs(off) <= kHeldWithin;
     ServoMemory& seen = memory[k];
     if (on_arrival && seen.watched == 0 && !held) continue;
     ++seen.watched;

@@ -10,8 +10,9 @@
 #pragma once
 
 #include <cstdint>
-#include <tangency/dem/observe.hpp>
 #include <vector>
+
+#include <tangency/dem/observe.hpp>
 
 namespace tangency::dem {
 
@@ -47,12 +48,12 @@ struct ServoMemory {
   double rate = 0.0;      ///< of the published servo, 1/time
   // How the target was held, in the cycles that count (Loading::watch):
   std::int64_t watched = 0;
-  std::int64_t missed = 0;  ///< those in which it was off by more than held_within
+  std::int64_t missed = 0;  ///< those in which it was off by more than kHeldWithin
   double worst = 0.0;       ///< how far it was off where that was largest, relative; above: > 0
 };
 
 /// A stress is held while it is this close to the wanted, relatively.
-inline constexpr double held_within = 0.01;
+inline constexpr double kHeldWithin = 0.01;
 
 struct Servo {
   double gain = 0.5;             ///< share of the error removed a cycle, in (0, 1)
@@ -83,7 +84,7 @@ struct Loading {
 
   /// Notes how far each target is off, relative to the largest wanted stress, or to the mean stress
   /// where only directions are held.
-  /// @param on_arrival  a target counts only from when it is first within held_within
+  /// @param on_arrival  a target counts only from when it is first within kHeldWithin
   void watch(const Stress& measured, bool on_arrival, std::vector<ServoMemory>& memory) const;
 
   /// Can the targets be met one by one: is none a combination of the others?

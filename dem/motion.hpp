@@ -15,6 +15,7 @@
 #pragma once
 
 #include <stdexcept>
+
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
 

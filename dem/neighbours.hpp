@@ -13,9 +13,12 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
-#include <vector>
 
 namespace tangency::dem {
 

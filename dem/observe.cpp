@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/observe.hpp>
+
 #include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tangency/dem/observe.hpp>
 
 namespace tangency::dem {
 namespace {

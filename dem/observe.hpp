@@ -11,9 +11,10 @@
 
 #include <cstdint>
 #include <string>
-#include <tangency/dem/contacts.hpp>
 #include <variant>
 #include <vector>
+
+#include <tangency/dem/contacts.hpp>
 
 namespace tangency::dem {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/particles.hpp>
+
 #include <cmath>
 #include <numbers>
-#include <tangency/dem/particles.hpp>
 
 namespace tangency::dem {
 

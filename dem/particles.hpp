@@ -12,9 +12,11 @@
 /// (leapfrog).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <tangency/geometry/ellipsoid.hpp>
 #include <vector>
+
+#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::dem {
 

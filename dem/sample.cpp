@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/sample.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <sstream>
 #include <string>
-#include <tangency/dem/sample.hpp>
+#include <utility>
+
 #include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::dem {
@@ -27,10 +31,10 @@ std::vector<std::int32_t> shuffled_kinds(const std::vector<Batch>& batches, std:
 }
 
 /// Sites that a lattice may have: a nearly empty one would only waste memory. Chosen.
-constexpr double most_sites = 1e8;
+constexpr double kMostSites = 1e8;
 
 /// Relative gap that keeps rounding from making neighbours overlap. Chosen.
-constexpr double clearance = 1e-6;
+constexpr double kClearance = 1e-6;
 
 /// The cell and its number of sites along each edge.
 struct Lattice {
@@ -46,7 +50,7 @@ Lattice lattice_for(const std::vector<Batch>& batches, const Placement& how) {
     largest = std::max(largest, batch.shape.semi_axes(how.dimensions).maxCoeff());
   }
   // Jitter moves two neighbours towards each other by up to twice its size along an edge.
-  const double spacing = 2.0 * (largest + how.jitter) * (1.0 + clearance);
+  const double spacing = 2.0 * (largest + how.jitter) * (1.0 + kClearance);
   const bool plane = how.dimensions == 2;
   if (!how.cell_size) {
     std::int64_t edge = 1;
@@ -60,13 +64,13 @@ Lattice lattice_for(const std::vector<Batch>& batches, const Placement& how) {
   room << "a " << (plane ? "square" : "cubic") << " lattice in it has " << sites.prod() << " sites";
   if (sites.prod() < static_cast<double>(particles))
     throw DoesNotFit(room.str() + ", fewer than the " + std::to_string(particles) + " particles");
-  if (sites.prod() > most_sites) throw DoesNotFit(room.str() + ", more than 1e8");
+  if (sites.prod() > kMostSites) throw DoesNotFit(room.str() + ", more than 1e8");
   return {*how.cell_size, sites.cast<std::int64_t>()};
 }
 
 /// Draws before random placement gives up on a particle. Chosen: of a thousand equal ones at the
 /// largest bounding fraction, none took more than 500 in the plane and 1500 in space.
-constexpr int most_draws = 100000;
+constexpr int kMostDraws = 100000;
 
 double bounding_volume(double radius, int dimensions) {
   return volume_of(Vec3::Constant(radius), dimensions);
@@ -89,12 +93,12 @@ Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
   std::ostringstream room;
   const char* spheres = how.dimensions == 2 ? "bounding circles" : "bounding spheres";
   const double filled = volume / edges.prod();
-  const double most = largest_bounding_fraction(how.dimensions) * (1.0 + clearance);
+  const double most = largest_bounding_fraction(how.dimensions) * (1.0 + kClearance);
   if (!(filled <= most)) {
     room << spheres << " would fill " << filled << " of it, more than " << most;
     throw DoesNotFit(room.str());
   }
-  if (!(edges.head(how.dimensions).minCoeff() > 2.0 * largest * (1.0 + clearance))) {
+  if (!(edges.head(how.dimensions).minCoeff() > 2.0 * largest * (1.0 + kClearance))) {
     room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
     throw DoesNotFit(room.str());
   }
@@ -134,7 +138,7 @@ class PlacedSpheres {
   bool meet(const Sphere& other, const Vec3& x, double radius) const {
     Vec3 d = other.centre - x;
     d.array() -= edges_.array() * (d.array() / edges_.array()).round();
-    const double apart = (radius + other.radius) * (1.0 + clearance);
+    const double apart = (radius + other.radius) * (1.0 + kClearance);
     return d.squaredNorm() < apart * apart;
   }
   Sites box_of(const Vec3& x) const {
@@ -268,15 +272,15 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
   particles.dimensions = how.dimensions;
   for (const std::size_t k : order) {
     const Vec3 axes = axes_of(k);
-    const double radius = axes.maxCoeff() * (1.0 + clearance);  // away from walls
+    const double radius = axes.maxCoeff() * (1.0 + kClearance);  // away from walls
     for (std::size_t i = 0; i < batches[k].count; ++i) {
       Vec3 centre = Vec3::Zero();
       int draws = 0;
       do {
-        if (++draws > most_draws)
+        if (++draws > kMostDraws)
           throw DoesNotFit("random placement found no room for particle " +
                            std::to_string(particles.size() + 1) + " in " +
-                           std::to_string(most_draws) + " draws; another seed may");
+                           std::to_string(kMostDraws) + " draws; another seed may");
         for (int axis = 0; axis < how.dimensions; ++axis)
           centre[axis] = how.walled[static_cast<std::size_t>(axis)]
                              ? radius + (edges[axis] - 2.0 * radius) * uniform(random)

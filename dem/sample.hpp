@@ -3,13 +3,17 @@
 /// Where particles start from.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <random>
 #include <span>
 #include <stdexcept>
+#include <vector>
+
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
-#include <vector>
 
 namespace tangency::dem {
 

@@ -5,9 +5,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_model.hpp>
-#include <vector>
 
 namespace tangency::dem {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/scene_keys.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <ostream>
 #include <sstream>
-#include <tangency/dem/scene_keys.hpp>
 #include <vector>
 
 namespace tangency::dem {
@@ -13,88 +14,88 @@ namespace {
 
 using enum KeyType;
 
-constexpr Range any{};
-constexpr Range ratio{.low = 0.0, .high = 1.0};
+constexpr Range kAny{};
+constexpr Range kRatio{.low = 0.0, .high = 1.0};
 constexpr Range between(double low, double high) { return {low, high, true, true}; }
 constexpr Range above_to(double low, double high) { return {low, high, false, true}; }
 
 /// Chosen: 32-bit indices hold them, and a run of more needs another program.
-constexpr double most_particles = 1e6;
-constexpr double most_cycles = 1e12;
-constexpr double most_increments = 1e6;
+constexpr double kMostParticles = 1e6;
+constexpr double kMostCycles = 1e12;
+constexpr double kMostIncrements = 1e6;
 /// What has a unit. Chosen: no laboratory comes near these bounds, and within them masses, moments
 /// of inertia, sqrt(m/K) and its inverse are normal doubles, at most 1e200 and at least 1e-200.
-constexpr Range positive = between(1e-30, 1e30);
-constexpr Range not_negative = between(0.0, 1e30);
-constexpr Range any_size = between(-1e30, 1e30);
+constexpr Range kPositive = between(1e-30, 1e30);
+constexpr Range kNotNegative = between(0.0, 1e30);
+constexpr Range kAnySize = between(-1e30, 1e30);
 /// Of semi-axes. Chosen: two of them make a needle or a disk of 1e8.
-constexpr Range axis_ratio = between(1.0, 1e4);
+constexpr Range kAxisRatio = between(1.0, 1e4);
 /// Measured on shear tests of one sample at steps growing from 0.05 sqrt(m/K_n): a step above
 /// 0.3 sqrt(m/K_n) does not blow up. The servo hides that the motion is wrong, and the peak
 /// friction angle silently falls from 44 to 33 degrees.
-constexpr double largest_time_step_factor = 0.3;
+constexpr double kLargestTimeStepFactor = 0.3;
 
-constexpr std::string_view kinds = "place compress grow relax unload shear servo";
-constexpr std::string_view moving = "compress grow relax unload shear servo";
-constexpr std::string_view isotropic = "compress grow relax unload";
+constexpr std::string_view kKinds = "place compress grow relax unload shear servo";
+constexpr std::string_view kMoving = "compress grow relax unload shear servo";
+constexpr std::string_view kIsotropic = "compress grow relax unload";
 
-constexpr std::array table{
+constexpr std::array kTable{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
 
-    Key{"cell", "size", real3, "m", "(as the placing needs)", positive, "", "",
+    Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
     Key{"cell", "dimensions", integer, "-", "3", between(2, 3), "", "",
         "2: elliptic disks of unit thickness in the plane z = 0; a size then has 1 along z"},
-    Key{"cell", "walls", text, "-", "none", any, "none x y z xy xz yz xyz", "",
+    Key{"cell", "walls", text, "-", "none", kAny, "none x y z xy xz yz xyz", "",
         "Axes whose two faces are plane walls; the others are periodic"},
 
-    Key{"motion", "gravity", real3, "m/s^2", "(0)", any_size, "", "", "Acceleration"},
-    Key{"motion", "rotation", text, "-", "full", any, "none simplified full", "",
+    Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySize, "", "", "Acceleration"},
+    Key{"motion", "rotation", text, "-", "full", kAny, "none simplified full", "",
         "Euler's equations: full, without their quadratic terms, or none at all"},
-    Key{"motion", "contacts", text, "-", "follow", any, "follow global", "",
+    Key{"motion", "contacts", text, "-", "follow", kAny, "follow global", "",
         "Of several ways out of an overlap: that of the step before, or the shortest"},
 
-    Key{"particles", "count", integer, "-", "", between(1, most_particles), "", "",
+    Key{"particles", "count", integer, "-", "", between(1, kMostParticles), "", "",
         "Number of particles of this type"},
-    Key{"particles", "mean_radius", real, "m", "", positive, "", "",
+    Key{"particles", "mean_radius", real, "m", "", kPositive, "", "",
         "Geometric mean of the semi-axes a >= b >= c, in the plane of a and b"},
-    Key{"particles", "elongation", real, "-", "1.0", axis_ratio, "", "", "a / b"},
-    Key{"particles", "flatness", real, "-", "1.0", axis_ratio, "", "", "b / c; 1 in the plane"},
-    Key{"particles", "density", real, "kg/m^3", "1000.0", positive, "", "",
+    Key{"particles", "elongation", real, "-", "1.0", kAxisRatio, "", "", "a / b"},
+    Key{"particles", "flatness", real, "-", "1.0", kAxisRatio, "", "", "b / c; 1 in the plane"},
+    Key{"particles", "density", real, "kg/m^3", "1000.0", kPositive, "", "",
         "Mass over volume; scales time, and nothing else in slow motion"},
 
-    Key{"body", "type", text, "-", "", any, "", "", "Name of a particle type"},
-    Key{"body", "position", real3, "m", "", any_size, "", "", "Centre"},
-    Key{"body", "orientation", real4, "-", "(1, 0, 0, 0)", any_size, "", "",
+    Key{"body", "type", text, "-", "", kAny, "", "", "Name of a particle type"},
+    Key{"body", "position", real3, "m", "", kAnySize, "", "", "Centre"},
+    Key{"body", "orientation", real4, "-", "(1, 0, 0, 0)", kAnySize, "", "",
         "Quaternion w, x, y, z, not 0, of any length; in the plane about z"},
-    Key{"body", "velocity", real3, "m/s", "(0)", any_size, "", "", "Relative to the strain"},
-    Key{"body", "angular_velocity", real3, "1/s", "(0)", any_size, "", "", "In space axes"},
+    Key{"body", "velocity", real3, "m/s", "(0)", kAnySize, "", "", "Relative to the strain"},
+    Key{"body", "angular_velocity", real3, "1/s", "(0)", kAnySize, "", "", "In space axes"},
 
-    Key{"contact", "law", text, "-", "linear", any, "linear hertz", "",
+    Key{"contact", "law", text, "-", "linear", kAny, "linear hertz", "",
         "hertz: elliptic contacts by Hertz and Mindlin, from curvatures and material"},
-    Key{"contact", "normal_stiffness", real, "N/m", "(needed by linear)", positive, "", "",
+    Key{"contact", "normal_stiffness", real, "N/m", "(needed by linear)", kPositive, "", "",
         "K_n: normal force over overlap"},
-    Key{"contact", "shear_stiffness", real, "N/m", "(normal_stiffness)", not_negative, "", "",
+    Key{"contact", "shear_stiffness", real, "N/m", "(normal_stiffness)", kNotNegative, "", "",
         "K_s: shear force over shear displacement"},
-    Key{"contact", "friction_coefficient", real, "-", "0.0", not_negative, "", "",
+    Key{"contact", "friction_coefficient", real, "-", "0.0", kNotNegative, "", "",
         "tan(phi): slope of the Coulomb limit of the shear force"},
-    Key{"contact", "young_modulus", real, "Pa", "(needed by hertz)", positive, "", "",
+    Key{"contact", "young_modulus", real, "Pa", "(needed by hertz)", kPositive, "", "",
         "hertz: E of both bodies"},
     Key{"contact", "poisson_ratio", real, "-", "0.3", between(0.0, 0.5), "", "",
         "hertz: nu of both bodies"},
     Key{"contact", "largest_overlap", real, "mean_radius", "0.02", above_to(0.0, 0.2), "", "",
         "hertz: overlap, of the smaller radius, up to which the time step is right"},
-    Key{"contact", "cohesion", real, "N", "0.0", not_negative, "", "",
+    Key{"contact", "cohesion", real, "N", "0.0", kNotNegative, "", "",
         "Coulomb limit without a normal force"},
 
-    Key{"stage", "kind", text, "-", "", any, kinds, kinds, "What the stage does"},
-    Key{"stage", "name", text, "-", "(its kind)", any, "", kinds,
+    Key{"stage", "kind", text, "-", "", kAny, kKinds, kKinds, "What the stage does"},
+    Key{"stage", "name", text, "-", "(its kind)", kAny, "", kKinds,
         "Name in the column stage of history.csv"},
-    Key{"stage", "arrangement", text, "-", "lattice", any, "lattice random explicit", "place",
+    Key{"stage", "arrangement", text, "-", "lattice", kAny, "lattice random explicit", "place",
         "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
         "[[body]] "
         "by [[body]]"},
-    Key{"stage", "file", path, "-", "(the scene's [[body]])", any, "", "place",
+    Key{"stage", "file", path, "-", "(the scene's [[body]])", kAny, "", "place",
         "explicit: a table of bodies instead, beside the scene: CSV with type, x, y, z and, if so "
         "wanted, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
     Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
@@ -103,53 +104,53 @@ constexpr std::array table{
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
     Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
         "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
-    Key{"stage", "mean_stress", real, "Pa", "", positive, "", isotropic,
+    Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kIsotropic,
         "Mean stress to reach (compress) or to hold (grow, relax, unload)"},
-    Key{"stage", "mean_stress", real, "Pa", "(not held)", positive, "", "shear servo",
+    Key{"stage", "mean_stress", real, "Pa", "(not held)", kPositive, "", "shear servo",
         "Mean stress to hold; a shear that holds none keeps its volume"},
-    Key{"stage", "lateral_stress", real, "Pa", "(not held)", positive, "", "shear",
+    Key{"stage", "lateral_stress", real, "Pa", "(not held)", kPositive, "", "shear",
         "Stress to hold along the lateral axes, instead of a mean stress"},
-    Key{"stage", "axial_strain_rate", real, "1/s", "", positive, "", "shear",
+    Key{"stage", "axial_strain_rate", real, "1/s", "", kPositive, "", "shear",
         "Compression along z (in the plane y); the lateral axes extend at constant volume but for "
         "what is held"},
     Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
         "Logarithmic axial compression at which the stage ends"},
-    Key{"stage", "strain_rate", real3, "1/s", "(0)", any_size, "", "servo",
+    Key{"stage", "strain_rate", real3, "1/s", "(0)", kAnySize, "", "servo",
         "Along x, y, z, compression positive; servos add to it"},
-    Key{"stage", "shear_rate", real3, "1/s", "(0)", any_size, "", "servo",
+    Key{"stage", "shear_rate", real3, "1/s", "(0)", kAnySize, "", "servo",
         "Components xy, yz, zx of the strain rate, of the same sign"},
-    Key{"stage", "stress_xx", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
-    Key{"stage", "stress_yy", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
-    Key{"stage", "stress_zz", real, "Pa", "(not held)", not_negative, "", "servo", "To hold"},
-    Key{"stage", "plane_mean_stress", real, "Pa", "(not held)", positive, "", "servo",
+    Key{"stage", "stress_xx", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
+    Key{"stage", "stress_yy", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
+    Key{"stage", "stress_zz", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
+    Key{"stage", "plane_mean_stress", real, "Pa", "(not held)", kPositive, "", "servo",
         "(s_xx + s_yy) / 2 to hold"},
     Key{"stage", "major_direction", real, "degrees", "(not held)", between(-90.0, 90.0), "",
         "servo",
         "Of a principal stress in the plane of z and x (in the plane y and x), from z towards x"},
-    Key{"stage", "duration", integer, "cycles", "", between(1, most_cycles), "", "servo",
+    Key{"stage", "duration", integer, "cycles", "", between(1, kMostCycles), "", "servo",
         "The stage ends after so many"},
-    Key{"stage", "elongation", real, "-", "", axis_ratio, "", "grow",
+    Key{"stage", "elongation", real, "-", "", kAxisRatio, "", "grow",
         "a / b at the end, of all types; mean radii and masses stay"},
-    Key{"stage", "flatness", real, "-", "(as it is)", axis_ratio, "", "grow",
+    Key{"stage", "flatness", real, "-", "(as it is)", kAxisRatio, "", "grow",
         "b / c at the end, of all types; 1 in the plane"},
-    Key{"stage", "increments", integer, "-", "200", between(1, most_increments), "", "grow",
+    Key{"stage", "increments", integer, "-", "200", between(1, kMostIncrements), "", "grow",
         "Steps in which elongation and flatness change; one changes a semi-axis by at most 0.01"},
     Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
         "Increments wait for the inertial fraction to be at most this, and so does the end"},
-    Key{"stage", "max_strain_rate", real, "1/s", "", positive, "", isotropic,
+    Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kIsotropic,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
-    Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", positive, "", "shear",
+    Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", kPositive, "", "shear",
         "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
         "0.05, or axial_strain_rate where that is more"},
-    Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", positive, "", "servo",
-        "The same"},
-    Key{"stage", "servo_gain", real, "-", "0.5", ratio, "", "shear servo",
+    Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", kPositive, "",
+        "servo", "The same"},
+    Key{"stage", "servo_gain", real, "-", "0.5", kRatio, "", "shear servo",
         "Share of the stress error that the servo removes in a cycle"},
-    Key{"stage", "servo_gain", real, "-", "0.2", ratio, "", "relax unload",
+    Key{"stage", "servo_gain", real, "-", "0.2", kRatio, "", "relax unload",
         "The same; slower, since cell and particles come to rest together"},
-    Key{"stage", "servo_gain", real, "-", "0.005", ratio, "", "compress grow",
+    Key{"stage", "servo_gain", real, "-", "0.005", kRatio, "", "compress grow",
         "The same; still slower, since these pass through states that hardly bear stress"},
-    Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", positive, "", moving,
+    Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", kPositive, "", kMoving,
         "Gain of the published servo instead: the rate grows by it times the stress error each "
         "cycle; it rings"},
     Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "",
@@ -160,24 +161,24 @@ constexpr std::array table{
         "The same; without: velocities are turned towards the forces, and taken away where they "
         "run against them, by the fast inertial relaxation engine"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
-        above_to(0.0, largest_time_step_factor), "", moving, "Time step of a cycle"},
-    Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", not_negative, "",
+        above_to(0.0, kLargestTimeStepFactor), "", kMoving, "Time step of a cycle"},
+    Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", kNotNegative, "",
         "compress relax shear servo", "Used for all contacts during this stage"},
-    Key{"stage", "friction_coefficient", real, "-", "0.0", not_negative, "", "grow unload",
+    Key{"stage", "friction_coefficient", real, "-", "0.0", kNotNegative, "", "grow unload",
         "Used for all contacts during this stage"},
-    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", isotropic,
+    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", kIsotropic,
         "The stage ends with the mean stress this close to the wanted, relatively"},
     Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax unload",
         "The stage ends with every particle's unbalanced force, and moment over its largest "
         "semi-axis, below this times the mean contact force"},
-    Key{"stage", "max_cycles", integer, "-", "200000", between(1, most_cycles), "", moving,
+    Key{"stage", "max_cycles", integer, "-", "200000", between(1, kMostCycles), "", kMoving,
         "The run fails when the stage has not ended by then"},
 
-    Key{"output", "history_interval", integer, "cycles", "50", between(1, most_cycles), "", "",
+    Key{"output", "history_interval", integer, "cycles", "50", between(1, kMostCycles), "", "",
         "Between two rows of history.csv; a stage's end always has one"},
-    Key{"output", "frame_interval", integer, "cycles", "1000", between(0, most_cycles), "", "",
+    Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; a stage's end always has one, and 0 leaves it at these"},
-    Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, most_cycles), "", "",
+    Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",
         "Time of the clock on the wall after which it is written again; 0 leaves it at cycles"},
@@ -249,7 +250,8 @@ SchemaLine schema_line(const Key& key) {
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
   std::string meaning(key.meaning);
-  if (key.section == "stage" && key.kinds != kinds) meaning += " [" + choices_text(key.kinds) + ']';
+  if (key.section == "stage" && key.kinds != kKinds)
+    meaning += " [" + choices_text(key.kinds) + ']';
   return {std::string(key.name),
           std::string(type_text(key.type)),
           std::string(key.unit),
@@ -274,7 +276,7 @@ void print_section(std::ostream& out, std::span<const Key> keys) {
 
 }  // namespace
 
-std::span<const Key> scene_keys() { return table; }
+std::span<const Key> scene_keys() { return kTable; }
 
 bool is_among(std::string_view word, std::string_view words) {
   std::istringstream stream{std::string(words)};

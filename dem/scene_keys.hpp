@@ -8,6 +8,7 @@
 
 #include <iosfwd>
 #include <limits>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ namespace tangency::dem {
 enum class KeyType { integer, real, real3, real4, text, path };
 
 /// The tables of a scene.
-inline constexpr std::string_view scene_sections =
+inline constexpr std::string_view kSceneSections =
     "cell motion particles body contact stage output";
 
 /// The values a number may have, each bound included or not.
@@ -33,7 +34,7 @@ struct Range {
 };
 
 struct Key {
-  std::string_view section;  ///< "" or one of scene_sections
+  std::string_view section;  ///< "" or one of kSceneSections
   std::string_view name;
   KeyType type;
   std::string_view unit;  ///< "-" for none

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/scene_loading.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tangency/dem/scene_loading.hpp>
+#include <optional>
 
 namespace tangency::dem {
 namespace {
 
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
-constexpr double largest_strain_of_a_step = 0.1;
+constexpr double kLargestStrainOfAStep = 0.1;
 
-constexpr const char* stress_keys[] = {"stress_xx", "stress_yy", "stress_zz"};
+constexpr const char* kStressKeys[] = {"stress_xx", "stress_yy", "stress_zz"};
 
 /// Axial compression, sideways as much extension as keeps the volume, and what is held.
 void read_shear(const Section& section, const Scene& scene, Drive& drive) {
@@ -48,7 +50,7 @@ void read_servo(const Section& section, const Scene& scene, Drive& drive) {
     for (const char* key : {"stress_zz", "plane_mean_stress"})
       section.forbid(key, "with dimensions = 3 alone");
   for (int axis = 0; axis < 3; ++axis)
-    if (const auto stress = section.optional_real(stress_keys[axis]))
+    if (const auto stress = section.optional_real(kStressKeys[axis]))
       loading.targets.push_back(Target::component(axis, *stress));
   if (const auto mean = section.optional_real("mean_stress"))
     loading.targets.push_back(Target::mean_stress(*mean, scene.dimensions));
@@ -80,10 +82,10 @@ void check_step(const Section& section, const Drive& stage, const Scene& scene) 
     lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes(scene.dimensions),
                                                             scene.dimensions));
   const double largest =
-      largest_strain_of_a_step /
+      kLargestStrainOfAStep /
       (stage.time_step_factor * std::sqrt(lightest / scene.laws.largest_stiffness()));
   const std::string allowed = "a finite number < " + short_text(largest) + " (1/s), a strain of " +
-                              short_text(largest_strain_of_a_step) + " a time step";
+                              short_text(kLargestStrainOfAStep) + " a time step";
   const Servo& servo = stage.loading.servo;
   if (!(servo.max_strain_rate < largest))
     section.fail(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate", allowed);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+
 #include <tangency/dem/scene_model.hpp>
 #include <tangency/dem/scene_section.hpp>
 

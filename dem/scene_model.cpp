@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/scene_model.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <tangency/dem/scene_model.hpp>
 
 namespace tangency::dem {
 

@@ -4,14 +4,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/growth.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
-#include <vector>
 
 namespace tangency::dem {
 

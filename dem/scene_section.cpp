@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/scene_section.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <iomanip>
 #include <sstream>
-#include <tangency/dem/scene_section.hpp>
+#include <utility>
 
 namespace tangency::dem {
 namespace {
@@ -173,7 +177,7 @@ std::string Section::label(std::string_view name) const {
 }
 
 void Section::check(const toml::key& name, const toml::node& node) const {
-  if (section_.empty() && is_among(name.str(), scene_sections)) return;
+  if (section_.empty() && is_among(name.str(), kSceneSections)) return;
   std::string names;
   for (const Key& key : scene_keys()) {
     if (!applies(key)) continue;
@@ -185,7 +189,7 @@ void Section::check(const toml::key& name, const toml::node& node) const {
   }
   if (section_ == "contact" && !base_ && node.is_table()) return;  // a pair
   if (section_.empty())
-    for (const char c : " " + std::string(scene_sections))
+    for (const char c : " " + std::string(kSceneSections))
       names += c == ' ' ? ", " : std::string(1, c);
   source_.fail(name.source(), label(name.str()) + ": no such key" +
                                   (kind_.empty() ? "" : " in a stage of this kind") +

@@ -6,9 +6,12 @@
 
 #include <toml++/toml.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/geometry/vectors.hpp>

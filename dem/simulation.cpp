@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/simulation.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <tangency/dem/simulation.hpp>
 #include <utility>
+#include <vector>
 
 namespace tangency::dem {
 namespace {
 
 /// Skin of the neighbour list, in largest semi-axes. Measured on assembly-1000: from 0.05 to 0.4
 /// the time of a run changes by a tenth, so it is chosen with room for faster motion.
-constexpr double skin_ratio = 0.2;
+constexpr double kSkinRatio = 0.2;
 
 /// Porosity at which a random assembly begins to bear stress, roughly: that of spheres, and of
 /// disks.
@@ -27,19 +30,19 @@ constexpr double loosest_packing(int dimensions) { return dimensions == 2 ? 0.7 
 
 /// Relative difference of two descriptions of one particle: the semi-axes of another machine's
 /// libm are a few roundings off. Chosen: far below any change that someone makes.
-constexpr double same_particle = 1e-9;
+constexpr double kSameParticle = 1e-9;
 
 /// @throws CellTooThin
 void require_thickness(const Cell& cell, const LeastCell& least) {
-  if (auto thin = thin_place(cell, least, most_squeezed)) throw CellTooThin(std::move(*thin));
+  if (auto thin = thin_place(cell, least, kMostSqueezed)) throw CellTooThin(std::move(*thin));
 }
 
 /// Axial strain from which a shear is held to its stress: what is before it is start. Chosen: a
 /// peak of friction comes at several times that.
-constexpr double settling_strain = 0.01;
+constexpr double kSettlingStrain = 0.01;
 
 void require_equal(const std::string& key, double in_state, double in_scene) {
-  if (std::abs(in_state - in_scene) <= same_particle * in_scene) return;
+  if (std::abs(in_state - in_scene) <= kSameParticle * in_scene) return;
   std::ostringstream text;
   text << std::setprecision(10) << "a state with " << key << " = " << in_state << "; the scene has "
        << in_scene;
@@ -93,7 +96,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
   std::vector<std::string> keys;
   std::string text;
   const auto compare = [&](std::size_t pair, const std::string& key, double was, double is) {
-    if (std::abs(was - is) <= same_particle * std::abs(is)) return;
+    if (std::abs(was - is) <= kSameParticle * std::abs(is)) return;
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
     keys.push_back(key);
     const auto name = [&](std::size_t type) {
@@ -266,7 +269,7 @@ void Simulation::renew_list() {
   double largest = 0.0;
   for (const Vec3& axes : state_.particles.semi_axes) largest = std::max(largest, axes.maxCoeff());
   const std::vector<Pair> before = state_.list.pairs();
-  state_.list.build(state_.particles, state_.cell, skin_ratio * largest);
+  state_.list.build(state_.particles, state_.cell, kSkinRatio * largest);
   state_.contacts.carry_over(before, state_.list.pairs());
 }
 
@@ -276,7 +279,7 @@ void Simulation::watch(const Stress& stress) {
   const Drive& stage = *this->stage().drive;
   const int axial = state_.cell.dimensions - 1;
   if (stage.stress_tolerance) return;  // the stage ends when they are met
-  if (stage.axial_strain && -state_.cell.logarithmic_strain()(axial, axial) < settling_strain)
+  if (stage.axial_strain && -state_.cell.logarithmic_strain()(axial, axial) < kSettlingStrain)
     return;
   stage.loading.watch(stress, !stage.axial_strain, state_.servos);
 }

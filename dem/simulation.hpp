@@ -6,6 +6,11 @@
 ///     number of threads, and not on whether the run was saved and resumed in between.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/fire.hpp>
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/scene.hpp>

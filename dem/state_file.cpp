@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/state_file.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <tangency/dem/files.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <optional>
 #include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
-constexpr std::string_view magic = "TANGSTAT";
-constexpr std::uint32_t version = 4;
+constexpr std::string_view kMagic = "TANGSTAT";
+constexpr std::uint32_t kVersion = 4;
 
 class Writer {
  public:
@@ -34,7 +40,7 @@ class Writer {
 struct Damaged {
   const char* why;
 };
-constexpr Damaged not_whole{"it is not a whole state"};
+constexpr Damaged kNotWhole{"it is not a whole state"};
 
 class ByteReader {
  public:
@@ -42,7 +48,7 @@ class ByteReader {
   template <class T>
   requires std::is_arithmetic_v<T>
   void operator()(T& value) {
-    if (bytes_.size() < sizeof(T)) throw not_whole;
+    if (bytes_.size() < sizeof(T)) throw kNotWhole;
     std::memcpy(&value, bytes_.data(), sizeof(T));
     if constexpr (std::is_floating_point_v<T>)
       if (!std::isfinite(value)) throw Damaged{"it holds a number that is not finite"};
@@ -108,7 +114,7 @@ void pass_material(Writer& archive, const std::optional<Material>& material) {
 void pass_material(ByteReader& archive, std::optional<Material>& material) {
   std::uint8_t byte = 0;
   archive(byte);
-  if (byte > 1) throw not_whole;
+  if (byte > 1) throw kNotWhole;
   if (byte == 0) return;
   Material& read = material.emplace();
   archive(read.young_modulus);
@@ -144,7 +150,7 @@ template <class T>
 void pass(ByteReader& archive, std::vector<T>& items) {
   std::uint64_t size = 0;
   archive(size);
-  if (size > archive.left()) throw not_whole;
+  if (size > archive.left()) throw kNotWhole;
   items.resize(size);
   for (T& item : items) pass(archive, item);
 }
@@ -167,7 +173,7 @@ void pass_walls(ByteReader& archive, std::array<bool, 3>& walled) {
   for (bool& one : walled) {
     std::uint8_t byte = 0;
     archive(byte);
-    if (byte > 1) throw not_whole;
+    if (byte > 1) throw kNotWhole;
     one = byte == 1;
   }
 }
@@ -251,14 +257,14 @@ State state_of(std::string_view bytes) {
   pass_reference(archive, reference);
   pass(archive, pairs);
   pass(archive, records);
-  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw not_whole;
+  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw kNotWhole;
   if (!lengths_are_positive(state, reference)) throw Damaged{"it holds a length that is not > 0"};
   const std::vector<double>& mass = state.particles.mass;
   if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
     throw Damaged{"it holds a mass that is not > 0"};
   if (state.laws.types == 0 || state.laws.types > state.laws.law.size() ||
       state.laws.law.size() != state.laws.types * state.laws.types)
-    throw not_whole;
+    throw kNotWhole;
   if (state.cell.dimensions != 2 && state.cell.dimensions != 3)
     throw Damaged{"its dimensions are neither 2 nor 3"};
   state.particles.dimensions = state.cell.dimensions;
@@ -295,9 +301,9 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   const std::string body = bytes_of(state);
   Writer head, tail;
-  head(version);
+  head(kVersion);
   tail(fnv1a(body));
-  write_whole(file, std::string(magic) + head.take() + body + tail.take());
+  write_whole(file, std::string(kMagic) + head.take() + body + tail.take());
 }
 
 State load_state(const std::filesystem::path& file) {
@@ -309,13 +315,13 @@ State load_state(const std::filesystem::path& file) {
     throw StateError(error.what());
   }
   const std::string_view bytes = whole;
-  constexpr std::size_t head = magic.size() + sizeof version;
-  if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(magic))
+  constexpr std::size_t head = kMagic.size() + sizeof kVersion;
+  if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(kMagic))
     fail("no state of tangency-dem: final.state or checkpoint.state of a run");
-  const auto found = number_at<std::uint32_t>(bytes, magic.size());
-  if (found != version)
+  const auto found = number_at<std::uint32_t>(bytes, kMagic.size());
+  if (found != kVersion)
     fail("state of version " + std::to_string(found) + ": this program reads version " +
-         std::to_string(version));
+         std::to_string(kVersion));
   const std::size_t end = bytes.size() - sizeof(std::uint64_t);
   const std::string_view body = bytes.substr(head, end - head);
   if (number_at<std::uint64_t>(bytes, end) != fnv1a(body)) fail("damaged: its hash is wrong");

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::dem {

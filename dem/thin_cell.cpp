@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/thin_cell.hpp>
+
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iomanip>
 #include <sstream>
-#include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::dem {
 namespace {

@@ -13,9 +13,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
 #include <tangency/dem/contacts.hpp>
 
 namespace tangency::dem {
@@ -47,7 +50,7 @@ struct ThinPlace {
 
 /// Share of LeastCell::wall_distance() to which walls may squeeze particles in a run. Chosen: the
 /// overlap that a sound run has at most, a tenth of the radius, at each of the two walls.
-inline constexpr double most_squeezed = 0.9;
+inline constexpr double kMostSqueezed = 0.9;
 
 /// Where the cell is thinner than its particles allow, if anywhere.
 /// @param squeezed  share of LeastCell::wall_distance() that is left to walls

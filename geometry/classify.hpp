@@ -17,13 +17,10 @@
 /// (3) rank3 <= rank4 <= min(4, rank3 + 2).
 #pragma once
 
-#include <tangency/geometry/classify_coefficients.hpp>
 #include <tangency/geometry/quadric.hpp>
 
 namespace tangency {
 
-inline Classification classify(const Quadric& quadric) noexcept {
-  return classify_coefficients(quadric.coefficients());
-}
+Classification classify(const Quadric& quadric) noexcept;
 
 }  // namespace tangency

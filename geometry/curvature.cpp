@@ -5,16 +5,16 @@
 #include <cassert>
 #include <cmath>
 
-#include <tangency/geometry/exact/double_double_vector.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/plane_tensor.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/bodies/plane_tensor.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::PlaneBasis;
-using methods::PlaneTensor;
+using detail::PlaneBasis;
+using detail::PlaneTensor;
 
 // Of |n|^2 from 1: chosen, far wider than rounding and far narrower than a mistake.
 [[maybe_unused]] constexpr double kUnitTolerance = 0x1p-40;
@@ -34,22 +34,23 @@ Ellipsoid in_unit(const Ellipsoid& body, int exponent) {
 }
 
 PlaneTensor tensor_of(const Ellipsoid& unit, const PlaneBasis& basis, const Vec3& normal) {
-  return methods::curvature_tensor(unit, basis, unit.support(normal));
+  return detail::curvature_tensor(unit, basis, unit.support(normal));
 }
 
-/// methods::mixed_determinant() of the curvature tensors in double-double, for which the rotations
+/// detail::mixed_determinant() of the curvature tensors in double-double, for which the rotations
 /// and the tangents are formed anew: rounded, they would turn nearly parallel tensors apart.
 double mixed_determinant(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) {
-  using exact::DoubleDoubleVector;
+  using detail::DoubleDoubleVector;
   // Tangents as they are, not unit: sqrt(squares) and sqrt(squares) |n| long, at right angles.
   int k;
   n.cwiseAbs().minCoeff(&k);
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const auto at = [](int axis) { return static_cast<std::size_t>(axis); };
-  const auto square_i = exact::two_product(n[i], n[i]), square_j = exact::two_product(n[j], n[j]);
+  const auto square_i = detail::two_product(n[i], n[i]), square_j = detail::two_product(n[j], n[j]);
   DoubleDoubleVector first, second;
   first[at(i)] = -n[j], first[at(j)] = n[i], first[at(k)] = 0.0;
-  second[at(i)] = -exact::two_product(n[k], n[i]), second[at(j)] = -exact::two_product(n[k], n[j]);
+  second[at(i)] = -detail::two_product(n[k], n[i]),
+  second[at(j)] = -detail::two_product(n[k], n[j]);
   second[at(k)] = square_i + square_j;
   const double squares = second[at(k)].high;
 
@@ -57,10 +58,10 @@ double mixed_determinant(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) 
     DoubleDoubleVector first, second;
   };
   const auto factor = [&](const Ellipsoid& body) {
-    const auto rotation = exact::double_double_rotation(body.orientation());
+    const auto rotation = detail::double_double_rotation(body.orientation());
     Factor f{turned_back(rotation, first), turned_back(rotation, second)};
     for (std::size_t row = 0; row < 3; ++row) {
-      const exact::DoubleDouble axis = body.semi_axes()[static_cast<int>(row)];
+      const detail::DoubleDouble axis = body.semi_axes()[static_cast<int>(row)];
       f.first[row] = f.first[row] / axis, f.second[row] = f.second[row] / axis;
     }
     return f;
@@ -79,7 +80,7 @@ double mixed_determinant(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) 
 /// @param turn  1, or -1 where the body's outer normal is minus the third vector of the basis
 PrincipalCurvatures principal(double xx, double yy, double xy, double determinant,
                               const PlaneBasis& basis, double turn, int exponent) {
-  const auto values = methods::principal_values(xx, yy, xy, determinant);
+  const auto values = detail::principal_values(xx, yy, xy, determinant);
   return {{std::scalbn(values.larger, -exponent), std::scalbn(values.smaller, -exponent)},
           {values.cosine * basis.col(0) + values.sine * basis.col(1),
            turn * (values.cosine * basis.col(1) - values.sine * basis.col(0))}};
@@ -92,19 +93,19 @@ PrincipalCurvatures principal(const PlaneTensor& k, const PlaneBasis& basis, dou
 
 PrincipalCurvatures curvature_at(const Ellipsoid& body, const Vec3& normal) {
   assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
-  const PlaneBasis basis = methods::tangent_basis(normal);
+  const PlaneBasis basis = detail::tangent_basis(normal);
   const int exponent = size_exponent(body);
   return principal(tensor_of(in_unit(body, exponent), basis, normal), basis, 1.0, exponent);
 }
 
 ContactCurvature curvature_between(const Ellipsoid& a, const Ellipsoid& b, const Vec3& normal) {
   assert(std::abs(normal.squaredNorm() - 1.0) <= kUnitTolerance);
-  const PlaneBasis basis = methods::tangent_basis(normal);
+  const PlaneBasis basis = detail::tangent_basis(normal);
   const int exponent = std::max(size_exponent(a), size_exponent(b));
   const Ellipsoid unit_a = in_unit(a, exponent), unit_b = in_unit(b, exponent);
   const PlaneTensor ka = tensor_of(unit_a, basis, normal), kb = tensor_of(unit_b, basis, normal);
   const double alone = ka.determinant + kb.determinant;
-  double determinant = alone + methods::mixed_determinant(ka, kb);
+  double determinant = alone + detail::mixed_determinant(ka, kb);
   if (ka.trace() * kb.trace() > kParallel * determinant) {
     determinant = alone + mixed_determinant(unit_a, unit_b, normal);
   }

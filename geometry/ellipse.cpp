@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include <tangency/geometry/exact/cosine_sine.hpp>
-#include <tangency/geometry/exact/double_double_plane.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/numbers/cosine_sine.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
@@ -27,8 +27,8 @@ Vec2 direction_of(double angle) {
   if (!std::isfinite(angle)) {
     throw InvalidEllipse({"angle", angle, "an angle must be finite"});
   }
-  const exact::CosineSine found =
-      in_default_environment([&] { return exact::rounded_cosine_sine(angle); });
+  const detail::CosineSine found =
+      in_default_environment([&] { return detail::rounded_cosine_sine(angle); });
   return {found.cosine, found.sine};
 }
 
@@ -67,7 +67,7 @@ Ellipse::Ellipse(const Vec2& centre, const Vec2& semi_axes, const Vec2& directio
     : centre_(centre), semi_axes_(semi_axes), direction_(direction) {
   if (const auto fault = find_fault(centre, semi_axes, direction)) throw InvalidEllipse(*fault);
   axis_ = in_default_environment(
-      [&] { return exact::rounded(exact::double_double_direction(direction)); });
+      [&] { return detail::rounded(detail::double_double_direction(direction)); });
 }
 
 Ellipse Ellipse::at_angle(const Vec2& centre, const Vec2& semi_axes, double angle) {

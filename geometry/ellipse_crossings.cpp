@@ -5,23 +5,23 @@
 #include <cassert>
 #include <cmath>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/ellipse_meeting.hpp>
-#include <tangency/geometry/methods/plane_lens.hpp>
-#include <tangency/geometry/methods/real_quartic.hpp>
-#include <tangency/geometry/methods/scaled_plane_pair.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/plane/ellipse_meeting.hpp>
+#include <tangency/geometry/plane/lens.hpp>
+#include <tangency/geometry/plane/real_quartic.hpp>
+#include <tangency/geometry/plane/scaled_plane_pair.hpp>
 
 namespace tangency {
 namespace {
 
+using detail::DoubleDouble;
+using detail::DoubleDouble2;
+using detail::LensBody;
+using detail::LensVertex;
+using detail::PlaneLens;
+using detail::ScaledPlanePair;
 using exact::ConicAnswer;
-using exact::DoubleDouble;
-using exact::DoubleDouble2;
 using exact::Meeting;
-using methods::LensBody;
-using methods::LensVertex;
-using methods::PlaneLens;
-using methods::ScaledPlanePair;
 
 /// The pair and what is exactly known of it.
 struct Asked {
@@ -30,12 +30,12 @@ struct Asked {
   const Vec2* separation;  ///< null: that of the centres
 
   ConicAnswer meeting() const {
-    if (separation == nullptr) return methods::ellipse_meeting(a, b).answer;
-    return methods::ellipse_meeting(a.moved_to(Vec2::Zero()), b.moved_to(*separation)).answer;
+    if (separation == nullptr) return detail::ellipse_meeting(a, b).answer;
+    return detail::ellipse_meeting(a.moved_to(Vec2::Zero()), b.moved_to(*separation)).answer;
   }
   ScaledPlanePair scaled() const {
-    return separation == nullptr ? methods::scaled_plane_pair(a, b)
-                                 : methods::scaled_plane_pair(a, b, *separation);
+    return separation == nullptr ? detail::scaled_plane_pair(a, b)
+                                 : detail::scaled_plane_pair(a, b, *separation);
   }
 };
 
@@ -59,7 +59,7 @@ Crossings crossings(const Asked& asked) {
     crossing.arm_b = scaled(lens.first_is_a() ? far : near, s.exponent);
     crossing.multiplicity = lens[i].multiplicity;
   }
-  methods::sort_few(result.at, result.count, [](const Crossing& p, const Crossing& q) {
+  detail::sort_few(result.at, result.count, [](const Crossing& p, const Crossing& q) {
     return p.arm_a[0] != q.arm_a[0] ? p.arm_a[0] < q.arm_a[0] : p.arm_a[1] < q.arm_a[1];
   });
   return result;
@@ -79,13 +79,13 @@ double span_less_sine(double t) {
 double area_of(const PlaneLens& lens) {
   double area = 0.0;
   for (int i = 1; i + 1 < lens.count(); ++i) {
-    area += 0.5 * exact::cross(lens[i].arm - lens[0].arm, lens[i + 1].arm - lens[0].arm).high;
+    area += 0.5 * detail::cross(lens[i].arm - lens[0].arm, lens[i + 1].arm - lens[0].arm).high;
   }
   for (int i = 0; i < lens.count(); ++i) {
     const std::size_t which = lens.first_bounds(i) ? 0 : 1;
     const LensBody& body = lens.body(which);
     const double span =
-        methods::arc_span(lens[i].unit[which], lens.next(i).unit[which], lens.is_last(i));
+        detail::arc_span(lens[i].unit[which], lens.next(i).unit[which], lens.is_last(i));
     area += 0.5 * body.a1 * body.a2 * span_less_sine(span);
   }
   return area;
@@ -118,9 +118,9 @@ double reach(const LensBody& body, const DoubleDouble2& from, const DoubleDouble
   const DoubleDouble2 middle = DoubleDouble(0.5) * (from + to), e = body.from_plane(n);
   // 1 - |middle|^2, from the chord: no cancellation.
   const DoubleDouble2 half = DoubleDouble(0.5) * (to - from);
-  const DoubleDouble below = exact::dot(half, half), along = exact::dot(middle, e);
-  const DoubleDouble square = exact::dot(e, e);
-  const DoubleDouble root = exact::sqrt(along * along + square * below);
+  const DoubleDouble below = detail::dot(half, half), along = detail::dot(middle, e);
+  const DoubleDouble square = detail::dot(e, e);
+  const DoubleDouble root = detail::sqrt(along * along + square * below);
   if (along.high >= 0.0) return (below / (along + root)).high;
   return ((root - along) / square).high;
 }
@@ -136,8 +136,8 @@ ChordContact chord_contact(const Asked& asked) {
   const int begin = lens.level_between(0) < lens.level_between(1) ? 0 : 1;
   const LensVertex &from = lens[begin], &to = lens.next(begin);
   const DoubleDouble2 chord = to.arm - from.arm;
-  if (exact::length(chord).high == 0.0) return none;
-  const DoubleDouble2 n = -exact::quarter(exact::normalised(chord));
+  if (detail::length(chord).high == 0.0) return none;
+  const DoubleDouble2 n = -detail::quarter(detail::normalised(chord));
   const double ahead = reach(lens.body(0), from.unit[0], to.unit[0], n);
   const double back = reach(lens.body(1), from.unit[1], to.unit[1], -n);
   const DoubleDouble2 middle = DoubleDouble(0.5) * (from.arm + to.arm);
@@ -147,7 +147,7 @@ ChordContact chord_contact(const Asked& asked) {
   const bool straight = lens.first_is_a();
   return {ChordStatus::ok,
           std::scalbn(ahead + back, s.exponent),
-          exact::rounded(straight ? n : -n),
+          detail::rounded(straight ? n : -n),
           scaled(straight ? on_first : on_second, s.exponent),
           scaled(straight ? on_second : on_first, s.exponent),
           scaled(straight ? point : point - lens.separation(), s.exponent)};

@@ -7,16 +7,16 @@
 #include <limits>
 
 #include <tangency/geometry/ellipse_relation.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/gap_finish.hpp>
-#include <tangency/geometry/methods/plane_gap.hpp>
-#include <tangency/geometry/methods/scaled_plane_pair.hpp>
+#include <tangency/geometry/gap/sign.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/plane/plane_gap.hpp>
+#include <tangency/geometry/plane/scaled_plane_pair.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::PlanePair;
-using methods::PlaneProof;
+using detail::PlanePair;
+using detail::PlaneProof;
 
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60, kThinnest = 0x1p-300;  // PlanePair
 
@@ -46,11 +46,11 @@ Solved solve(const PlanePair& pair) {
   Vec2 normal(std::numeric_limits<double>::quiet_NaN(), 0.0);
   solved.tier = GapTier::fast;
   if (pair.d != Vec2::Zero()) {
-    normal = methods::perram_wertheim_normal(pair);
+    normal = detail::perram_wertheim_normal(pair);
     Vec2 settled = normal;
-    if (methods::settle_plane_gap(pair, settled, solved.proof)) return solved;
+    if (detail::settle_plane_gap(pair, settled, solved.proof)) return solved;
   }
-  solved.proof = methods::search_plane_gap(pair, normal);
+  solved.proof = detail::search_plane_gap(pair, normal);
   const bool at_once = solved.proof.low > -(pair.a.least_radius() + pair.b.least_radius());
   solved.tier = at_once ? GapTier::factored : GapTier::search;
   return solved;
@@ -60,8 +60,8 @@ Solved follow(const PlanePair& pair, const Vec2& start, const Asked& asked) {
   Solved solved;
   solved.tier = GapTier::fast;
   Vec2 normal = start;
-  if (methods::settle_plane_gap(pair, normal, solved.proof)) return solved;
-  solved.proof = methods::climb_plane_gap(pair, start);
+  if (detail::settle_plane_gap(pair, normal, solved.proof)) return solved;
+  solved.proof = detail::climb_plane_gap(pair, start);
   solved.tier = GapTier::factored;
   // Flat bodies apart have false maxima with gap < 0: no branch that a contact can be on.
   if (solved.proof.global || solved.proof.low >= 0.0) return solved;
@@ -71,7 +71,7 @@ Solved follow(const PlanePair& pair, const Vec2& start, const Asked& asked) {
 PlaneGap finish(Solved& solved, const Asked& asked, const PlanePair& pair, bool in_own_unit,
                 int exponent) {
   const double distance = 1.5 * pair.d.cwiseAbs().maxCoeff();  // |d| and above
-  return methods::finished_gap<PlaneGap>(solved, asked, pair, distance, in_own_unit, exponent);
+  return detail::finished_gap<PlaneGap>(solved, asked, pair, distance, in_own_unit, exponent);
 }
 
 double size_of(const Ellipse& a, const Ellipse& b, const Vec2& d) {
@@ -93,14 +93,13 @@ PlaneGap answer(const Asked& asked, const Solve& solve_pair) {
   if (in_range(a, b, d)) {
     const Vec2 low = asked.separation != nullptr
                          ? Vec2(Vec2::Zero())
-                         : methods::separation_error(a.centre(), b.centre(), d);
+                         : detail::separation_error(a.centre(), b.centre(), d);
     const PlanePair pair{a, b, d, low, size_of(a, b, d)};
     Solved solved = solve_pair(pair);
     return finish(solved, asked, pair, true, 0);
   }
-  const methods::ScaledPlanePair s = asked.separation != nullptr
-                                         ? methods::scaled_plane_pair(a, b, d)
-                                         : methods::scaled_plane_pair(a, b);
+  const detail::ScaledPlanePair s = asked.separation != nullptr ? detail::scaled_plane_pair(a, b, d)
+                                                                : detail::scaled_plane_pair(a, b);
   const PlanePair pair{s.a, s.b, s.d, s.d_low, size_of(s.a, s.b, s.d)};
   Solved solved = solve_pair(pair);
   return finish(solved, asked, pair, false, s.exponent);

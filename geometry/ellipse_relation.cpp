@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_relation.hpp>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/ellipse_meeting.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/plane/ellipse_meeting.hpp>
 
 namespace tangency {
 namespace {
@@ -32,14 +32,14 @@ std::optional<int> crossings(exact::Meeting meeting) {
 }  // namespace
 
 EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
-  const methods::MeetingAnswer found =
-      in_default_environment([&] { return methods::ellipse_meeting(a, b); });
+  const detail::MeetingAnswer found =
+      in_default_environment([&] { return detail::ellipse_meeting(a, b); });
   return {found.answer.relation, found.answer.inner, crossings(found.answer.meeting), found.tier};
 }
 
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept {
   const Relation found =
-      in_default_environment([&] { return methods::ellipse_meeting(a, b).answer.relation; });
+      in_default_environment([&] { return detail::ellipse_meeting(a, b).answer.relation; });
   return found != Relation::separate && found != Relation::external_touch;
 }
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
-#include <tangency/geometry/exact/double_double_vector.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
@@ -67,8 +67,8 @@ std::optional<EllipsoidFault> Ellipsoid::find_fault(const Vec3& centre, const Ve
 }
 
 Mat3 rotation_of(const Quaternion& q) noexcept {
-  const exact::DoubleDoubleMatrix r =
-      in_default_environment([&] { return exact::double_double_rotation(q); });
+  const detail::DoubleDoubleMatrix r =
+      in_default_environment([&] { return detail::double_double_rotation(q); });
   Mat3 rounded;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

@@ -7,25 +7,25 @@
 #include <limits>
 #include <optional>
 
-#include <tangency/geometry/contract.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/gap_factored.hpp>
-#include <tangency/geometry/methods/gap_finish.hpp>
-#include <tangency/geometry/methods/gap_newton.hpp>
-#include <tangency/geometry/methods/gap_proof.hpp>
-#include <tangency/geometry/methods/gap_search.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
-#include <tangency/geometry/methods/surface_projection.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
+#include <tangency/geometry/bodies/surface_projection.hpp>
+#include <tangency/geometry/gap/proof.hpp>
+#include <tangency/geometry/gap/search.hpp>
+#include <tangency/geometry/gap/sign.hpp>
+#include <tangency/geometry/normals/factored.hpp>
+#include <tangency/geometry/normals/newton.hpp>
+#include <tangency/geometry/numbers/contract.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::FactoredPair;
-using methods::Finish;
-using methods::GapProof;
-using methods::Pair;
-using methods::Stationary;
+using detail::FactoredPair;
+using detail::Finish;
+using detail::GapProof;
+using detail::Pair;
+using detail::Stationary;
 
 constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // Ellipsoid::moderate()
 constexpr double kThinnest = 0x1p-300;                    // of the size: Pair's requirement
@@ -76,21 +76,21 @@ Solved solve_with_sphere(const Pair& pair) {
   const bool sphere_is_a = pair.a.is_sphere();
   const Ellipsoid &body = sphere_is_a ? pair.b : pair.a, &sphere = sphere_is_a ? pair.a : pair.b;
   const double radius = sphere.largest_semi_axis();
-  exact::DoubleDoubleVector separation;  // of the sphere's centre from the body's
+  detail::DoubleDoubleVector separation;  // of the sphere's centre from the body's
   for (int i = 0; i < 3; ++i) {
-    const exact::DoubleDouble d(pair.d[i], pair.d_low[i]);
+    const detail::DoubleDouble d(pair.d[i], pair.d_low[i]);
     separation[static_cast<std::size_t>(i)] = sphere_is_a ? -d : d;
   }
-  const methods::SeenFromCentre seen = methods::seen_from_centre(body, separation);
-  const methods::BodyFrame frame(body.orientation());
-  const methods::SurfaceProjection found =
-      methods::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
+  const detail::SeenFromCentre seen = detail::seen_from_centre(body, separation);
+  const detail::BodyFrame frame(body.orientation());
+  const detail::SurfaceProjection found =
+      detail::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
   const auto in_unit = [&](double x) { return std::scalbn(x, seen.exponent); };
-  const exact::DoubleDouble distance(in_unit(found.distance.high), in_unit(found.distance.low));
-  const double gap = (distance - exact::DoubleDouble(radius)).high;
+  const detail::DoubleDouble distance(in_unit(found.distance.high), in_unit(found.distance.low));
+  const double gap = (distance - detail::DoubleDouble(radius)).high;
   const double error = 2.0 * kUnitRoundoff * std::abs(gap) + 0x1p-80 * pair.size;
-  const Vec3 outwards = exact::rounded(frame.to_space(found.normal));
-  const Vec3 arm = exact::rounded(frame.to_space(found.point)).unaryExpr(in_unit);
+  const Vec3 outwards = detail::rounded(frame.to_space(found.normal));
+  const Vec3 arm = detail::rounded(frame.to_space(found.point)).unaryExpr(in_unit);
   const Vec3 n = sphere_is_a ? Vec3(-outwards) : outwards;
   const Vec3 arm_a = sphere_is_a ? Vec3(radius * n) : arm;
   const Vec3 arm_b = sphere_is_a ? arm : Vec3(-radius * n);
@@ -105,9 +105,9 @@ bool settled(const Pair& pair, const GapProof& proof) {
 }
 
 std::optional<Solved> search(const Pair& pair, const FactoredPair& factored, const Vec3& first) {
-  if (const auto proof = methods::search_meridian(pair, factored))
+  if (const auto proof = detail::search_meridian(pair, factored))
     return Solved{*proof, GapTier::search};
-  if (const auto proof = methods::search_sphere(pair, factored, first, kBudget))
+  if (const auto proof = detail::search_sphere(pair, factored, first, kBudget))
     return Solved{*proof, GapTier::search};
   return std::nullopt;
 }
@@ -124,7 +124,7 @@ bool reaches(const Pair& pair, const GapProof& proof, double high) {
 Solved search_with_sphere(const Pair& pair, const FactoredPair& factored, const Vec3& first) {
   const Solved projected = solve_with_sphere(pair);
   const double high = projected.proof.high;
-  std::optional<GapProof> found = methods::search_sphere(pair, factored, first, 0);
+  std::optional<GapProof> found = detail::search_sphere(pair, factored, first, 0);
   // Where rounding the normal to doubles costs more than that, the distance is the better answer.
   if (!found || !(found->low >= projected.proof.low)) return projected;
   found->high = found->global ? std::min(found->high, high) : high;
@@ -140,7 +140,7 @@ Solved solve_hard(const Pair& pair) {
   const Vec3 start = concentric ? factored.axis(0) : factored.perram_wertheim_normal();
   const Stationary found = factored.climb(start);
   const Vec3 normal = found.normal.allFinite() ? found.normal : start;
-  const GapProof proof = methods::prove_gap_in_double_double(pair, normal);
+  const GapProof proof = detail::prove_gap_in_double_double(pair, normal);
   const double enough = kOrdinaryGapErrorBound * kUnitRoundoff * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
@@ -162,12 +162,12 @@ bool fast(const Pair& pair, const Start& start, GapProof& proof, Vec3& normal) {
   Stationary found = start(Finish::early);
   normal = found.normal;
   if (!found.accepted) return false;
-  methods::prove_gap(pair, normal, proof);
+  detail::prove_gap(pair, normal, proof);
   if (settled(pair, proof)) return true;
-  found = methods::newton_from(pair.a, pair.b, pair.d, normal, Finish::late);
+  found = detail::newton_from(pair.a, pair.b, pair.d, normal, Finish::late);
   normal = found.normal;
   if (!found.accepted) return false;
-  methods::prove_gap(pair, normal, proof);
+  detail::prove_gap(pair, normal, proof);
   return settled(pair, proof);
 }
 
@@ -178,12 +178,12 @@ Solved solve(const Pair& pair) {
   Solved solved;
   Vec3 normal;
   solved.tier = GapTier::fast;
-  const auto start = [&](Finish finish) { return methods::newton(pair.a, pair.b, pair.d, finish); };
+  const auto start = [&](Finish finish) { return detail::newton(pair.a, pair.b, pair.d, finish); };
   if (fast(pair, start, solved.proof, normal)) return solved;
   if (!normal.allFinite()) return solve_hard(pair);
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(normal);
   if (!found.accepted) return solve_hard(pair);
-  methods::prove_gap(pair, found.normal, solved.proof);
+  detail::prove_gap(pair, found.normal, solved.proof);
   if (!settled(pair, solved.proof)) return solve_hard(pair);
   solved.tier = GapTier::safeguarded;
   return solved;
@@ -195,7 +195,7 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   Solved solved;
   Vec3 normal;
   const auto from_there = [&](Finish finish) {
-    return methods::newton_from(pair.a, pair.b, pair.d, start, finish);
+    return detail::newton_from(pair.a, pair.b, pair.d, start, finish);
   };
   if (pair.a.moderate() && pair.b.moderate() && fast(pair, from_there, solved.proof, normal)) {
     solved.tier = GapTier::fast;
@@ -203,7 +203,7 @@ Solved follow(const Pair& pair, const Vec3& start, const Asked& asked) {
   }
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
-  GapProof proof = methods::prove_gap_in_double_double(pair, found.normal);
+  GapProof proof = detail::prove_gap_in_double_double(pair, found.normal);
   if (!proof.global && has_sphere(pair)) {
     const double high = solve_with_sphere(pair).proof.high;
     proof.global = reaches(pair, proof, high);
@@ -238,11 +238,11 @@ auto in_unit(const Asked& asked, const Use& use) {
   if (in_range(a, b, d)) {
     const Vec3 low = asked.separation != nullptr
                          ? Vec3(Vec3::Zero())
-                         : methods::separation_error(a.centre(), b.centre(), d);
+                         : detail::separation_error(a.centre(), b.centre(), d);
     return use(Pair{a, b, d, low}, true, 0);
   }
-  const methods::ScaledPair scaled =
-      asked.separation != nullptr ? methods::scaled_pair(a, b, d) : methods::scaled_pair(a, b);
+  const detail::ScaledPair scaled =
+      asked.separation != nullptr ? detail::scaled_pair(a, b, d) : detail::scaled_pair(a, b);
   return use(Pair{scaled.a, scaled.b, scaled.d, scaled.d_low}, false, scaled.exponent);
 }
 
@@ -252,7 +252,7 @@ Gap answer(const Asked& asked, const Solve& solve_pair) {
     Solved solved = solve_pair(pair);
     // sqrt(3) times the largest component, and more than enough for rounding: |d| and above.
     const double distance = 1.75 * pair.d.cwiseAbs().maxCoeff();
-    return methods::finished_gap<Gap>(solved, asked, pair, distance, in_own_unit, exponent);
+    return detail::finished_gap<Gap>(solved, asked, pair, distance, in_own_unit, exponent);
   });
 }
 
@@ -266,8 +266,8 @@ ContactBounds bounds(const Asked& asked, const Gap& gap) {
     const bool same = in_own_unit || (pair.d.cwiseAbs().maxCoeff() > 0x1p-900 &&
                                       std::scalbn(thinnest, -exponent) >= kThinnest);
     if (!same || pair.d == Vec3::Zero()) return nothing;
-    methods::ContactShift shift{0.0, 0.0, 0.0};
-    if (!pair.a.is_sphere() || !pair.b.is_sphere()) shift = methods::bound_shift(pair, gap.normal);
+    detail::ContactShift shift{0.0, 0.0, 0.0};
+    if (!pair.a.is_sphere() || !pair.b.is_sphere()) shift = detail::bound_shift(pair, gap.normal);
     // (P) of the derivation: the stored numbers' own rounding beside the shift.
     const auto bound = [&](double shifted, const Ellipsoid& body) {
       const double axis = body.largest_semi_axis(), h = body.support(gap.normal);

@@ -4,21 +4,23 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include <tangency/geometry/contract.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/gap_lanes.hpp>
+#include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/numbers/contract.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::LaneBlock;
-using methods::LaneBody;
-using methods::LaneShape;
+using detail::LaneBlock;
+using detail::LaneBody;
+using detail::LaneShape;
 
-static_assert(methods::kLaneErrorBound == kOrdinaryGapErrorBound,
+static_assert(detail::kLaneErrorBound == kOrdinaryGapErrorBound,
               "lanes, which share no header with baseline code, promise what one pair does");
 
 constexpr std::size_t kBlock = LaneBlock::kPairs;
@@ -254,7 +256,7 @@ void run_here(const Task& task, const Write& write) {
     if (task.bodies != nullptr) task.require_indices(first, count);
     gather(task, first, count, work);
     write.aim(work, first, count);
-    std::uint64_t open = ~methods::gap_lanes(work.block);
+    std::uint64_t open = ~detail::gap_lanes(work.block);
     if (count < kBlock) open &= (std::uint64_t{1} << count) - 1;
     write.lanes(work, first, count);
     for (; open != 0; open &= open - 1) {
@@ -317,7 +319,7 @@ void run_overlaps(const Task& task, Answer* answers, const Doubtful& doubtful) {
       task.require_indices(first, count);
 #endif
       gather(task, first, count, work);
-      const methods::LaneOverlaps lanes = methods::overlap_lanes(work.block);
+      const detail::LaneOverlaps lanes = detail::overlap_lanes(work.block);
       Answer* const to = answers + first;  // a copy: bytes are written, which could be anything
       for (std::size_t i = 0; i < count; ++i) {
         const bool decided = (lanes.decided >> i & 1) != 0;

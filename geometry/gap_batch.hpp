@@ -15,6 +15,7 @@
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -30,10 +31,10 @@
 
 namespace tangency {
 
-namespace methods {
+namespace detail {
 struct LaneBody;
 struct LaneShape;
-}  // namespace methods
+}  // namespace detail
 
 /// A temporary container of ellipsoids: one that a span of it would outlive.
 template <class T>
@@ -61,8 +62,8 @@ class BodyArray {
   /// by different threads.
   void refresh(std::size_t i) noexcept;
 
-  const methods::LaneBody* lanes() const noexcept { return lanes_.data(); }
-  const methods::LaneShape* shapes() const noexcept { return shapes_.data(); }
+  const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
 
  private:
   struct Owned {};
@@ -76,8 +77,8 @@ class BodyArray {
 
   std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
   std::span<const Ellipsoid> bodies_;
-  std::vector<methods::LaneBody, LargePages<methods::LaneBody>> lanes_;
-  std::vector<methods::LaneShape, LargePages<methods::LaneShape>> shapes_;
+  std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
+  std::vector<detail::LaneShape, LargePages<detail::LaneShape>> shapes_;
 };
 
 /// The pairs of one call.

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tangency/geometry/contract.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/plane_tensor.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
+#include <tangency/geometry/bodies/plane_tensor.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
+#include <tangency/geometry/numbers/contract.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::PlaneBasis;
-using methods::PlaneTensor;
+using detail::PlaneBasis;
+using detail::PlaneTensor;
 using Mat2 = Eigen::Matrix2d;
 using Mat23 = Eigen::Matrix<double, 2, 3>;
 using Mat218 = Eigen::Matrix<double, 2, 18>;
@@ -44,7 +44,7 @@ struct Side {
     h = z.stableNorm();
     y = z / h;
     point = body.rotation() * body.semi_axes().cwiseProduct(y);
-    hessian = methods::radius_tensor(body, basis, h);
+    hessian = detail::radius_tensor(body, basis, h);
     sharpness = body.largest_semi_axis() / h;
   }
 
@@ -62,7 +62,7 @@ Mat2 matrix(const PlaneTensor& t) { return (Mat2() << t.xx(), t.xy(), t.xy(), t.
 struct Expansion {
   Expansion(const Ellipsoid& body_a, const Ellipsoid& body_b, const Vec3& d, const Vec3& normal)
       : n(normal),
-        basis(methods::tangent_basis(normal)),
+        basis(detail::tangent_basis(normal)),
         a(body_a, normal, basis),
         b(body_b, normal, basis),
         slope(basis.transpose() * (d - a.point - b.point)) {
@@ -70,12 +70,12 @@ struct Expansion {
     const double traces = a.hessian.trace() + b.hessian.trace();
     w = matrix(a.hessian) + matrix(b.hessian) + gap * Mat2::Identity();
     const double determinant = a.hessian.determinant + b.hessian.determinant +
-                               methods::mixed_determinant(a.hessian, b.hessian) + gap * traces +
+                               detail::mixed_determinant(a.hessian, b.hessian) + gap * traces +
                                gap * gap;
     inverse = (Mat2() << w(1, 1), -w(0, 1), -w(0, 1), w(0, 0)).finished() / determinant;
     const bool definite = w.trace() > 0.0 && determinant > 0.0;
     least =
-        definite ? methods::principal_values(w(0, 0), w(1, 1), w(0, 1), determinant).smaller : 0.0;
+        definite ? detail::principal_values(w(0, 0), w(1, 1), w(0, 1), determinant).smaller : 0.0;
   }
 
   double beta() const { return std::max(a.sharpness, b.sharpness); }
@@ -173,7 +173,7 @@ GapDerivatives solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, cons
 }
 
 /// The same in units of 2^exponent, taken back.
-GapDerivatives solve_scaled(const methods::ScaledPair& pair, const Gap& gap) {
+GapDerivatives solve_scaled(const detail::ScaledPair& pair, const Gap& gap) {
   GapDerivatives result = solve(pair.a, pair.b, pair.d, gap);
   // A derivative has the unit length^(1 - number of lengths it is taken by).
   const auto is_angle = [](int i) { return i % kOfBodyB / 3 == kRotation / 3; };
@@ -197,7 +197,7 @@ GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec
     const double largest =
         std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
     if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);
-    return solve_scaled(methods::scaled_pair(a, b, separation), gap);
+    return solve_scaled(detail::scaled_pair(a, b, separation), gap);
   });
 }
 
@@ -205,7 +205,7 @@ GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap
   return in_default_environment([&] {
     const Vec3 d = b.centre() - a.centre();
     if (d.allFinite()) return gap_derivatives(a, b, d, gap);
-    return solve_scaled(methods::scaled_pair(a, b), gap);
+    return solve_scaled(detail::scaled_pair(a, b), gap);
   });
 }
 

@@ -14,8 +14,8 @@
 
 namespace tangency {
 
-/// Allocates cache-line-aligned memory, and where it is long enough asks for pages of 2 MiB; whether
-/// it gets them is up to the system.
+/// Allocates cache-line-aligned memory, and where it is long enough asks for pages of 2 MiB;
+/// whether it gets them is up to the system.
 template <class T>
 struct LargePages {
   using value_type = T;
@@ -31,7 +31,8 @@ struct LargePages {
     void* memory = std::aligned_alloc(step, bytes);
     if (memory == nullptr) throw std::bad_alloc();
 #ifdef __linux__
-    if (step == kPage) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: what it returns is no matter
+    if (step == kPage)
+      madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: what it returns is no matter
 #endif
     return static_cast<T*>(memory);
   }

@@ -5,21 +5,21 @@
 #include <cstdint>
 #include <optional>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/equal_level.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
+#include <tangency/geometry/normals/precise_perram_wertheim.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
 
-using exact::DoubleDouble;
-using exact::WideFloat;
-using methods::Direction;
-using methods::EqualLevel;
-using methods::Rough;
-using methods::ShapeIn;
-using methods::VectorOf;
+using detail::Direction;
+using detail::DoubleDouble;
+using detail::EqualLevel;
+using detail::Rough;
+using detail::ShapeIn;
+using detail::VectorOf;
+using detail::WideFloat;
 
 // Of L, what the errors of a normal or of a point before its rounding may come to: two of them, and
 // what else is rounded, stay below u L / 64 (docs/derivations/other-gaps.md).
@@ -67,7 +67,7 @@ VectorOf<T> unit(const VectorOf<T>& v) {
 template <class T>
 OtherGap rounded(const T& gap, const VectorOf<T>& normal, const VectorOf<T>& arm_a,
                  const VectorOf<T>& arm_b) {
-  return {as_double(gap), exact::rounded(normal), exact::rounded(arm_a), exact::rounded(arm_b),
+  return {as_double(gap), detail::rounded(normal), detail::rounded(arm_a), detail::rounded(arm_b),
           OtherGapStatus::ok};
 }
 
@@ -105,15 +105,15 @@ struct AlongTheNormal {
                     const Found<T>& pair) {
     using std::abs, std::sqrt;
     using R = Rough<T>;
-    const auto rough = [](const T& v) { return methods::Arithmetic<T>::rough(v); };
+    const auto rough = [](const T& v) { return detail::Arithmetic<T>::rough(v); };
     const VectorOf<T> w = body.in_ball(pair.at.v);
     const T length_w = length(w);
     const VectorOf<T> e = (T(1.0) / length_w) * w;
     const VectorOf<T> foot = z + -dot(z, e) * e;
     const T square = dot(foot, foot), room = T(1.0) - square;
 
-    const R two = 2.0, slack = methods::kSlack;
-    const R of_v = slack * pair.at.turn + R(kTurned * methods::Arithmetic<T>::kEpsilon);
+    const R two = 2.0, slack = detail::kSlack;
+    const R of_v = slack * pair.at.turn + R(kTurned * detail::Arithmetic<T>::kEpsilon);
     const R turn =
         of_v * rough(length(pair.at.v)) / (R(body.body.smallest_semi_axis()) * rough(length_w));
     const R of_foot = slack * (off + R(kOfFoot) * rough(length(z)) * turn);
@@ -150,10 +150,10 @@ template <class T, class Measure>
 Measured solve(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d, double& ratio,
                const Measure& measure) {
   const ShapeIn<T> shape_a(a), shape_b(b);
-  const auto at = methods::find_equal_level<T>(shape_a, shape_b, d, ratio);
+  const auto at = detail::find_equal_level<T>(shape_a, shape_b, d, ratio);
   if (!at) return std::nullopt;
   const VectorOf<T> separation = scaled(d.vector, d.exponent);
-  const Rough<T> distance = methods::Arithmetic<T>::rough(length(separation));
+  const Rough<T> distance = detail::Arithmetic<T>::rough(length(separation));
   const Rough<T> size =
       distance + Rough<T>(a.largest_semi_axis()) + Rough<T>(b.largest_semi_axis());
   return measure(Found<T>{shape_a, shape_b, separation, size, *at});
@@ -164,7 +164,7 @@ Direction<DoubleDouble> direction(const Vec3& d, const Vec3& d_low) {
   for (std::size_t i = 0; i < 3; ++i) {
     v[i] = {d[static_cast<int>(i)], d_low[static_cast<int>(i)]};
   }
-  return methods::direction<DoubleDouble>(v);
+  return detail::direction<DoubleDouble>(v);
 }
 
 /// In the unit of the bodies as given, times 2^exponent.
@@ -186,12 +186,12 @@ Measured by_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3* se
                           double& ratio, const Measure& measure) {
   const Vec3 d = separation != nullptr ? *separation : Vec3(b.centre() - a.centre());
   const Vec3 d_low = separation != nullptr ? Vec3(Vec3::Zero())
-                                           : methods::separation_error(a.centre(), b.centre(), d);
-  if (methods::moderate(a, b, d)) {
+                                           : detail::separation_error(a.centre(), b.centre(), d);
+  if (detail::moderate(a, b, d)) {
     return solve_in_unit(a, b, direction(d, d_low), 0, ratio, measure);
   }
-  const methods::ScaledPair pair =
-      separation != nullptr ? methods::scaled_pair(a, b, d) : methods::scaled_pair(a, b);
+  const detail::ScaledPair pair =
+      separation != nullptr ? detail::scaled_pair(a, b, d) : detail::scaled_pair(a, b);
   // d itself, unless it overflows: in the unit of large bodies a small d would lose digits.
   Direction<DoubleDouble> between = direction(pair.d, pair.d_low);
   if (d.allFinite()) {
@@ -215,7 +215,7 @@ OtherGap answer(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
   Measured result = by_double_double(a, b, separation, ratio, measure);
   if (!result) {
     const VectorOf<WideFloat> d = {component(0), component(1), component(2)};
-    result = solve<WideFloat>(a, b, methods::direction<WideFloat>(d), ratio, measure);
+    result = solve<WideFloat>(a, b, detail::direction<WideFloat>(d), ratio, measure);
   }
   return result.value_or(nothing(OtherGapStatus::not_converged));
 }

@@ -2,10 +2,11 @@
 #include <tangency/geometry/pencil.hpp>
 
 #include <algorithm>
+#include <array>
 
-#include <tangency/geometry/exact/ellipsoid_form.hpp>
-#include <tangency/geometry/exact/pencil_form.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
+#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/bodies/pencil_form.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {

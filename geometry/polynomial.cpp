@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/projective_quartic.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/numbers/projective_quartic.hpp>
 
 namespace tangency {
 namespace {
@@ -88,7 +88,7 @@ std::array<double, 5> in_band(const Terms& p, int middle) {
 }
 
 /// On the line: z = 1/y for a root in the chart y.
-QuarticRoot on_the_line(const methods::ProjectiveRoot<double>& root) {
+QuarticRoot on_the_line(const detail::ProjectiveRoot<double>& root) {
   if (root.c == 1.0) return {root.s, root.error, root.crosses};
   const double z = 1.0 / root.c, y = std::abs(root.c);
   if (root.error >= y) return {z, kInfinity, root.crosses};
@@ -121,7 +121,7 @@ void add(QuarticRoots& roots, const QuarticRoot& root) {
 
 void add_band(QuarticRoots& roots, const Terms& p, const Band& band, bool even) {
   const int middle = band.middle();
-  const auto found = methods::projective_roots(in_band(p, middle));
+  const auto found = detail::projective_roots(in_band(p, middle));
   for (int i = 0; i < found.count; ++i) {
     const QuarticRoot root = on_the_line(found.root[static_cast<std::size_t>(i)]);
     if (!std::isfinite(root.x) || !band.holds(exponent_of(root.x) + middle)) continue;

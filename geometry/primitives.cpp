@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/surface_projection.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/bodies/surface_projection.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
 
-using exact::DoubleDouble;
-using exact::DoubleDoubleVector;
+using detail::DoubleDouble;
+using detail::DoubleDoubleVector;
 
 Vec3 scaled(const Vec3& v, int power) {
   return v.unaryExpr([=](double x) { return std::scalbn(x, power); });
@@ -61,7 +61,7 @@ SupportPoint support_point(const Vec3& semi_axes, const DoubleDoubleVector& norm
     axes[i] = std::max(semi_axes[static_cast<int>(i)], kLeastAxis);
     reach[i] = axes[i] * normal[i];
   }
-  SupportPoint found{exact::length(reach), {}};
+  SupportPoint found{detail::length(reach), {}};
   for (std::size_t i = 0; i < 3; ++i) found.point[i] = axes[i] * reach[i] / found.support;
   return found;
 }
@@ -70,15 +70,15 @@ Gap between(const Sphere& a, const Sphere& b) {
   assert(a.radius >= 0.0 && b.radius >= 0.0);
   constexpr double kLeast = 0x1p-1074;
   const double larger = std::max({a.radius, b.radius, kLeast});
-  const methods::SeenFromCentre seen = methods::seen_from_centre(around(a, larger), b.centre);
+  const detail::SeenFromCentre seen = detail::seen_from_centre(around(a, larger), b.centre);
   // The direction is formed in a unit of its own: squares of a tiny d would be nothing.
-  const Vec3 high = exact::rounded(seen.separation);
+  const Vec3 high = detail::rounded(seen.separation);
   const int exponent = high == Vec3::Zero() ? 0 : exponent_of_all(high);
   DoubleDoubleVector d;
   for (std::size_t i = 0; i < 3; ++i) d[i] = scaled(seen.separation[i], -exponent);
-  const DoubleDouble distance = exact::length(d);
+  const DoubleDouble distance = detail::length(d);
   const Vec3 n =
-      high == Vec3::Zero() ? Vec3(1, 0, 0) : exact::rounded(DoubleDouble(1.0) / distance * d);
+      high == Vec3::Zero() ? Vec3(1, 0, 0) : detail::rounded(DoubleDouble(1.0) / distance * d);
   const DoubleDouble gap = scaled(distance, exponent) -
                            DoubleDouble(std::scalbn(a.radius, -seen.exponent)) -
                            DoubleDouble(std::scalbn(b.radius, -seen.exponent));
@@ -89,17 +89,17 @@ Gap between(const Sphere& a, const Sphere& b) {
 
 Gap between(const Ellipsoid& a, const Sphere& b) {
   assert(b.radius >= 0.0);
-  const methods::SeenFromCentre seen = methods::seen_from_centre(a, b.centre);
-  const methods::BodyFrame frame(a.orientation());
-  const methods::SurfaceProjection found =
-      methods::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
-  const Vec3 n = exact::rounded(frame.to_space(found.normal));
-  const Vec3 arm = scaled(exact::rounded(frame.to_space(found.point)), seen.exponent);
+  const detail::SeenFromCentre seen = detail::seen_from_centre(a, b.centre);
+  const detail::BodyFrame frame(a.orientation());
+  const detail::SurfaceProjection found =
+      detail::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
+  const Vec3 n = detail::rounded(frame.to_space(found.normal));
+  const Vec3 arm = scaled(detail::rounded(frame.to_space(found.point)), seen.exponent);
   const Vec3 arm_b = -b.radius * n;
   const double radius = std::scalbn(b.radius, -seen.exponent);
   // A radius that this unit cannot hold leaves the body's distance nothing to add to it.
   if (!(radius < 0x1p900)) return global_gap(-b.radius, b.radius, 0, n, arm, arm_b);
-  const double size = exact::rounded(seen.separation).norm() + seen.semi_axes.maxCoeff() + radius;
+  const double size = detail::rounded(seen.separation).norm() + seen.semi_axes.maxCoeff() + radius;
   return global_gap((found.distance - DoubleDouble(radius)).high, size, seen.exponent, n, arm,
                     arm_b);
 }
@@ -110,19 +110,19 @@ WallGap between(const Ellipsoid& body, const Plane& wall) {
   // which may be much smaller than that of the centre.
   const int turn = exponent_of_all(wall.normal), own = exponent_of_all(body.semi_axes());
   const int unit = std::max({exponent_of_all(body.centre()), own, exponent_of(wall.offset) - turn});
-  const DoubleDoubleVector n = exact::exactly(scaled(wall.normal, -turn));
-  const DoubleDoubleVector normal = -(DoubleDouble(1.0) / exact::length(n) * n);
-  const DoubleDouble above = exact::dot(n, exact::exactly(scaled(body.centre(), -unit))) -
+  const DoubleDoubleVector n = detail::exactly(scaled(wall.normal, -turn));
+  const DoubleDoubleVector normal = -(DoubleDouble(1.0) / detail::length(n) * n);
+  const DoubleDouble above = detail::dot(n, detail::exactly(scaled(body.centre(), -unit))) -
                              DoubleDouble(std::scalbn(wall.offset, -turn - unit));
 
-  const methods::BodyFrame frame(body.orientation());
+  const detail::BodyFrame frame(body.orientation());
   const SupportPoint reach = support_point(scaled(body.semi_axes(), -own), frame.to_body(normal));
-  const DoubleDouble gap = above / exact::length(n) - scaled(reach.support, own - unit);
+  const DoubleDouble gap = above / detail::length(n) - scaled(reach.support, own - unit);
   const DoubleDoubleVector arm = frame.to_space(reach.point);
   DoubleDoubleVector across;
   for (std::size_t i = 0; i < 3; ++i) across[i] = scaled(arm[i], own - unit) + gap * normal[i];
-  return {std::scalbn(gap.high, unit), exact::rounded(normal), scaled(exact::rounded(arm), own),
-          scaled(exact::rounded(across), unit)};
+  return {std::scalbn(gap.high, unit), detail::rounded(normal), scaled(detail::rounded(arm), own),
+          scaled(detail::rounded(across), unit)};
 }
 
 }  // namespace

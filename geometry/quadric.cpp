@@ -2,14 +2,15 @@
 #include <tangency/geometry/quadric.hpp>
 
 #include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
 #include <string>
 
-#include <tangency/geometry/classify_coefficients.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
+#include <tangency/geometry/bodies/classify_coefficients.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 
 namespace tangency {
 namespace {
@@ -86,7 +87,7 @@ Parts moved(const Parts& p, const Mat3& r, const Vec3& translation) {
 }
 
 std::optional<Ellipsoid> solid_of(const Quadric& quadric) {
-  if (classify_coefficients(quadric.coefficients()).type != QuadricType::real_ellipsoid)
+  if (detail::classify_coefficients(quadric.coefficients()).type != QuadricType::real_ellipsoid)
     return std::nullopt;
   auto [p, unit_exponent] = normalised(parts_of(quadric));
   if (p.block.trace() < 0.0) p = {-p.block, -p.column, -p.constant};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/quadric_type.hpp>
 
+#include <cstddef>
+
 namespace tangency {
 
 std::string_view to_string(QuadricType type) noexcept {

@@ -7,18 +7,18 @@
 #include <optional>
 #include <utility>
 
-#include <tangency/geometry/exact/ray_form.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/body_frame.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/bodies/double_double_body.hpp>
+#include <tangency/geometry/bodies/ray_form.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 namespace tangency {
 namespace {
 
-using exact::DoubleDouble;
-using exact::DoubleDoubleVector;
+using detail::DoubleDouble;
+using detail::DoubleDoubleVector;
 
-constexpr double kEpsilon = exact::kDoubleDoubleEpsilon;
+constexpr double kEpsilon = detail::kDoubleDoubleEpsilon;
 // docs/derivations/primitives.md, section 4.
 constexpr double kTurned = 64 * kEpsilon;
 constexpr double kCrossed = 8 * kEpsilon;
@@ -38,22 +38,22 @@ struct UnitBallLine {
 };
 
 /// Is the line proven to miss the sphere around the body? Lengths as seen, direction in [1, 2).
-bool passes_far(const methods::SeenFromCentre& seen, const Vec3& direction) {
-  const Vec3 d = exact::rounded(seen.separation);
+bool passes_far(const detail::SeenFromCentre& seen, const Vec3& direction) {
+  const Vec3 d = detail::rounded(seen.separation);
   const double reach = seen.semi_axes.maxCoeff() * direction.norm();
   return d.cross(direction).norm() - reach > kFarMiss * d.norm() * direction.norm();
 }
 
-UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::BodyFrame& frame,
+UnitBallLine unit_ball_line(const detail::SeenFromCentre& seen, const detail::BodyFrame& frame,
                             const Vec3& direction) {
   UnitBallLine line{frame.to_body(seen.separation),
-                    frame.to_body(exact::exactly(direction)),
+                    frame.to_body(detail::exactly(direction)),
                     {},
                     {},
                     {},
                     {},
                     0.0};
-  const double distance = exact::rounded(seen.separation).norm(), speed = direction.norm();
+  const double distance = detail::rounded(seen.separation).norm(), speed = direction.norm();
   double z[3], v[3];  // absolute values
   for (std::size_t i = 0; i < 3; ++i) {
     const double a = seen.semi_axes[static_cast<int>(i)];
@@ -70,7 +70,7 @@ UnitBallLine unit_ball_line(const methods::SeenFromCentre& seen, const methods::
                       (z[k] + line.dz[k]) * line.dv[j] + kCrossed * (z[j] * v[k] + z[k] * v[j]);
     line.error += (2.0 * std::abs(x[i].high) + dx) * dx + (2.0 * v[i] + line.dv[i]) * line.dv[i];
   }
-  const DoubleDouble vv = exact::dot(line.v, line.v), xx = exact::dot(x, x);
+  const DoubleDouble vv = detail::dot(line.v, line.v), xx = detail::dot(x, x);
   line.discriminant = vv - xx;
   line.error += kSquared * (vv.high + xx.high);
   return line;
@@ -109,7 +109,7 @@ class Chord {
     Vec3 normal;
   };
   /// @param side  -1, 1, or 0 for a tangent
-  Hit hit(int side, const methods::SeenFromCentre& seen, const methods::BodyFrame& frame) {
+  Hit hit(int side, const detail::SeenFromCentre& seen, const detail::BodyFrame& frame) {
     if (form_) {
       const auto [t, normal] = form_->hit(side, exponent_);
       return {t, normal};
@@ -117,7 +117,7 @@ class Chord {
     // The nearest point of the line to the centre, v x (z x v) / |v|^2, and what is left of 1 along
     // v: of unit length whatever the origin's distance.
     const DoubleDoubleVector &v = line_.v, &x = line_.moment;
-    const DoubleDouble square = exact::dot(v, v), root = sqrt(line_.discriminant);
+    const DoubleDouble square = detail::dot(v, v), root = sqrt(line_.discriminant);
     const DoubleDouble half = DoubleDouble(side) * root;
     DoubleDoubleVector gradient;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -125,8 +125,8 @@ class Chord {
       gradient[i] = (v[j] * x[k] - v[k] * x[j] + half * v[i]) /
                     (square * DoubleDouble(seen.semi_axes[static_cast<int>(i)]));
     }
-    const DoubleDoubleVector normal = DoubleDouble(1.0) / exact::length(gradient) * gradient;
-    return {(half - exact::dot(line_.z, v)) / square, exact::rounded(frame.to_space(normal))};
+    const DoubleDoubleVector normal = DoubleDouble(1.0) / detail::length(gradient) * gradient;
+    return {(half - detail::dot(line_.z, v)) / square, detail::rounded(frame.to_space(normal))};
   }
 
  private:
@@ -174,14 +174,14 @@ RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t
   assert(t_begin <= t_end);
   RayHit hit{
       RayStatus::miss, 0, {{0.0, Vec3::Zero(), Vec3::Zero()}, {0.0, Vec3::Zero(), Vec3::Zero()}}};
-  const methods::SeenFromCentre seen = methods::seen_from_centre(body, ray.origin);
+  const detail::SeenFromCentre seen = detail::seen_from_centre(body, ray.origin);
   const int turn = std::max({exponent_of(ray.direction[0]), exponent_of(ray.direction[1]),
                              exponent_of(ray.direction[2])});
   const Vec3 direction =
       ray.direction.unaryExpr([=](double x) { return scaled_by_power(x, -turn); });
   if (passes_far(seen, direction)) return hit;
 
-  const methods::BodyFrame frame(body.orientation());
+  const detail::BodyFrame frame(body.orientation());
   const UnitBallLine line = unit_ball_line(seen, frame, direction);
   Chord chord(body, ray, line, seen.exponent - turn, seen.semi_axes.minCoeff() <= kLeastAxis);
   if (chord.sign() < 0) return hit;
@@ -196,7 +196,7 @@ RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t
       if (place == side) rounded = at, t = std::scalbn(at, turn - seen.exponent);
     }
     const Vec3 arm =
-        exact::rounded(seen.separation + t * exact::exactly(direction)).unaryExpr([&](double x) {
+        detail::rounded(seen.separation + t * detail::exactly(direction)).unaryExpr([&](double x) {
           return std::scalbn(x, seen.exponent);
         });
     hit.points[hit.count++] = {rounded, arm, normal};

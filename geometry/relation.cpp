@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/relation.hpp>
 
-#include <tangency/geometry/exact/containment.hpp>
-#include <tangency/geometry/exact/pair_quartic.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/overlap_filter.hpp>
-#include <tangency/geometry/methods/overlap_filter_double_double.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/relation/exact_pair.hpp>
+#include <tangency/geometry/relation/overlap_filter.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::Filtered;
-using methods::OverlapFilter;
+using detail::Filtered;
+using detail::OverlapFilter;
 
 /// Calls ask(a, b, d, d_low) with the pair in a unit that suits the filters, c_B - c_A = d + d_low;
 /// `otherwise` where there is none.
 template <class Answer, class Ask>
 Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const Ask& ask) noexcept {
   const Vec3 d = b.centre() - a.centre();
-  if (methods::moderate(a, b, d)) {
-    return ask(a, b, d, [&] { return methods::separation_error(a.centre(), b.centre(), d); });
+  if (detail::moderate(a, b, d)) {
+    return ask(a, b, d, [&] { return detail::separation_error(a.centre(), b.centre(), d); });
   }
-  const methods::ScaledPair pair = methods::scaled_pair(a, b);
-  if (!methods::moderate(pair.a, pair.b, pair.d)) return otherwise;
+  const detail::ScaledPair pair = detail::scaled_pair(a, b);
+  if (!detail::moderate(pair.a, pair.b, pair.d)) return otherwise;
   return ask(pair.a, pair.b, pair.d, [&] { return pair.d_low; });
 }
 
@@ -32,7 +30,7 @@ template <class SeparationError>
 Filtered settled(const OverlapFilter& filter, const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                  const SeparationError& d_low) {
   if (filter.answer() != Filtered::unknown) return filter.answer();
-  return methods::filter_overlap_in_double_double(a, b, d, d_low(), filter.normal());
+  return detail::filter_overlap_in_double_double(a, b, d, d_low(), filter.normal());
 }
 
 enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };
@@ -50,11 +48,11 @@ Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
       break;
   }
   const Vec3 n = filter.normal();
-  if (!methods::proves_sticking_out(a, b, d, n)) {
-    return methods::proves_inside(a, b, d) ? Found::a_inside : Found::meeting;
+  if (!detail::proves_sticking_out(a, b, d, n)) {
+    return detail::proves_inside(a, b, d) ? Found::a_inside : Found::meeting;
   }
-  if (methods::proves_sticking_out(b, a, -d, n)) return Found::overlapping;
-  return methods::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
+  if (detail::proves_sticking_out(b, a, -d, n)) return Found::overlapping;
+  return detail::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
 }
 
 /// For a pair whose interiors meet.
@@ -152,7 +150,7 @@ std::string_view to_string(Relation relation) noexcept {
 OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   // This filter holds in every environment; what it does not tell asks which one it is in.
   const Vec3 d = b.centre() - a.centre();
-  if (methods::moderate(a, b, d)) {
+  if (detail::moderate(a, b, d)) {
     const Filtered found = OverlapFilter(a, b, d).answer();
     if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
   }

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/bodies/moving_pair.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/closest_point.hpp>
-#include <tangency/geometry/exact/double_double.hpp>
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/moving_pair.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
-#include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
 namespace {
 
-using methods::MovingPair;
-using methods::PairAt;
+using detail::MovingPair;
+using detail::PairAt;
 
 constexpr int kMaxSteps = 2000;  // chosen: docs/derivations/time-of-contact.md, section 5
 constexpr int kProbes = 24;      // chosen: moments looked at for an overlap that is soon over
@@ -44,7 +44,7 @@ bool proven_overlap(const MovingPair& pair, double t) {
 
 /// The greatest double that is no more than from + by, both >= 0; infinite where that overflows.
 double at_most_after(double from, double by) {
-  const exact::DoubleDouble sum = exact::two_sum(from, by);
+  const detail::DoubleDouble sum = detail::two_sum(from, by);
   return sum.low < 0.0 ? std::nextafter(sum.high, 0.0) : sum.high;
 }
 
@@ -106,7 +106,7 @@ struct Problem {
 
 Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                 const Motion& motion_b, double horizon) {
-  const methods::ScaledPair start = methods::scaled_pair(a, b);
+  const detail::ScaledPair start = detail::scaled_pair(a, b);
   constexpr int kLongest = 500;
   const int path =
       std::max(exponent_of_path(motion_a, horizon), exponent_of_path(motion_b, horizon));

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include <tangency/geometry/floating_point_environment.hpp>
-#include <tangency/geometry/methods/scaled_pair.hpp>
-#include <tangency/geometry/methods/trace_scheme.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/trace/scheme.hpp>
 
 namespace tangency {
 namespace {
@@ -19,8 +19,8 @@ TraceContact nothing(TraceStatus status) {
 
 /// The scheme for a pair known to overlap, times 2^exponent.
 TraceContact solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, int exponent) {
-  const auto found = methods::trace_scheme<double>(methods::trace_body<double>(a),
-                                                   methods::trace_body<double>(b), d, {});
+  const auto found = detail::trace_scheme<double>(detail::trace_body<double>(a),
+                                                  detail::trace_body<double>(b), d, {});
   TraceContact result = nothing(found.status);
   result.cone = found.cone;
   result.other_pole = found.other_pole;
@@ -62,7 +62,7 @@ const char* to_string(TraceStatus status) noexcept {
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] {
     if (relation(a, b).relation != Relation::overlap) return nothing(TraceStatus::not_overlapping);
-    const methods::ScaledPair pair = methods::scaled_pair(a, b);
+    const detail::ScaledPair pair = detail::scaled_pair(a, b);
     return solve(pair.a, pair.b, pair.d, pair.exponent);
   });
 }

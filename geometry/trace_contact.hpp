@@ -30,7 +30,7 @@
 #include <array>
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/trace_status.hpp>
+#include <tangency/geometry/status.hpp>
 
 namespace tangency {
 

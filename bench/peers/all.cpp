@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <iterator>
+#include <memory>
+#include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
 

@@ -15,12 +15,13 @@
 #include <exception>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/peer.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace {
 

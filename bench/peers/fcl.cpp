@@ -17,11 +17,16 @@
 //
 // Tolerances are absolute, in the unit of length of the bodies. Prepared: both shapes and both
 // transforms.
+#include <fcl/fcl.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
-
-#include <fcl/fcl.h>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
 

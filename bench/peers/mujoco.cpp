@@ -9,13 +9,17 @@
 // Tolerance is absolute, in the unit of length of the bodies, and the limit is on the refinement of
 // the depth alone. Prepared: rotation matrices; sizes, centres and matrices are copied into the one
 // model that a peer has with each call (30 doubles), as MuJoCo's kinematics writes them.
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <stdexcept>
-
-#include <mujoco/mujoco.h>
+#include <string>
+#include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
 

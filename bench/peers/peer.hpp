@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::peers {
 

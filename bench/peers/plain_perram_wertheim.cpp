@@ -6,12 +6,16 @@
 // (1 - 1/sqrt F) n.d; where the centres coincide there is no normal and no gap.
 //
 // Prepared: both shape matrices.
-#include <cmath>
-#include <cstdint>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <boost/math/tools/minima.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
 

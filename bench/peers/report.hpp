@@ -3,6 +3,7 @@
 /// The comparison with other codes as Markdown, by class of question.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -13,10 +13,15 @@
 //           No answer where the accuracy asked for was not reached.
 //
 // Prepared: both ContactGeometry::Ellipsoid and both transforms.
+#include <SimTKmath.h>
+
 #include <array>
 #include <cstdio>
-
-#include <SimTKmath.h>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/bench/speed_accuracy/report.hpp>
-
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <tangency/bench/speed_accuracy/format.hpp>
+#include <tangency/bench/speed_accuracy/report.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {

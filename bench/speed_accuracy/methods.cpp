@@ -4,20 +4,21 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
 
-#include <tangency/geometry/methods/gap_lanes.hpp>
-#include <tangency/geometry/methods/perram_wertheim.hpp>
+#include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/normals/perram_wertheim.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
 
-using methods::LaneBlock;
+using detail::LaneBlock;
 
 // What calls answer, as an Answer. Another method that answers one pair at a time needs a function
 // here, unless its answer is one of these, and a line in add_singles().
@@ -59,7 +60,7 @@ Answer to_answer(const Answer& answer) { return answer; }
 Answer start_alone(const Ellipsoid& a, const Ellipsoid& b, int steps) {
   if (!a.moderate() || !b.moderate()) return {};
   const Vec3 d = b.centre() - a.centre();
-  const methods::PerramWertheimForm form(a, b, d);
+  const detail::PerramWertheimForm form(a, b, d);
   const Vec3 n = form.normal_direction(form.maximise(steps)).stableNormalized();
   const Vec3 arm_a = a.support_point(n), arm_b = -b.support_point(n);
   return {Standing::estimate, std::nullopt, n.dot(d - arm_a + arm_b), 0, n, arm_a, arm_b};
@@ -219,7 +220,7 @@ void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool fol
       block.gap_error = &c.gap_error[first];
       block.normal = c.normal[first].data();
       if (arms) block.arm_a = c.arm_a[first].data(), block.arm_b = c.arm_b[first].data();
-      c.settled[first / LaneBlock::kPairs] = methods::gap_lanes(block);
+      c.settled[first / LaneBlock::kPairs] = detail::gap_lanes(block);
     }
   };
   Method method{"gap_lanes", following ? "following" : "cold", steps, level, {}, true, {}, {}};

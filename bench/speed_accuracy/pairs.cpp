@@ -2,10 +2,11 @@
 #include <tangency/bench/speed_accuracy/pairs.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 
-#include <tangency/bench/moment_ago.hpp>
+#include <tangency/bench/moved_back.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/families/manufactured.hpp>

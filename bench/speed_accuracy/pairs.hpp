@@ -3,6 +3,7 @@
 /// The pairs that speed is held against accuracy on, and what is true of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,7 +12,7 @@
 
 #include <tangency/bench/speed_accuracy/score.hpp>
 #include <tangency/geometry/gap_batch.hpp>
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::speed_accuracy {
 
@@ -26,7 +27,7 @@ struct Pairs {
   std::vector<IndexedPair> list;
   std::vector<double> smallest;       ///< semi-axis of each pair
   double least;                       ///< of those
-  std::vector<Vec3> previous_normal;  ///< of a moment ago: bench/moment_ago.hpp
+  std::vector<Vec3> previous_normal;  ///< of a moment ago: bench/moved_back.hpp
   std::optional<BodyArray> array;     ///< of `bodies`, which therefore stay in place
 
   Pairs() = default;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/bench/speed_accuracy/report.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <variant>
 
 #include <tangency/bench/speed_accuracy/format.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {

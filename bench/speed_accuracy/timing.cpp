@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/bench/speed_accuracy/timing.hpp>
 
+#include <Eigen/Dense>
 #include <benchmark/benchmark.h>
-#include <ctime>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <vector>
 
-#include <Eigen/Dense>
-
-#include <tangency/bench/level.hpp>
+#include <tangency/bench/instruction_set.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {

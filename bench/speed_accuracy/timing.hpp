@@ -15,7 +15,7 @@ namespace tangency::speed_accuracy {
 struct Job {
   std::function<void()> run;  ///< all pairs once
   std::size_t pairs;
-  std::int64_t level = 0;  ///< in force while it runs: bench/level.hpp
+  std::int64_t level = 0;  ///< in force while it runs: bench/instruction_set.hpp
   double least = std::numeric_limits<double>::infinity();  ///< ns per pair
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/advice.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <tangency/dem/tool/advice.hpp>
 #include <vector>
 
 namespace tangency::dem {

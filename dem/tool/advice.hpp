@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::dem {

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <initializer_list>
-#include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/tool/body_table.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tangency/dem/scene_keys.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::dem {
 namespace {

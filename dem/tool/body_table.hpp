@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+
 #include <tangency/dem/scene.hpp>
 
 namespace tangency::dem {

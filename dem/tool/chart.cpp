@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/chart.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
-#include <tangency/dem/tool/chart.hpp>
 
 namespace tangency::dem {
 namespace {
 
 // Chosen: pixels.
-constexpr double width = 620, height = 330;
-constexpr double left = 66, right = 66, top = 34, bottom = 74;
+constexpr double kWidth = 620, kHeight = 330;
+constexpr double kLeft = 66, kRight = 66, kTop = 34, kBottom = 74;
 /// Pieces that a long curve is thinned to, its lowest and highest value of each kept.
-constexpr std::size_t pieces = 500;
+constexpr std::size_t kPieces = 500;
 
 /// Told apart by the colour-blind too [Wong2011], and three more.
-constexpr std::array<const char*, 9> colours = {"#0072b2", "#d55e00", "#009e73",
-                                                "#cc79a7", "#8a6d00", "#56b4e9",
-                                                "#e69f00", "#555555", "#7b3fa0"};
+constexpr std::array<const char*, 9> kColours = {"#0072b2", "#d55e00", "#009e73",
+                                                 "#cc79a7", "#8a6d00", "#56b4e9",
+                                                 "#e69f00", "#555555", "#7b3fa0"};
 
 std::string text_of(double x, const char* format) {
   char text[32];
@@ -89,10 +91,10 @@ class Axis {
 };
 
 struct Axes {
-  Axis x{left, width - right};
-  Axis y, y_right{height - bottom, top};
+  Axis x{kLeft, kWidth - kRight};
+  Axis y, y_right{kHeight - kBottom, kTop};
 
-  explicit Axes(const Chart& chart) : y(height - bottom, top, chart.logarithmic) {
+  explicit Axes(const Chart& chart) : y(kHeight - kBottom, kTop, chart.logarithmic) {
     for (const Curve& curve : chart.curves)
       for (std::size_t k = 0; k < curve.x.size(); ++k) {
         x.widen(curve.x[k]);
@@ -108,7 +110,7 @@ struct Axes {
 std::vector<std::size_t> thinned(const Curve& curve) {
   const std::size_t count = curve.x.size();
   std::vector<std::size_t> kept;
-  const std::size_t piece = std::max<std::size_t>(1, count / pieces);
+  const std::size_t piece = std::max<std::size_t>(1, count / kPieces);
   for (std::size_t first = 0; first < count; first += piece) {
     const auto from = curve.y.begin() + static_cast<std::ptrdiff_t>(first);
     const auto to = curve.y.begin() + static_cast<std::ptrdiff_t>(std::min(first + piece, count));
@@ -146,15 +148,15 @@ std::string bands_of(const Chart& chart, const Axis& x) {
   for (const Band& band : chart.bands) {
     const double from = x.at(band.from), to = x.at(band.to);
     if (to - from > 2.0) dark = !dark;  // what shows
-    svg += "<rect x=\"" + pixels(from) + "\" y=\"" + pixels(top) + "\" width=\"" +
-           pixels(std::max(0.0, to - from)) + "\" height=\"" + pixels(height - bottom - top) +
+    svg += "<rect x=\"" + pixels(from) + "\" y=\"" + pixels(kTop) + "\" width=\"" +
+           pixels(std::max(0.0, to - from)) + "\" height=\"" + pixels(kHeight - kBottom - kTop) +
            "\" fill=\"" + (dark ? "#eef2f7" : "#fbf6ec") + "\"><title>" + escaped(band.name) +
            "</title></rect>\n";
     // Names that would run into one another are left to the mouse; 6.5 pixels a letter.
     const double wide = 6.5 * static_cast<double>(band.name.size());
     const double middle = 0.5 * (from + to);
     if (middle - 0.5 * wide < last_label || to - from < 0.6 * wide) continue;
-    svg += label(middle, top + 13, "text-anchor=\"middle\" class=\"stage\"", band.name);
+    svg += label(middle, kTop + 13, "text-anchor=\"middle\" class=\"stage\"", band.name);
     last_label = middle + 0.5 * wide;
   }
   return svg;
@@ -164,33 +166,33 @@ std::string frame_of(const Chart& chart, const Axes& axes) {
   std::string svg;
   for (const double value : axes.y.ticks()) {
     const double y = axes.y.at(value);
-    svg += line(left, y, width - right, y, "#d8d8d8") +
-           label(left - 6, y + 4, "text-anchor=\"end\"", text_of(value, "%.4g"));
+    svg += line(kLeft, y, kWidth - kRight, y, "#d8d8d8") +
+           label(kLeft - 6, y + 4, "text-anchor=\"end\"", text_of(value, "%.4g"));
   }
   if (!chart.right_label.empty())
     for (const double value : axes.y_right.ticks()) {
       const double y = axes.y_right.at(value);
-      svg += line(width - right, y, width - right + 4, y, "#555") +
-             label(width - right + 7, y + 4, "", text_of(value, "%.4g"));
+      svg += line(kWidth - kRight, y, kWidth - kRight + 4, y, "#555") +
+             label(kWidth - kRight + 7, y + 4, "", text_of(value, "%.4g"));
     }
   for (const double value : axes.x.ticks()) {
     const double x = axes.x.at(value);
-    svg += line(x, height - bottom, x, height - bottom + 4, "#555") +
-           label(x, height - bottom + 17, "text-anchor=\"middle\"", text_of(value, "%.4g"));
+    svg += line(x, kHeight - kBottom, x, kHeight - kBottom + 4, "#555") +
+           label(x, kHeight - kBottom + 17, "text-anchor=\"middle\"", text_of(value, "%.4g"));
   }
-  svg += "<rect x=\"" + pixels(left) + "\" y=\"" + pixels(top) + "\" width=\"" +
-         pixels(width - left - right) + "\" height=\"" + pixels(height - top - bottom) +
+  svg += "<rect x=\"" + pixels(kLeft) + "\" y=\"" + pixels(kTop) + "\" width=\"" +
+         pixels(kWidth - kLeft - kRight) + "\" height=\"" + pixels(kHeight - kTop - kBottom) +
          "\" fill=\"none\" stroke=\"#555\"/>\n";
   const auto upright = [](double x, const std::string& text) {
-    const double y = 0.5 * (top + height - bottom);
+    const double y = 0.5 * (kTop + kHeight - kBottom);
     return label(
         x, y,
         "text-anchor=\"middle\" transform=\"rotate(-90 " + pixels(x) + " " + pixels(y) + ")\"",
         text);
   };
-  return svg + label(0.5 * width, 18, "text-anchor=\"middle\" class=\"title\"", chart.title) +
-         label(0.5 * width, height - bottom + 34, "text-anchor=\"middle\"", chart.x_label) +
-         upright(14, chart.left_label) + upright(width - 8, chart.right_label);
+  return svg + label(0.5 * kWidth, 18, "text-anchor=\"middle\" class=\"title\"", chart.title) +
+         label(0.5 * kWidth, kHeight - kBottom + 34, "text-anchor=\"middle\"", chart.x_label) +
+         upright(14, chart.left_label) + upright(kWidth - 8, chart.right_label);
 }
 
 }  // namespace
@@ -214,18 +216,18 @@ std::string escaped(const std::string& text) {
 
 std::string svg_of(const Chart& chart) {
   const Axes axes(chart);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width) +
-                    "\" height=\"" + pixels(height) + "\" role=\"img\" aria-label=\"" +
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(kWidth) +
+                    "\" height=\"" + pixels(kHeight) + "\" role=\"img\" aria-label=\"" +
                     escaped(chart.title) + "\">\n";
   svg += bands_of(chart, axes.x) + frame_of(chart, axes);
-  double at_x = left, at_y = height - 22;
+  double at_x = kLeft, at_y = kHeight - 22;
   for (std::size_t k = 0; k < chart.curves.size(); ++k) {
     const Curve& curve = chart.curves[k];
-    const char* colour = colours[k % colours.size()];
+    const char* colour = kColours[k % kColours.size()];
     svg += drawn(curve, axes.x, curve.on_the_right ? axes.y_right : axes.y, colour);
     if (chart.curves.size() == 1) continue;  // the axis says what it is
     const double wide = 34 + 6.5 * static_cast<double>(curve.name.size());
-    if (at_x + wide > width - 10) at_x = left, at_y += 16;
+    if (at_x + wide > kWidth - 10) at_x = kLeft, at_y += 16;
     svg +=
         line(at_x, at_y - 4, at_x + 18, at_y - 4, colour) + label(at_x + 22, at_y, "", curve.name);
     at_x += wide;

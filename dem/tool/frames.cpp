@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/frames.hpp>
+
 #include <fcntl.h>
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <tangency/dem/files.hpp>
-#include <tangency/dem/tool/frames.hpp>
+
 #include <tangency/dem/tool/numbers.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {

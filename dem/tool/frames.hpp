@@ -9,10 +9,12 @@
 /// and `aspherical_shape`, the three semi-axes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <tangency/dem/simulation.hpp>
-#include <tangency/geometry/tool/descriptor.hpp>
 #include <vector>
+
+#include <tangency/dem/simulation.hpp>
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::dem {
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/history.hpp>
+
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/tool/history.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::dem {
 History::History(const std::filesystem::path& file) {

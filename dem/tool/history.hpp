@@ -3,14 +3,16 @@
 /// history.csv read back.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <tangency/dem/peaks.hpp>
 #include <utility>
 #include <vector>
+
+#include <tangency/dem/shear_peaks.hpp>
 
 namespace tangency::dem {
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string>
+#include <system_error>
+
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
-#include <tangency/geometry/tool/not_empty.hpp>
+#include <tangency/geometry/tables/not_empty.hpp>
 #include <tangency/geometry/tool/program.hpp>
 
 namespace {
@@ -16,16 +19,16 @@ namespace {
 using namespace tangency::dem;
 using tangency::tool::exit_after;
 
-constexpr const char* program_description =
+constexpr const char* kProgramDescription =
     "tangency-dem: assemblies of ellipsoids by the discrete element method";
 
-constexpr const char* program_help = R"(
+constexpr const char* kProgramHelp = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
 `tangency-dem report --help` says what a report of it shows;
 `tangency-dem schema` lists every key of a scene.
 )";
 
-constexpr const char* run_help = R"(
+constexpr const char* kRunHelp = R"(
 DIR receives:
   history.csv        a row every history_interval cycles and at the end of each stage, where a
                      stage that ends at once has strains of 0; first one of the start, or of the
@@ -99,7 +102,7 @@ Exit status:
   128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM
 )";
 
-constexpr const char* report_help = R"(
+constexpr const char* kReportHelp = R"(
 DIR is that of a run, complete or not: its history.csv is read and, if it is there, summary.json.
 Prints a line a stage with the values at its end (or at the last row so far):
   cycles, mean stress, friction angle, coordination number, porosity, inertial fraction, axial
@@ -134,9 +137,9 @@ void let_idle_threads_sleep(char** argv) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app(program_description, "tangency-dem");
+  CLI::App app(kProgramDescription, "tangency-dem");
   app.set_version_flag("--version", "tangency-dem " TANGENCY_VERSION);
-  app.footer(program_help);
+  app.footer(kProgramHelp);
   app.require_subcommand(1);
 
   RunOptions options;
@@ -152,11 +155,11 @@ int parse_and_run(int argc, char** argv) {
       ->check(tangency::tool::not_empty());
   run_command->add_flag("--replace", options.replace,
                         "Take away the results of another run in the directory");
-  run_command->footer(run_help);
+  run_command->footer(kRunHelp);
   run_command->add_flag("--quiet", options.quiet, "No progress");
   CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");
   report_command->add_option("DIR", out, "Directory of a run's results")->required();
-  report_command->footer(report_help);
+  report_command->footer(kReportHelp);
   CLI::App* schema_command = app.add_subcommand("schema", "Print every key of a scene");
 
   try {

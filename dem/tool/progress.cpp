@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/progress.hpp>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -6,14 +8,13 @@
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <tangency/dem/tool/progress.hpp>
 
 namespace tangency::dem {
 namespace {
 
-constexpr int bar_width = 30;  // characters: leaves room for the note on 100 columns
-constexpr std::chrono::milliseconds bar_interval{100};
-constexpr std::chrono::milliseconds line_interval{5000};
+constexpr int kBarWidth = 30;  // characters: leaves room for the note on 100 columns
+constexpr std::chrono::milliseconds kBarInterval{100};
+constexpr std::chrono::milliseconds kLineInterval{5000};
 
 std::string time_left(double seconds) {
   std::ostringstream text;
@@ -32,7 +33,7 @@ Progress::Progress(bool quiet) : quiet_(quiet), on_terminal_(isatty(STDERR_FILEN
 
 bool Progress::is_due() const {
   return !quiet_ && (first_fraction_ < 0.0 ||
-                     Clock::now() - last_ >= (on_terminal_ ? bar_interval : line_interval));
+                     Clock::now() - last_ >= (on_terminal_ ? kBarInterval : kLineInterval));
 }
 
 void Progress::show(double fraction, const std::string& note, double most_left) {
@@ -46,8 +47,8 @@ void Progress::show(double fraction, const std::string& note, double most_left) 
           ? ", about " + time_left(std::min(most_left, spent * (1.0 - fraction) / done))
           : std::string();
   if (on_terminal_) {
-    const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * bar_width);
-    std::cerr << "\r[" << std::string(filled, '#') << std::string(bar_width - filled, ' ') << "] "
+    const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
+    std::cerr << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] "
               << note << left << "\x1b[K" << std::flush;
     bar_is_open_ = true;
   } else {

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/report.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <tangency/dem/files.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/tool/chart.hpp>
 #include <tangency/dem/tool/history.hpp>
-#include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 
 namespace tangency::dem {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* page_head = R"(<!DOCTYPE html>
+constexpr const char* kPageHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>tangency-dem report</title><style>
 body { font: 15px/1.45 sans-serif; margin: 1.5em auto; max-width: 112em; padding: 0 1em; color: #222; }
 h2 { margin: 1.2em 0 .3em; }
@@ -35,7 +42,7 @@ svg text.stage { fill: #667; font-size: 11px; }
 
 /// How far a cell's shape may be off a uniform strain before a stage counts as one that shears.
 /// Chosen: rounding leaves 1e-12, a shear test starts where stresses differ at some 1e-3.
-constexpr double least_distortion = 1e-3;
+constexpr double kLeastDistortion = 1e-3;
 
 std::string shown(double x, const char* format = "%.4g") {
   char text[32];
@@ -98,7 +105,7 @@ class Run {
     const std::size_t end = stage.end - 1;
     const double sideways = value("volumetric_strain", end) + value("axial_strain", end);
     const double uniform = value("volumetric_strain", end) / dimensions();
-    return std::abs(sideways - (dimensions() - 1.0) * uniform) > least_distortion;
+    return std::abs(sideways - (dimensions() - 1.0) * uniform) > kLeastDistortion;
   }
 
   std::vector<double> column(std::string_view name, std::size_t first, std::size_t end,
@@ -189,7 +196,7 @@ std::string summary_table(const nlohmann::ordered_json& summary) {
   return text + "</table>\n";
 }
 
-constexpr double to_mega = 1e-6;
+constexpr double kToMega = 1e-6;
 
 /// What a shear test is looked at for, against its axial strain.
 std::string shear_charts(const Run& run, const StageRows& stage) {
@@ -201,10 +208,10 @@ std::string shear_charts(const Run& run, const StageRows& stage) {
                        "axial strain",
                        "stress (MPa)",
                        "friction angle (degrees)",
-                       {{"mean stress", strain, column("mean_stress", to_mega)},
-                        {"xx", strain, column("s_xx", to_mega)},
-                        {"yy", strain, column("s_yy", to_mega)},
-                        {"zz", strain, column("s_zz", to_mega)},
+                       {{"mean stress", strain, column("mean_stress", kToMega)},
+                        {"xx", strain, column("s_xx", kToMega)},
+                        {"yy", strain, column("s_yy", kToMega)},
+                        {"zz", strain, column("s_zz", kToMega)},
                         {"friction angle (right)", strain, column("friction_angle_deg"), true}}};
   const Chart volume{"Volumetric strain: " + stage.name,
                      "axial strain",
@@ -232,7 +239,7 @@ std::string time_charts(const Run& run) {
       energies.push_back({name, time, std::move(values)});
   }
   return over_time("Stress and friction angle", "mean stress (MPa)", "friction angle (degrees)",
-                   {{"mean stress", time, run.column("mean_stress", 0, rows, to_mega)},
+                   {{"mean stress", time, run.column("mean_stress", 0, rows, kToMega)},
                     {"friction angle (right)", time, run.column("friction_angle_deg"), true}}) +
          over_time("Coordination and porosity", "coordination number", "porosity",
                    {{"coordination", time, run.column("coordination_number")},
@@ -246,7 +253,7 @@ std::string time_charts(const Run& run) {
 }
 
 std::string page_of(const Run& run, const fs::path& directory) {
-  std::string page = page_head;
+  std::string page = kPageHead;
   page += "<h1>" + escaped(directory.string()) + "</h1>\n<p>";
   page += run.is_complete() ? "A complete run." : "A run that is not complete.";
   page += " Compression is positive in stress and axial strain.</p>\n" + table_of(run.lines());

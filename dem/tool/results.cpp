@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/results.hpp>
+
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <tangency/dem/files.hpp>
+#include <system_error>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/numbers.hpp>
-#include <tangency/dem/tool/results.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {

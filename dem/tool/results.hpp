@@ -6,13 +6,17 @@
 /// begins with the last row's values.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
+
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
 #include <tangency/dem/tool/run_options.hpp>
-#include <tangency/geometry/tool/descriptor.hpp>
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::dem {
 

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/run.hpp>
+
 #include <omp.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <tangency/dem/files.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/progress.hpp>
 #include <tangency/dem/tool/results.hpp>
-#include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -23,26 +31,26 @@ using Clock = std::chrono::steady_clock;
 
 /// Above it the motion is no longer slow, and the stresses are not those of a sound run: measured
 /// on shear tests of one sample at growing strain rates.
-constexpr double sound_inertial_fraction = 0.015;
+constexpr double kSoundInertialFraction = 0.015;
 
 /// In mean radii. Particles stand for rigid ones. Chosen; the published parameters are softer: at
 /// 100e6 the dense sample has 0.107 and the end of its shear 0.155, of which scenes with them warn
 /// (docs/simulator.md).
-constexpr double sound_overlap = 0.1;
+constexpr double kSoundOverlap = 0.1;
 
-/// Of the cycles of a stage, those in which a held stress may be off by more than held_within; and
+/// Of the cycles of a stage, those in which a held stress may be off by more than kHeldWithin; and
 /// how far it may be off in any. Chosen: a servo passes its stress once when it arrives there.
-constexpr double sound_missed_share = 0.01;
-constexpr double sound_miss = 0.05;
+constexpr double kSoundMissedShare = 0.01;
+constexpr double kSoundMiss = 0.05;
 
 /// Of the time step over the critical one, which is a bound for contacts that all stick and swing
 /// against each other. Measured on growth-1000 (tests/dem/shear_study.cpp): at 1.08 a halved step
 /// moves the peak friction angle by 0.01 degrees; at 1.18 particles swing, at 1.6 the peak is gone.
-constexpr double sound_time_step_ratio = 1.1;
+constexpr double kSoundTimeStepRatio = 1.1;
 
 /// Of the error of the energy account over what went through it. Measured: 2e-3 and less in sound
 /// runs, 4 and more where the step is half as long again as allowed.
-constexpr double sound_energy_error = 0.02;
+constexpr double kSoundEnergyError = 0.02;
 
 volatile std::sig_atomic_t caught_signal = 0;
 
@@ -202,14 +210,14 @@ class Run {
     const Observation seen = simulation_.observe();
     const std::string ended = "stage " + simulation_.stage().name + " ended with ";
     const double fraction = seen.balance.inertial_fraction;
-    if (fraction > sound_inertial_fraction)
+    if (fraction > kSoundInertialFraction)
       warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
-           short_text(sound_inertial_fraction) + ": " +
-           advice_on_motion(simulation_, seen, sound_inertial_fraction));
+           short_text(kSoundInertialFraction) + ": " +
+           advice_on_motion(simulation_, seen, kSoundInertialFraction));
     const double step = simulation_.time_step_ratio();
-    if (step > sound_time_step_ratio)
+    if (step > kSoundTimeStepRatio)
       warn(ended + "time step " + short_text(step) + " of the critical one, above " +
-           short_text(sound_time_step_ratio) +
+           short_text(kSoundTimeStepRatio) +
            ": what it computed may be wrong without looking it; " +
            advice_on_step(simulation_, 1.0 / step));
     const EnergyAccount& account = seen.account;
@@ -217,17 +225,17 @@ class Run {
                            std::abs(account.growth) + std::abs(account.branch);
     // An error of second order in the step; halved at least, since what is large may not be so yet.
     const double error = std::abs(seen.energy_error) / through;
-    if (std::abs(seen.energy_error) > sound_energy_error * through)
+    if (std::abs(seen.energy_error) > kSoundEnergyError * through)
       warn(ended + "an energy error of " + short_text(seen.energy_error / through) +
-           " of the work done, beyond " + short_text(sound_energy_error) +
+           " of the work done, beyond " + short_text(kSoundEnergyError) +
            ": the step makes or loses energy; " +
-           advice_on_step(simulation_, std::min(0.5, std::sqrt(sound_energy_error / error))));
+           advice_on_step(simulation_, std::min(0.5, std::sqrt(kSoundEnergyError / error))));
     const double overlap = seen.mean_overlap / mean_radius(simulation_.scene());
-    if (overlap > sound_overlap || seen.porosity < 0.0)
+    if (overlap > kSoundOverlap || seen.porosity < 0.0)
       warn(ended + "mean overlap " + short_text(overlap) + " of the mean radius and porosity " +
-           short_text(seen.porosity) + "; sound are at most " + short_text(sound_overlap) +
+           short_text(seen.porosity) + "; sound are at most " + short_text(kSoundOverlap) +
            " and at least 0: the particles are too soft for what they bear; " +
-           advice_on_stiffness(simulation_, std::max(2.0, overlap / sound_overlap)));
+           advice_on_stiffness(simulation_, std::max(2.0, overlap / kSoundOverlap)));
   }
 
   /// Why the run ends, and where.
@@ -254,8 +262,8 @@ class Run {
       if (seen.watched == 0 && stage.duration)
         warn(held + "it never came there and ended at " + short_text(target.measured(stress)) +
              "; " + advice_on_servo(simulation_));
-      else if (share > sound_missed_share || std::abs(seen.worst) > sound_miss)
-        warn(held + "it was off by more than " + short_text(100.0 * held_within) + " % in " +
+      else if (share > kSoundMissedShare || std::abs(seen.worst) > kSoundMiss)
+        warn(held + "it was off by more than " + short_text(100.0 * kHeldWithin) + " % in " +
              short_text(100.0 * share) + " % of the cycles, by " + short_text(100.0 * seen.worst) +
              " % at worst; " + advice_on_servo(simulation_));
     }

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::tool {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/geometry/classify.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/geometry/exact/integer_forms.hpp>
-#include <tangency/geometry/exact/quadric_type.hpp>
-#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/bodies/exact_quadric_type.hpp>
+#include <tangency/geometry/classify.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
+#include <tangency/geometry/tables/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
 namespace tangency::tool {

@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include <tangency/geometry/tool/not_empty.hpp>
+#include <tangency/geometry/tables/not_empty.hpp>
 
 namespace tangency::tool {
 namespace {

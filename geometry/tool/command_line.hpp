@@ -4,9 +4,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+
 #include <functional>
 
-#include <tangency/geometry/tool/row_stream.hpp>
+#include <tangency/geometry/tables/row_stream.hpp>
 
 namespace tangency::tool {
 

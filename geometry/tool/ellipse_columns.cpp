@@ -2,10 +2,11 @@
 #include <tangency/geometry/tool/ellipse_columns.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/tables/columns.hpp>
 
 namespace tangency::tool {
 namespace {

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include <tangency/geometry/ellipse.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::tool {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+
 #include <vector>
 
 #include <tangency/geometry/tool/command_line.hpp>

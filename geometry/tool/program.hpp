@@ -5,8 +5,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -16,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 
 namespace tangency::tool {
 

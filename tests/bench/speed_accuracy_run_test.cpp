@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // bench_speed_accuracy as a user runs it, on few pairs.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/level.hpp>
+#include <tangency/bench/instruction_set.hpp>
 #include <tangency/bench/speed_accuracy/count.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 using TableRow = std::map<std::string, std::string>;  // cell by column
@@ -130,4 +131,4 @@ TEST(SpeedAccuracyRun, HelpNamesFamiliesAndColumns) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

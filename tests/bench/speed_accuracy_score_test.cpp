@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scores of bench_speed_accuracy see every kind of wrong answer, and rank errors as they say.
-#include <tangency/bench/speed_accuracy/score.hpp>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <tangency/bench/speed_accuracy/methods.hpp>
 #include <tangency/bench/speed_accuracy/pairs.hpp>
+#include <tangency/bench/speed_accuracy/score.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {

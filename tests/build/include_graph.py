@@ -3,8 +3,8 @@
 """The include graph of the tree: its circles, its arrows against the floors, its closures.
 
 A node is a unit: a header and the source of the same name. An arrow runs from a unit to what it
-includes. A floor is a line of folders in tests/build/floors; a unit may include its own floor and
-those below it.
+includes. A floor is a line of tests/build/floors, and the rooms on it stand between bars; a unit may
+include its own room and the floors below.
 
 Usage: include_graph.py ROOT [--floors FILE] [--closure UNIT ...] [--dot]
 Prints circles and arrows against the floors and ends with 1 where there are any.
@@ -150,30 +150,31 @@ class Tree:
 
 
 class Floors:
-    """A line of the file is a floor, the lowest first: the folders (or units) that lie on it."""
+    """A line of the file is a floor, the lowest first: its rooms, each a folder and what belongs to it."""
 
     def __init__(self, path):
-        self.of = {}
+        self.of = {}  # of a room: its floor
+        self.rooms = {}  # of a folder or a unit: its room, the folder that is named first
         with open(path, encoding="utf-8") as file:
-            lines = [line.split("#")[0].split() for line in file]
-        for floor, names in enumerate(line for line in lines if line):
-            for name in names:
-                self.of[name] = floor
+            lines = [line.split("#")[0].strip() for line in file]
+        for floor, line in enumerate(line for line in lines if line):
+            for names in (room.split() for room in line.split("|")):
+                self.of[names[0]] = floor
+                self.rooms.update((name, names[0]) for name in names)
 
-    def folder(self, path):
-        """The longest name of the file that the path lies in."""
+    def room(self, path):
         name = path
-        while name and name not in self.of:
+        while name and name not in self.rooms:
             name = os.path.dirname(name)
         if not name:
-            sys.exit(f"{path} lies on no floor: name its folder in tests/build/floors")
-        return name
+            sys.exit(f"{path} lies in no room: name its folder in tests/build/floors")
+        return self.rooms[name]
 
     def against(self, tree):
         for path, targets in sorted(tree.arrows.items()):
-            here = self.folder(unit(path))
+            here = self.room(unit(path))
             for target in sorted(targets):
-                there = self.folder(unit(target))
+                there = self.room(unit(target))
                 if self.of[there] > self.of[here]:
                     yield f"{path} includes {target}, which lies above it"
                 elif here != there and self.of[there] == self.of[here]:
@@ -184,7 +185,7 @@ def dot(tree, floors):
     count = {}
     for path, targets in tree.arrows.items():
         for target in targets:
-            arrow = (floors.folder(unit(path)), floors.folder(unit(target)))
+            arrow = (floors.room(unit(path)), floors.room(unit(target)))
             if arrow[0] != arrow[1] and not arrow[0].startswith("tests"):
                 count[arrow] = count.get(arrow, 0) + 1
     names = sorted({name for arrow in count for name in arrow})

@@ -8,9 +8,9 @@ status=0
 for library in "$@"; do
   suffix=.$(basename "$library" .a | sed 's/^lib//')
   # Type descriptions and what ends a program hold no arithmetic; tangency::exact and
-  # tangency::methods are in no public header.
+  # tangency::detail are in no public header.
   shared=$(nm --defined-only "$library" 2>/dev/null | awk '$2 ~ /^[WVun]$/ { print $3 }' | sort -u |
-           grep -vE '^_ZT|^DW\.ref\.|^__clang_call_terminate$|^_ZNK?8tangency(5exact|7methods)')
+           grep -vE '^_ZT|^DW\.ref\.|^__clang_call_terminate$|^_ZNK?8tangency(5exact|6detail)')
   own=$(grep -cF "$suffix" <<< "$shared" || true)
   left=$(grep -vF "$suffix" <<< "$shared" || true)
   taken=$(nm --undefined-only "$library" 2>/dev/null | awk '{ print $NF }' | grep '^_ZNK\?5Eigen' |

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap.hpp>
-
 #include <iostream>
+
+#include <tangency/geometry/gap.hpp>
 
 double multiply_add(double a, double b, double c);
 

@@ -2,19 +2,23 @@
 /// What a run says when something is wrong: by which keys of that stage it can be put right, and
 /// that it then is; and what it says of a stage that cannot end.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/scene_keys.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 Finished run_of(const TemporaryFolder& folder, const std::string& scene,
@@ -272,4 +276,4 @@ TEST(TimeLeft, IsAtMostWhatMaxCyclesLeaves) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Cells that strain at any homogeneous rate, and so become parallelepipeds.
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <vector>
+
 #include <tangency/dem/observe.hpp>
 
 #include "moving.hpp"
@@ -12,7 +17,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 bool lists_all(const NeighbourList& list, const std::vector<Pair>& pairs) {
   return std::includes(list.pairs().begin(), list.pairs().end(), pairs.begin(), pairs.end());

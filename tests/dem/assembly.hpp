@@ -3,13 +3,16 @@
 /// Small assemblies for the tests of the simulator, and a brute-force look at their contacts.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <random>
+#include <vector>
+
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/sample.hpp>
 #include <tangency/geometry/gap.hpp>
-#include <vector>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 /// `count` ellipsoids of axes drawn from [0.5, 1] at random places of a cube: many overlap.
 inline dem::Particles crowd(std::size_t count, const dem::Cell& cell, std::uint64_t seed) {
@@ -55,4 +58,4 @@ inline std::vector<dem::Pair> meeting_pairs(const dem::Particles& particles, con
 /// One law for all pairs of one type.
 inline dem::ContactLaws laws(const dem::ContactLaw& law) { return {1, {law}}; }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -3,10 +3,16 @@
 /// one another: each is refused with one line that names place, key, value and what is allowed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_keys.hpp>
 
@@ -15,9 +21,9 @@
 namespace {
 
 using namespace tangency::dem;
-using tangency::test::refusal;
-using tangency::test::small_scene;
-using tangency::test::with;
+using tangency::testing::refusal;
+using tangency::testing::small_scene;
+using tangency::testing::with;
 
 /// A stage with all that its kind requires.
 std::string stage_of(const std::string& kind) {

@@ -3,7 +3,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/tests/support/generators.hpp>
 

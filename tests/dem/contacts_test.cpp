@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "assembly.hpp"
 
@@ -9,7 +11,7 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
 constexpr ContactLaw kFrictional{100.0, 80.0, 0.3, 0.0};

@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
+#include <random>
+#include <stdexcept>
 #include <string>
+#include <utility>
+
 #include <tangency/dem/simulation.hpp>
 
 #include "assembly.hpp"
@@ -18,7 +23,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 std::string number(double x) {
   char text[32];

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
+
 #include <tangency/dem/contacts.hpp>
 #include <tangency/dem/motion.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 struct FewBodies {
   dem::Cell cell = dem::Cell::box(Vec3::Constant(100.0));
@@ -71,4 +73,4 @@ inline Mat3 cross(const Vec3& r) {
 /// Order of convergence from two errors, the second at half the step.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

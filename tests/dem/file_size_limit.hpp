@@ -7,7 +7,7 @@
 
 #include <csignal>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 /// As on a full disk: no file grows beyond `bytes` while this lives, in tools started here too.
 class FileSizeLimit {
@@ -29,4 +29,4 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Frames as other programs read them, by a reader of their own: sizes and orientations are those
 /// of the particles that were put down. `frames_check.py` reads them with VTK and ASE.
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
+
 #include <tangency/geometry/ellipsoid.hpp>
 
 #include "../tool/process.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 constexpr double kAxes[] = {3.0, 2.0, 1.5};  // of mean radius cbrt(9), a/b 3/2, b/c 4/3
@@ -138,4 +141,4 @@ TEST(Frames, ForOvitoHaveEdgesSemiAxesAndQuaternionsInItsOrder) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+
 #include <tangency/dem/motion.hpp>
 #include <tangency/verify/oracles/elliptic.hpp>
 
@@ -15,7 +17,7 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using tangency::test::order;
+using tangency::testing::order;
 using tangency::verify::complete_elliptic_k;
 using tangency::verify::jacobi_elliptic;
 using tangency::verify::JacobiElliptic;

@@ -2,6 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/growth.hpp>
 #include <tangency/dem/state_file.hpp>
 
@@ -13,7 +20,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 constexpr Growth kGrowth{1.5, 1.2, 50, 0.01};
 constexpr Shape kSphere{10.0, 1.0, 1.0};

@@ -4,10 +4,14 @@
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
+
 #include <tangency/dem/hertz.hpp>
 #include <tangency/dem/sample.hpp>
 #include <tangency/verify/oracles/elliptic.hpp>
@@ -19,7 +23,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::PrincipalCurvatures;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 using std::numbers::pi;
 using namespace tangency::verify;
 

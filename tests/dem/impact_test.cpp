@@ -3,11 +3,13 @@
 // Impacts of two bodies against the theory of rigid bodies with a small elastic region at the
 // contact [Goldsmith1960]: arms and normals stay those of the touch, which is right in the limit of
 // stiff contacts. What is left out is the way v T made during a contact time T, over a radius.
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
 #include <tangency/geometry/gap.hpp>
 
 #include "few_bodies.hpp"
@@ -17,7 +19,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 using std::numbers::pi;
 
 constexpr double kNoSlip = 1e9;

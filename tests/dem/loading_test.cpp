@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tangency/dem/loading.hpp>
 #include <vector>
+
+#include <tangency/dem/loading.hpp>
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
 

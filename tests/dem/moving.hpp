@@ -5,11 +5,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include <tangency/dem/motion.hpp>
 
 #include "assembly.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 
 struct Moving {
   dem::Cell cell;
@@ -82,4 +85,4 @@ inline std::vector<Mat3> axis_rotations() {
   return all;
 }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "assembly.hpp"
 
@@ -9,8 +11,8 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using tangency::test::crowd;
-using tangency::test::meeting_pairs;
+using tangency::testing::crowd;
+using tangency::testing::meeting_pairs;
 
 Cell cell_of(const Vec3& edges) { return Cell::box(edges); }
 

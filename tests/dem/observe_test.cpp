@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <variant>
+
 #include <tangency/dem/observe.hpp>
 
 #include "assembly.hpp"
@@ -12,8 +15,8 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using tangency::test::crowd;
-using tangency::test::laws;
+using tangency::testing::crowd;
+using tangency::testing::laws;
 
 constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
 

@@ -5,7 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 
 #include "assembly.hpp"
@@ -16,7 +21,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
 constexpr ContactLaw kFrictional{100.0, 80.0, 0.3, 0.0};

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem report`, and the peaks in summary.json that it shows.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/observe.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 /// A shear test of 27 grains, of some 2000 cycles.
@@ -266,4 +271,4 @@ TEST(SummaryPeaks, AreThoseOfTheHistorysRowsAlsoOfAResumedRun) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -13,7 +13,7 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 using std::numbers::pi;
 
 constexpr double kGravity = 9.81;

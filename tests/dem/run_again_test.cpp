@@ -3,20 +3,24 @@
 /// full disk.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../tool/process.hpp"
 #include "file_size_limit.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 /// A mixture of sizes and shapes, stopped nowhere: some 1500 cycles with frames and checkpoints.
@@ -357,4 +361,4 @@ TEST(ExplicitBodies, OfABadTableAreRefusedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -2,20 +2,24 @@
 /// `tangency-dem` from outside: refusals, results, interruption, resumption.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/observe.hpp>
 
 #include "../tool/process.hpp"
 #include "file_size_limit.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -383,4 +387,4 @@ TEST(SchemaCommand, RunsNoTwoColumnsTogether) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

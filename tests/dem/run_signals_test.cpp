@@ -14,7 +14,7 @@
 #include "../tool/process.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 /// `tangency-dem run SCENE --out OUT --quiet`, caught up with where it reads its scene, which it
@@ -115,4 +115,4 @@ TEST(RunSignals, FindTheProcessUnderItsName) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

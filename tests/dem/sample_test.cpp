@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <random>
+#include <vector>
 
 #include "assembly.hpp"
 
@@ -10,7 +13,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 const std::vector<Batch> kProlate = {{{10.0, 1.0 / 0.7, 1.0}, 1000.0, 100}};
 

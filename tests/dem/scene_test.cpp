@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <regex>
 #include <sstream>
+#include <string>
+
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_keys.hpp>
 
@@ -12,9 +15,9 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using tangency::test::refusal;
-using tangency::test::small_scene;
-using tangency::test::with;
+using tangency::testing::refusal;
+using tangency::testing::small_scene;
+using tangency::testing::with;
 
 std::string refusal_with(const std::string& before, const std::string& after) {
   return refusal(with(small_scene(), before, after));

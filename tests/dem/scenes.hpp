@@ -5,9 +5,10 @@
 
 #include <exception>
 #include <string>
+
 #include <tangency/dem/scene.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 /// Lines are counted from 1; `count` is in line 4.
 inline std::string small_scene() {
@@ -94,4 +95,4 @@ inline std::string refusal(const std::string& text) {
   return "";
 }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Servos on a real assembly: what a stage says it holds is held.
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/simulation.hpp>
 
 #include "scenes.hpp"
@@ -16,7 +21,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 constexpr double kPressure = 50e6;
 

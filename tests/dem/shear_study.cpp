@@ -9,17 +9,19 @@
 // Five minutes on one core.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <string>
+
 #include <tangency/dem/simulation.hpp>
 
 namespace {
 
 using namespace tangency::dem;
 
-constexpr double most_shift = 0.5;  // degrees
+constexpr double kMostShift = 0.5;  // degrees
 
 struct Peak {
   double angle = 0.0, strain = 0.0;
@@ -120,7 +122,7 @@ int main(int argc, char** argv) {
     const Peak peak = shear(changed, grown);
     print(name, peak);
     if (must_agree)
-      expect(std::abs(peak.angle - base.angle) < most_shift, name + " moves the peak too far");
+      expect(std::abs(peak.angle - base.angle) < kMostShift, name + " moves the peak too far");
   };
   variant("half the step", true, [](Scene&, Drive& shear, Drive&) { shear.time_step_factor /= 2; });
   variant("half the rate", true, [](Scene&, Drive& shear, Drive&) {

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
@@ -16,7 +21,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 void run_to_end(Simulation& simulation) {
   while (!simulation.finished()) {

@@ -2,8 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <tangency/dem/files.hpp>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
@@ -11,9 +16,9 @@
 namespace {
 
 using namespace tangency::dem;
-using tangency::test::small_scene;
-using tangency::test::TemporaryFolder;
-using tangency::test::with;
+using tangency::testing::small_scene;
+using tangency::testing::TemporaryFolder;
+using tangency::testing::with;
 
 /// A run in the middle of its compression, with contacts that carry shear.
 const Simulation& half_way() {

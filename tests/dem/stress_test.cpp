@@ -2,6 +2,11 @@
 /// The stress that contacts say against the work that the cell's boundary does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 #include <tangency/dem/observe.hpp>
 
 #include "moving.hpp"
@@ -11,7 +16,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 /// Ellipsoids at rest under stress: without friction, so that what they store is all there is.
 Moving relaxed_sample(const ContactLaw& law) {

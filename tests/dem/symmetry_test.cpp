@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What cannot matter to an assembly does not: where the origin lies, which image stands for a
 /// particle, in which order they are counted, how the axes are turned.
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <tangency/dem/observe.hpp>
 
@@ -15,7 +22,7 @@ namespace {
 using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 const ContactLaw kLinear{100.0, 80.0, 0.3, 0.0};
 const ContactLaw kHertz{600.0, 500.0, 0.3, 0.0, Material{1000.0, 0.25}};

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/thin_cell.hpp>
 
@@ -12,7 +17,7 @@
 #include "assembly.hpp"
 #include "scenes.hpp"
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 using namespace tangency::dem;
@@ -203,7 +208,7 @@ TEST(ThinCell, NearerWallsLeaveNoPlaceHoweverABodyIsTurned) {
     const double apart = (1.0 - 1e-9) * least.wall_distance();
     const Cell cell = Cell::box({9.0, 9.0, apart}, 3, {false, false, true});
     EXPECT_TRUE(thin_place(cell, least));
-    EXPECT_FALSE(thin_place(cell, least, most_squeezed));
+    EXPECT_FALSE(thin_place(cell, least, kMostSqueezed));
     Particles particles;
     particles.add({4.0, 4.0, apart * uniform(random)}, uniform_rotation(random), axes, 1.0, 0);
     const Touching seen(particles, cell);
@@ -438,4 +443,4 @@ TEST(ThinStart, WithADoubledContactIsRefused) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

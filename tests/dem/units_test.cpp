@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <string>
+
 #include <tangency/dem/simulation.hpp>
 
 namespace {

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
+
 #include <tangency/dem/simulation.hpp>
 
 #include "moving.hpp"
@@ -12,7 +16,7 @@ namespace {
 
 using namespace tangency::dem;
 using tangency::Vec3;
-using namespace tangency::test;
+using namespace tangency::testing;
 
 /// Every particle and wall whose distance is below the particle's largest semi-axis.
 std::vector<Pair> meeting_walls(const Particles& particles, const Cell& cell) {

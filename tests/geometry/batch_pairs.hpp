@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>

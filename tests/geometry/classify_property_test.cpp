@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/classify.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <string>
+#include <vector>
 
-#include <tangency/geometry/classify_filter.hpp>
-#include <tangency/geometry/exact/integer_forms.hpp>
-#include <tangency/geometry/exact/quadric_type.hpp>
+#include <tangency/geometry/bodies/classify_coefficients.hpp>
+#include <tangency/geometry/bodies/exact_quadric_type.hpp>
+#include <tangency/geometry/classify.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/geometry/quadric_generators.hpp>
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/classify.hpp>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <limits>
 #include <random>
 #include <set>
+#include <string_view>
 
+#include <tangency/geometry/classify.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/geometry/quadric_generators.hpp>
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/closest_point.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
+#include <tangency/geometry/closest_point.hpp>
 #include <tangency/tests/support/generators.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>

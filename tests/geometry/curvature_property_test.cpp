@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/curvature.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/curvature.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {

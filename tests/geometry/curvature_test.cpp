@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/curvature.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
+#include <tangency/geometry/curvature.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>

@@ -9,10 +9,11 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
+
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/displacement.hpp>
-#include <vector>
 
 namespace tangency {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ellipse_crossings.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,9 +7,10 @@
 #include <cmath>
 #include <vector>
 
+#include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
-#include <tangency/geometry/methods/real_quartic.hpp>
+#include <tangency/geometry/plane/real_quartic.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 
 namespace tangency {
@@ -135,9 +134,9 @@ TEST(ChordContact, NeedsExactlyTwoCrossings) {
 // (x + 3) (x + 3 + e) (x + 1) (x - 2): told to have two simple roots only, rounding made the pair.
 TEST(RealQuartic, OfMoreChangesOfSignThanRootsLosesTheClosestPair) {
   const double e = 0x1p-30;
-  const std::array<exact::DoubleDouble, 5> c{-18 - 6 * e, -21 - 5 * e, 1 + 2 * e, 5 + e, 1.0};
+  const std::array<detail::DoubleDouble, 5> c{-18 - 6 * e, -21 - 5 * e, 1 + 2 * e, 5 + e, 1.0};
   const auto expect_roots = [&](exact::Meeting meeting, const std::vector<double>& expected) {
-    const methods::QuarticRoots roots = methods::real_quartic_roots(c, meeting);
+    const detail::QuarticRoots roots = detail::real_quartic_roots(c, meeting);
     ASSERT_EQ(roots.count, static_cast<int>(expected.size()));
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(roots.root[i].at.high, expected[i], 1e-15) << i;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ellipse_gap.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
-#include <tangency/geometry/methods/plane_gap.hpp>
+#include <tangency/geometry/plane/plane_gap.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
 
@@ -67,9 +68,9 @@ TEST(PlaneGap, IsProvenForThinDeepPairs) {
 
 TEST(PlaneGap, OfASearchThatSpentItsBudgetIsNotGlobal) {
   const EllipsePair p{Ellipse(kOrigin, {1, 1e-8}, {1, 2}), Ellipse({0.3, 0.1}, {1e-7, 2}, {3, 1})};
-  const methods::PlanePair pair{p.a, p.b, p.b.centre(), kOrigin, size(p)};
-  EXPECT_TRUE(methods::search_plane_gap(pair, Vec2(1, 0)).global);
-  EXPECT_FALSE(methods::search_plane_gap(pair, Vec2(1, 0), 3).global);
+  const detail::PlanePair pair{p.a, p.b, p.b.centre(), kOrigin, size(p)};
+  EXPECT_TRUE(detail::search_plane_gap(pair, Vec2(1, 0)).global);
+  EXPECT_FALSE(detail::search_plane_gap(pair, Vec2(1, 0), 3).global);
 }
 
 TEST(PlaneGap, HoldsAtEveryScaleAndFarFromTheOrigin) {
@@ -109,7 +110,7 @@ RC_GTEST_PROP(PlaneGapProperty, NoNormalReachesFurther, ()) {
 /// How far the witness points where an ascent ends are from facing each other, over u L.
 double unfacing(const EllipsePair& p, const Vec2& start) {
   const Vec2 d = p.b.centre() - p.a.centre();
-  const methods::PlaneProof top = methods::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, start);
+  const detail::PlaneProof top = detail::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, start);
   return (d + top.arm_b - top.arm_a - top.gap * top.normal).norm() / (0x1p-53 * size(p));
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ellipse_relation.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cfenv>
 #include <cmath>
+#include <string>
 
-#include <tangency/geometry/methods/ellipse_meeting.hpp>
+#include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/plane/ellipse_meeting.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
 
@@ -244,7 +244,7 @@ RC_GTEST_PROP(EllipseRelationProperty, CountsFitTheRelation, ()) {
 
 RC_GTEST_PROP(EllipseRelationProperty, FilterNeverContradictsIntegers, ()) {
   const EllipsePair p = *testing::any_ellipse_pair();
-  const auto filtered = methods::filter_meeting(p.a, p.b);
+  const auto filtered = detail::filter_meeting(p.a, p.b);
   if (!filtered) return;
   const exact::ConicAnswer exactly = exact::conic_relation(p.a, p.b);
   RC_ASSERT(filtered->relation == exactly.relation && filtered->meeting == exactly.meeting);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ellipse.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <limits>
 #include <string>
 
-#include <tangency/geometry/exact/cosine_sine.hpp>
+#include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/numbers/cosine_sine.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
@@ -86,26 +85,26 @@ RC_GTEST_PROP(EllipseProperty, HalfAndQuarterTurnsAndLengthsOfTheDirectionLeaveT
 }
 
 // Hard cases of rounding [Muller2016]: the first is the double nearest to a multiple of pi/2.
-// geometry/exact/cosine_sine.hpp (1)
+// geometry/numbers/cosine_sine.hpp (1)
 TEST(CosineSine, AreTheNearestDoubles) {
   const double hardest = std::ldexp(6381956970095103.0, 797);
-  EXPECT_EQ(exact::rounded_cosine_sine(hardest).cosine, -4.6871659242546277e-19);
-  EXPECT_EQ(exact::rounded_cosine_sine(hardest).sine, 1.0);
-  EXPECT_EQ(exact::rounded_cosine_sine(1e22).sine, -0.85220084976718880);
-  EXPECT_EQ(exact::rounded_cosine_sine(M_PI / 2).cosine, 6.123233995736766e-17);
-  EXPECT_EQ(exact::rounded_cosine_sine(0.0).cosine, 1.0);
-  EXPECT_EQ(exact::rounded_cosine_sine(-0x1p-1074).sine, -0x1p-1074);
+  EXPECT_EQ(detail::rounded_cosine_sine(hardest).cosine, -4.6871659242546277e-19);
+  EXPECT_EQ(detail::rounded_cosine_sine(hardest).sine, 1.0);
+  EXPECT_EQ(detail::rounded_cosine_sine(1e22).sine, -0.85220084976718880);
+  EXPECT_EQ(detail::rounded_cosine_sine(M_PI / 2).cosine, 6.123233995736766e-17);
+  EXPECT_EQ(detail::rounded_cosine_sine(0.0).cosine, 1.0);
+  EXPECT_EQ(detail::rounded_cosine_sine(-0x1p-1074).sine, -0x1p-1074);
 }
 
-// geometry/exact/cosine_sine.hpp (1) (2)
+// geometry/numbers/cosine_sine.hpp (1) (2)
 RC_GTEST_PROP(CosineSineProperty, DoubleDoubleAndIntegersAgree, ()) {
   const double angle =
       *testing::uniform(-1, 1) *
       *rc::gen::oneOf(testing::log_uniform(1e-9, 1e9), testing::log_uniform(1e-300, 1e300));
-  const auto fast = exact::rounded_cosine_sine(angle);
-  const auto exactly = exact::rounded_cosine_sine_in_integers(angle);
+  const auto fast = detail::rounded_cosine_sine(angle);
+  const auto exactly = detail::rounded_cosine_sine_in_integers(angle);
   RC_ASSERT(fast.cosine == exactly.cosine && fast.sine == exactly.sine);
-  const auto reflected = exact::rounded_cosine_sine(-angle);
+  const auto reflected = detail::rounded_cosine_sine(-angle);
   RC_ASSERT(reflected.cosine == fast.cosine && reflected.sine == -fast.sine);
   // MPFR rounds to 150 digits, whatever the angle; no double's cosine is nearer to a tie than
   // 1e-40.

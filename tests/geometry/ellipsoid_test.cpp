@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ellipsoid.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/support/generators.hpp>
 

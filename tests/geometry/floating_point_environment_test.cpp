@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/floating_point_environment.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cfenv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include <tangency/geometry/classify.hpp>
@@ -18,6 +22,7 @@
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/pencil.hpp>
 #include <tangency/geometry/polynomial.hpp>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A program of its own, because it replaces the global allocation functions.
+#include <gmp.h>
 #include <gtest/gtest.h>
 
-#include <gmp.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <new>

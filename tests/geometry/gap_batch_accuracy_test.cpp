@@ -2,6 +2,7 @@
 // The points on the curve of speed against accuracy keep their promises at every instruction set.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap_batch.hpp>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>

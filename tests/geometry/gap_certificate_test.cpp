@@ -4,15 +4,18 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <random>
 
 #include <tangency/geometry/gap.hpp>
-#include <tangency/geometry/methods/gap_finish.hpp>
-#include <tangency/geometry/methods/gap_proof.hpp>
-#include <tangency/geometry/methods/gap_search.hpp>
+#include <tangency/geometry/gap/proof.hpp>
+#include <tangency/geometry/gap/search.hpp>
+#include <tangency/geometry/gap/sign.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/generators.hpp>
@@ -189,22 +192,22 @@ TEST(GapStatusOfSpheres, IsOkAtEveryDepthAndAspect) {
 /// The greatest f on a fan of normals around the proof's, out to its cap's edge.
 RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   const testing::Pair p = *testing::pair_at(100, testing::uniform(0, 1));
-  const methods::Pair pair{p.a, p.b, p.b.centre() - p.a.centre(), Vec3::Zero()};
-  const methods::FactoredPair factored(pair.a, pair.b, pair.d);
-  const methods::Stationary found = factored.climb(*testing::direction());
+  const detail::Pair pair{p.a, p.b, p.b.centre() - p.a.centre(), Vec3::Zero()};
+  const detail::FactoredPair factored(pair.a, pair.b, pair.d);
+  const detail::Stationary found = factored.climb(*testing::direction());
   RC_PRE(found.accepted);
   // Off the maximum, so that the rest is not rounding.
   const Vec3 off = (found.normal + 1e-6 * *testing::direction()).normalized();
-  methods::GapProof at;
-  methods::prove_gap(pair, off, at);
+  detail::GapProof at;
+  detail::prove_gap(pair, off, at);
   const Vec3 n = off;
   const double h_a = p.a.support(n), h_b = p.b.support(n);
-  const exact::DoubleDoubleSide side_a(p.a, exact::exactly(n)), side_b(p.b, exact::exactly(n));
-  const methods::Bend bend =
-      methods::bend_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
+  const detail::DoubleDoubleSide side_a(p.a, detail::exactly(n)), side_b(p.b, detail::exactly(n));
+  const detail::Bend bend =
+      detail::bend_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
   const Vec3 r = pair.d - at.arm_a + at.arm_b - at.gap * n;
-  const methods::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
-  const methods::Cap cap = methods::cap_around(bend, slope, 1.0);
+  const detail::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
+  const detail::Cap cap = detail::cap_around(bend, slope, 1.0);
   RC_PRE(cap.proven);
   const double slack = 64 * kU * size_of(p.a, p.b);
   for (int i = 0; i < 64; ++i) {
@@ -237,12 +240,12 @@ TEST(GapProof, OfBodiesApartHoldsFromAPoorNormalToo) {
       const Ellipsoid a = to_ellipsoid(raw.a), b = to_ellipsoid(raw.b);
       const Vec3 d = b.centre() - a.centre();
       const Gap truth = signed_gap(a, b, d);
-      const methods::Pair pair{a, b, d, Vec3::Zero()};
+      const detail::Pair pair{a, b, d, Vec3::Zero()};
       for (int k = 0; k < 10; ++k) {
         const Vec3 off(any(random), any(random), any(random)), axis = a.rotation().col(k % 3);
         const Vec3 near = (axis + std::exp2(exponent(random)) * off).normalized();
         const auto proof =
-            methods::prove_gap_in_double_double(pair, near.dot(pair.d) < 0 ? Vec3(-near) : near);
+            detail::prove_gap_in_double_double(pair, near.dot(pair.d) < 0 ? Vec3(-near) : near);
         if (!proof.global) continue;
         without_cap += proof.cap.proven ? 0 : 1;
         ASSERT_LT(proof.high, std::numeric_limits<double>::infinity()) << family.name << ' ' << i;
@@ -263,9 +266,9 @@ struct Told {
 
 TEST(GapSign, ThatTheProofLeavesOpenPutsTheGapInTheMiddleOfWhatIsLeft) {
   const auto settled = [](double gap, Relation answer) {
-    methods::GapProof proof{gap, -3e-17, 2e-17, true, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+    detail::GapProof proof{gap, -3e-17, 2e-17, true, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
     GapTier tier = GapTier::fast;
-    methods::settle_sign(proof, tier, Told{answer}, 1.0);
+    detail::settle_sign(proof, tier, Told{answer}, 1.0);
     EXPECT_EQ(tier, GapTier::exact);
     return proof;
   };
@@ -286,9 +289,9 @@ TEST(GapSign, ThatTheProofLeavesOpenPutsTheGapInTheMiddleOfWhatIsLeft) {
 
 // A touch proves the value 0 of its own normal only: a deep branch keeps its normal and is no `ok`.
 TEST(GapSign, OfATouchDoesNotMakeABranchGlobalThatIsNotProvenToBe) {
-  methods::GapProof proof{-0.3, -0.31, -0.29, false, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
+  detail::GapProof proof{-0.3, -0.31, -0.29, false, Vec3::UnitX(), Vec3::Zero(), Vec3::Zero()};
   GapTier tier = GapTier::factored;
-  methods::settle_sign(proof, tier, Told{Relation::external_touch}, 1.0);
+  detail::settle_sign(proof, tier, Told{Relation::external_touch}, 1.0);
   EXPECT_EQ(proof.gap, 0.0);
   EXPECT_FALSE(proof.global);
   // What is left of the error bounds the distance to the branch's value.
@@ -308,9 +311,9 @@ TEST(GapCap, CurvaturesOfThinFacesAreRightToTheirLoss) {
     const Ellipsoid a({0, 0, 0}, {1, 0.7, thin}, q), b({0, 0, 0}, {0.4, 0.4, 0.4});
     // At the face's own normal, which no double is: h and the roots are of what is stored.
     const Vec3 n = a.rotation().col(2).normalized();
-    const exact::DoubleDoubleSide side_a(a, exact::exactly(n)), side_b(b, exact::exactly(n));
-    const methods::Bend bend =
-        methods::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+    const detail::DoubleDoubleSide side_a(a, detail::exactly(n)), side_b(b, detail::exactly(n));
+    const detail::Bend bend =
+        detail::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
     // kappa kappa' of an ellipsoid is (h^2 / (a1 a2 a3))^2, exactly: det H_A of h's stored value.
     const double h = side_a.support.high;
     const double determinant = std::pow(0.7 * thin / (h * h), 2);
@@ -327,9 +330,9 @@ TEST(GapCap, CurvaturesOfThinFacesAreRightToTheirLoss) {
 TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
   // Crossed discs about one centre: four maxima, two of them best.
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
-  const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
-  const methods::FactoredPair factored(a, b, pair.d);
-  const auto proof = methods::search_sphere(pair, factored, Vec3::UnitX(), 20000);
+  const detail::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const detail::FactoredPair factored(a, b, pair.d);
+  const auto proof = detail::search_sphere(pair, factored, Vec3::UnitX(), 20000);
   ASSERT_TRUE(proof);
   EXPECT_TRUE(proof->global);
   double best = -std::numeric_limits<double>::infinity();
@@ -345,9 +348,9 @@ TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
 
 TEST(GapSearch, SaysSoWhereItsBudgetIsSpent) {
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
-  const methods::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const detail::Pair pair{a, b, b.centre(), Vec3::Zero()};
   const auto proof =
-      methods::search_sphere(pair, methods::FactoredPair(a, b, pair.d), Vec3::UnitX(), 3);
+      detail::search_sphere(pair, detail::FactoredPair(a, b, pair.d), Vec3::UnitX(), 3);
   ASSERT_TRUE(proof);
   EXPECT_FALSE(proof->global);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap_derivatives.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap_derivatives.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <random>
 
+#include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The gap along smooth motions: what a simulator sees.
-#include <tangency/geometry/gap.hpp>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <random>
 
-#include <tangency/geometry/methods/gap_cap.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap/cap.hpp>
 
 namespace tangency {
 namespace {
@@ -202,10 +203,10 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) 
             // the time that is left.
             const Vec3& n = jump.normal_before;
             const double h_a = a.support(n), h_b = b.support(n);
-            const exact::DoubleDoubleSide side_a(a, exact::exactly(n)),
-                side_b(b, exact::exactly(n));
-            const methods::Bend bend =
-                methods::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+            const detail::DoubleDoubleSide side_a(a, detail::exactly(n)),
+                side_b(b, detail::exactly(n));
+            const detail::Bend bend =
+                detail::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
             const double value = n.dot(b.centre()) - h_a - h_b;
             const double sharpness = std::min(bend.curvature[0], bend.curvature[1]) + value;
             ASSERT_LE(sharpness, kBlunt) << "motion " << m << " step " << k;

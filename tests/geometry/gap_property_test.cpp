@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <tangency/geometry/methods/gap_factored.hpp>
+#include <cmath>
+
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/normals/factored.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
@@ -93,7 +94,7 @@ RC_GTEST_PROP(GapProperty, NoAscentReachesFurtherThanAnOkAnswer, ()) {
   const Gap g = signed_gap(p.a, p.b);
   RC_PRE(g.status == GapStatus::ok);
   const Vec3 d = p.b.centre() - p.a.centre();
-  const methods::FactoredPair climber(p.a, p.b, d);
+  const detail::FactoredPair climber(p.a, p.b, d);
   for (int i = 0; i < 16; ++i) {
     const Vec3 n = climber.climb(*testing::direction()).normal;
     RC_ASSERT(climber.value(n) <= g.gap + rounding(p));

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/gap.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 
-#include <tangency/geometry/methods/gap_factored.hpp>
-#include <tangency/geometry/methods/gap_newton.hpp>
-#include <tangency/geometry/methods/gap_proof.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap/proof.hpp>
+#include <tangency/geometry/normals/factored.hpp>
+#include <tangency/geometry/normals/newton.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
@@ -174,9 +175,9 @@ TEST(Gap, FastPathRefusesWhatItWouldGetWrong) {
       const ManufacturedContact c = contacts.next();
       const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);
       const Vec3 d = b.centre() - a.centre();
-      const methods::Stationary found = methods::newton(a, b, d, methods::Finish::late);
-      methods::GapProof proof;
-      if (found.accepted) methods::prove_gap({a, b, d, Vec3::Zero()}, found.normal, proof);
+      const detail::Stationary found = detail::newton(a, b, d, detail::Finish::late);
+      detail::GapProof proof;
+      if (found.accepted) detail::prove_gap({a, b, d, Vec3::Zero()}, found.normal, proof);
       refused += !found.accepted || !(proof.high - proof.gap <= 16 * kU * c.size);
       if (!found.accepted || !proof.global) continue;
       // The truth is manufactured to second order of rounding.
@@ -200,9 +201,9 @@ TEST(Gap, AscentLeavesASaddleAndAMinimum) {
   // Concentric with parallel axes: -(h_A + h_B) is least along x, a saddle along z, greatest along
   // y.
   const Ellipsoid a({0, 0, 0}, {4, 2, 3}), b({0, 0, 0}, {5, 1, 2});
-  const methods::FactoredPair pair(a, b, Vec3::Zero());
+  const detail::FactoredPair pair(a, b, Vec3::Zero());
   for (const Vec3& start : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
-    const methods::Stationary found = pair.climb(start);
+    const detail::Stationary found = pair.climb(start);
     ASSERT_TRUE(found.accepted);
     EXPECT_NEAR(pair.value(found.normal), -3, 64 * kU);
   }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/exact/integer_forms.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
-#include <tangency/geometry/exact/ellipsoid_form.hpp>
+#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/tests/support/generators.hpp>
 
@@ -56,20 +57,20 @@ void check_identities() {
   RC_TAG(i.rank());
 }
 
-// geometry/exact/integer_forms.hpp (2) (3)
+// geometry/numbers/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder2, ()) {
   check_identities<2>();
 }
-// geometry/exact/integer_forms.hpp (2) (3)
+// geometry/numbers/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder3, ()) {
   check_identities<3>();
 }
-// geometry/exact/integer_forms.hpp (2) (3)
+// geometry/numbers/integer_forms.hpp (2) (3)
 RC_GTEST_PROP(IntegerForms, InertiaAgreesWithTheCharacteristicPolynomialOfOrder4, ()) {
   check_identities<4>();
 }
 
-// geometry/exact/integer_forms.hpp (1)
+// geometry/numbers/integer_forms.hpp (1)
 RC_GTEST_PROP(IntegerForms, CongruenceKeepsInertia, ()) {
   IntegerForm<4> diagonal;
   Inertia expected;
@@ -105,7 +106,7 @@ RC_GTEST_PROP(IntegerForms, ReadingADoubleIsExact, ()) {
   RC_ASSERT(to_rational(value).get_d() == value);
 }
 
-// geometry/exact/integer_forms.hpp (4)
+// geometry/numbers/integer_forms.hpp (4)
 RC_GTEST_PROP(IntegerForms, TheCommonExponentIsTheLargest, ()) {
   const std::array<double, 2> values{*finite_double(), *finite_double()};
   const int largest = common_exponent(values);
@@ -147,7 +148,7 @@ mpq_class value_of(const EllipsoidForm& e, const std::array<mpq_class, 4>& x) {
   return sum / e.denominator;
 }
 
-// geometry/exact/ellipsoid_form.hpp (1) (2)
+// geometry/bodies/ellipsoid_form.hpp (1) (2)
 RC_GTEST_PROP(EllipsoidFormProperty, IsMinusOneAtTheCentreAndZeroAtTheEndsOfTheAxes, ()) {
   const Ellipsoid e = *tangency::testing::ellipsoid(1000);
   const EllipsoidForm form = ellipsoid_form(e);

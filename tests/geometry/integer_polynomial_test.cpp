@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/exact/integer_polynomial.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include <tangency/geometry/exact/largest_root.hpp>
+#include <tangency/geometry/numbers/integer_polynomial.hpp>
+#include <tangency/geometry/numbers/largest_root.hpp>
 
 namespace tangency::exact {
 namespace {
@@ -52,7 +54,7 @@ mpq_class rational() {
   return value;
 }
 
-// geometry/exact/integer_polynomial.hpp (1)
+// geometry/numbers/integer_polynomial.hpp (1)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheSignIsThatOfTheFactors, ()) {
   const Factored f = factored(5, 2);
   const mpq_class x = rational();
@@ -61,7 +63,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheSignIsThatOfTheFactors, ()) {
   RC_ASSERT(f.polynomial.sign_at(x) == (expected > 0) - (expected < 0));
 }
 
-// geometry/exact/integer_polynomial.hpp (4)
+// geometry/numbers/integer_polynomial.hpp (4)
 RC_GTEST_PROP(IntegerPolynomialProperty, SturmCountsDistinctRootsAlsoWhereEndsAreRoots, ()) {
   const Factored f = factored(6, 2);
   const SturmSequence sturm(f.polynomial);
@@ -79,7 +81,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, SturmCountsDistinctRootsAlsoWhereEndsAr
   RC_ASSERT(sturm.roots_above(low) == static_cast<int>(above));
 }
 
-// geometry/exact/integer_polynomial.hpp (3)
+// geometry/numbers/integer_polynomial.hpp (3)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheSquareFreePartHasEachRootOnce, ()) {
   const Factored f = factored(6, 1);
   const IntegerPolynomial part = square_free_part(f.polynomial);
@@ -93,7 +95,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheSquareFreePartHasEachRootOnce, ()) {
   if (pairs == 0) RC_ASSERT(part == expected);
 }
 
-// geometry/exact/integer_polynomial.hpp (2)
+// geometry/numbers/integer_polynomial.hpp (2)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheGreatestCommonDivisorIsThatOfTheFactors, ()) {
   const Factored f = factored(4, 1);
   const Factored g = factored(4, 0);
@@ -115,7 +117,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheGreatestCommonDivisorIsThatOfTheFact
   RC_ASSERT(exact_quotient(a, divisor) * divisor == a);
 }
 
-// geometry/exact/integer_polynomial.hpp (5)
+// geometry/numbers/integer_polynomial.hpp (5)
 RC_GTEST_PROP(IntegerPolynomialProperty, TheDiscriminantIsPositiveForRealRootsZeroForRepeatedOnes,
               ()) {
   const Factored f = factored(4, 2);
@@ -127,7 +129,7 @@ RC_GTEST_PROP(IntegerPolynomialProperty, TheDiscriminantIsPositiveForRealRootsZe
   RC_TAG(f.polynomial.degree(), expected);
 }
 
-// geometry/exact/integer_polynomial.hpp (6)
+// geometry/numbers/integer_polynomial.hpp (6)
 RC_GTEST_PROP(IntegerPolynomialProperty, CoprimeIsWhatHasAConstantDivisor, ()) {
   const Factored f = factored(3, 1), g = factored(3, 1);
   const bool expected = gcd(f.polynomial, g.polynomial).degree() < 1;
@@ -187,7 +189,7 @@ std::vector<mpq_class> clustered_roots() {
   return roots;
 }
 
-// geometry/exact/largest_root.hpp (1)
+// geometry/numbers/largest_root.hpp (1)
 RC_GTEST_PROP(LargestRootProperty, ComparisonIsThatOfTheNumbersHoweverCloseTheyAre, ()) {
   const std::vector<mpq_class> choice = clustered_roots();
   const Positive f = positive(choice, 4, false), g = positive(choice, 4, false);
@@ -198,7 +200,7 @@ RC_GTEST_PROP(LargestRootProperty, ComparisonIsThatOfTheNumbersHoweverCloseTheyA
   RC_TAG((expected > 0) - (expected < 0));
 }
 
-// geometry/exact/largest_root.hpp (2)
+// geometry/numbers/largest_root.hpp (2)
 RC_GTEST_PROP(LargestRootProperty, MultiplicityIsHowOftenItOccurs, ()) {
   const Positive f = positive(clustered_roots(), 4, true);
   RC_ASSERT(multiplicity_of_largest_root(f.polynomial) == f.times_largest());
@@ -206,7 +208,7 @@ RC_GTEST_PROP(LargestRootProperty, MultiplicityIsHowOftenItOccurs, ()) {
   RC_TAG(f.times_largest());
 }
 
-// geometry/exact/largest_root.hpp (3)
+// geometry/numbers/largest_root.hpp (3)
 RC_GTEST_PROP(LargestRootProperty, ExceedsOneWhereSomeRootDoes, ()) {
   const std::vector<mpq_class> choice{1, scaled(1, -3) + 1, mpq_class(1) - scaled(1, -900),
                                       scaled(1, -900) + 1, scaled(7, -20)};

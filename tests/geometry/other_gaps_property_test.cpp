@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/other_gaps.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <cmath>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/generators.hpp>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/other_gaps.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/pencil.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
-#include <tangency/geometry/exact/ellipsoid_form.hpp>
-#include <tangency/geometry/exact/pencil_form.hpp>
-#include <tangency/geometry/exact/quadric_type.hpp>
+#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/bodies/exact_quadric_type.hpp>
+#include <tangency/geometry/bodies/pencil_form.hpp>
+#include <tangency/geometry/pencil.hpp>
 #include <tangency/tests/geometry/quadric_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/polynomial.hpp>
-
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <tangency/geometry/exact/integer_forms.hpp>
-#include <tangency/geometry/exact/real_roots.hpp>
-#include <tangency/tests/support/generators.hpp>
 #include <vector>
+
+#include <tangency/geometry/numbers/integer_forms.hpp>
+#include <tangency/geometry/numbers/real_roots.hpp>
+#include <tangency/geometry/polynomial.hpp>
+#include <tangency/tests/support/generators.hpp>
 
 namespace tangency {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/primitives.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
+#include <tangency/geometry/primitives.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {

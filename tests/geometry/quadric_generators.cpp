@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/tests/geometry/quadric_generators.hpp>
 
+#include <cstddef>
+#include <ios>
+#include <ostream>
+
 namespace tangency::testing {
 
 IntegerQuadric pulled_back(const IntegerQuadric& c, const IntegerMap& map) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <iosfwd>
+#include <ostream>
 
 #include <tangency/geometry/classify.hpp>
 

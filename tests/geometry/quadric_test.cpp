@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/quadric.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
 
+#include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/classify.hpp>
-#include <tangency/geometry/exact/ellipsoid_form.hpp>
+#include <tangency/geometry/quadric.hpp>
 #include <tangency/tests/geometry/quadric_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/ray.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <ios>
+#include <limits>
+#include <ostream>
+#include <tuple>
+#include <utility>
 
+#include <tangency/geometry/ray.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {

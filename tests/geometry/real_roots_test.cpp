@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/exact/real_roots.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <vector>
 
-#include <tangency/geometry/exact/integer_forms.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
+#include <tangency/geometry/numbers/real_roots.hpp>
 
 namespace tangency::exact {
 namespace {
@@ -118,7 +119,7 @@ IntegerPolynomial random_polynomial(std::set<mpq_class>& roots) {
   return *rc::gen::arbitrary<bool>() ? p * polynomial({1, 1, 1}) : p;
 }
 
-// geometry/exact/real_roots.hpp (1)
+// geometry/numbers/real_roots.hpp (1)
 RC_GTEST_PROP(RealRootsProperty, IsolationFindsEveryRootOnceInOrder, ()) {
   std::set<mpq_class> expected;
   const SturmSequence sturm(random_polynomial(expected));
@@ -139,7 +140,7 @@ RC_GTEST_PROP(RealRootsProperty, IsolationFindsEveryRootOnceInOrder, ()) {
   }
 }
 
-// geometry/exact/real_roots.hpp (3) (4)
+// geometry/numbers/real_roots.hpp (3) (4)
 RC_GTEST_PROP(RealRootsProperty, ComparisonIsThatOfTheNumbers, ()) {
   std::set<mpq_class> expected_a, expected_b;
   const SturmSequence a(random_polynomial(expected_a)), b(random_polynomial(expected_b));
@@ -161,7 +162,7 @@ RC_GTEST_PROP(RealRootsProperty, ComparisonIsThatOfTheNumbers, ()) {
   }
 }
 
-// geometry/exact/real_roots.hpp (2)
+// geometry/numbers/real_roots.hpp (2)
 RC_GTEST_PROP(RealRootsProperty, DoublesAroundARationalAreTheNearest, ()) {
   const auto bits = *rc::gen::arbitrary<std::uint64_t>();
   const double x = std::bit_cast<double>(bits);

@@ -14,7 +14,7 @@
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/relation.hpp>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/relation.hpp>
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
+#include <optional>
+#include <string>
+
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 namespace tangency {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/relation.hpp>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <vector>
 
+#include <tangency/geometry/relation.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/time_of_contact.hpp>
-
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <ostream>
+#include <tuple>
 
-#include <tangency/geometry/methods/moving_pair.hpp>
+#include <tangency/geometry/bodies/moving_pair.hpp>
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/time_of_contact.hpp>
 #include <tangency/tests/support/generators.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/time_of_contact.hpp>
@@ -318,8 +319,8 @@ RC_GTEST_PROP(TimeOfContactProperty, LongerHorizonLeavesAContactWhereItIs, ()) {
 RC_GTEST_PROP(MovingPairProperty, StepIsSafeAndTouchesNothingOnTheWay, ()) {
   const Moving m = *moving();
   const Vec3 d = m.b.centre() - m.a.centre();
-  const methods::MovingPair pair(m.a, m.ma, m.b, m.mb, d);
-  const methods::PairAt start = pair.at(0);
+  const detail::MovingPair pair(m.a, m.ma, m.b, m.mb, d);
+  const detail::PairAt start = pair.at(0);
   // Any direction gives a safe step; most of them a short one.
   const Vec3 n =
       *testing::uniform(0, 1) < 0.3 ? *testing::direction() : signed_gap(m.a, m.b, d).normal;
@@ -327,7 +328,7 @@ RC_GTEST_PROP(MovingPairProperty, StepIsSafeAndTouchesNothingOnTheWay, ()) {
   RC_ASSERT(step >= 0 && step <= kHorizon);
   if (step == 0) return;
   for (int i = 1; i <= 20; ++i) {
-    const methods::PairAt now = pair.at(step * i / 20);
+    const detail::PairAt now = pair.at(step * i / 20);
     RC_ASSERT(signed_gap(now.a, now.b, now.d).gap > -pair.rounding(now.t));
   }
 }

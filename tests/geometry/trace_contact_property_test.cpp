@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/trace_contact.hpp>

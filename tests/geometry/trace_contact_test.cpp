@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The published contact scheme, its errata and what was done about them: docs/trace.md.
-#include <tangency/geometry/trace_contact.hpp>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
+#include <vector>
+
 #include <tangency/geometry/gap.hpp>
-#include <tangency/geometry/methods/trace_scheme.hpp>
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/trace/scheme.hpp>
+#include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <vector>
 
 namespace tangency {
 namespace {
 
-using methods::trace_body;
-using methods::TraceFound;
-using methods::TraceOptions;
+using detail::trace_body;
+using detail::TraceFound;
+using detail::TraceOptions;
 
 constexpr TraceOptions kAsStored{.turned_to_the_pair = false};
 
 TraceFound<double> scheme(const Ellipsoid& a, const Ellipsoid& b, const TraceOptions& options) {
-  return methods::trace_scheme<double>(trace_body<double>(a), trace_body<double>(b),
-                                       b.centre() - a.centre(), options);
+  return detail::trace_scheme<double>(trace_body<double>(a), trace_body<double>(b),
+                                      b.centre() - a.centre(), options);
 }
 
 Eigen::Quaterniond turn(double angle, const Vec3& axis) {
@@ -287,8 +289,8 @@ TEST(TraceErrata, DepthAgreesToFirstOrderOnlyWhereTheCurvesAreCutAgain) {
 TEST(TraceContact, SinglePrecisionIsTheSameSchemeUpToItsRounding) {
   const Contact c = skew(0.02);
   const auto in = [&]<class Real>(Real) {
-    return methods::trace_scheme<Real>(trace_body<Real>(c.a), trace_body<Real>(c.b),
-                                       c.b.centre().cast<Real>(), {});
+    return detail::trace_scheme<Real>(trace_body<Real>(c.a), trace_body<Real>(c.b),
+                                      c.b.centre().cast<Real>(), {});
   };
   const auto single = in(0.0F);
   const auto extended = in(0.0L);

@@ -4,13 +4,17 @@
 /// is bisected too. Slow, and for bodies of distinct semi-axes whose published cone is good.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
+#include <vector>
+
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <vector>
 
 namespace tangency {
 namespace {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/exact/wide_float.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <random>
 
+#include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency {
 namespace {
 
-using exact::WideFloat;
+using detail::WideFloat;
 // 600 bits, so that its own rounding is not seen.
 using Digits = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<200, boost::multiprecision::allocate_stack>,
@@ -65,8 +65,8 @@ TEST(WideFloat, OperationsAreWithinTheirEpsilonOf200Digits) {
     const Digits x = digits(a), y = digits(b);
     const auto see = [&](const WideFloat& found, const Digits& truth, const Digits& to) {
       const double error = relative(digits(found), truth, to);
-      ASSERT_LE(error, exact::kWideEpsilon) << i;
-      worst = std::max(worst, error / exact::kWideEpsilon);
+      ASSERT_LE(error, detail::kWideEpsilon) << i;
+      worst = std::max(worst, error / detail::kWideEpsilon);
     };
     see(a + b, x + y, abs(x) + abs(y));
     see(a - b, x - y, abs(x) + abs(y));

@@ -2,13 +2,15 @@
 // `tangency-verify grade --baseline`: what is worse fails, what is better is named.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <tangency/tests/grade/report.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 /// The grade of answers that are all of one line a row, beside a baseline.
@@ -163,4 +165,4 @@ TEST(GradeBaseline, RefusesWhatIsNoGrade) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -3,6 +3,7 @@
 // The golden corpora: that they are what the generator makes, and that they say the truth.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,17 +11,18 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/corpus/draw.hpp>
-#include <tangency/verify/oracles/ascent.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/gap.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -28,7 +30,7 @@ namespace {
 const std::string kFolder = TANGENCY_TEST_DATA "/corpora/";
 
 std::string committed(std::string_view name, const char* suffix) {
-  return test::read_file(kFolder + std::string(name) + suffix);
+  return testing::read_file(kFolder + std::string(name) + suffix);
 }
 
 std::vector<std::string> lines(const std::string& text) {
@@ -83,11 +85,12 @@ TEST(Corpus, FirstRowsOfEveryFamilyAreGeneratedAgainByteForByte) {
 
 TEST(Corpus, WholeFilesAreWrittenByteForByte) {
   for (const char* name : {"quadrics", "near"}) {
-    const test::TemporaryFolder folder;
-    const test::Finished run = test::run_tool({"generate", name, "--out", folder.path("made")});
+    const testing::TemporaryFolder folder;
+    const testing::Finished run =
+        testing::run_tool({"generate", name, "--out", folder.path("made")});
     EXPECT_EQ(run.status, 0) << run.err;
     for (const char* suffix : {".csv", ".truth.csv"}) {
-      EXPECT_EQ(test::read_file(folder.path("made/" + std::string(name) + suffix)),
+      EXPECT_EQ(testing::read_file(folder.path("made/" + std::string(name) + suffix)),
                 committed(name, suffix));
     }
   }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstddef>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -12,7 +13,7 @@
 #include <tangency/tests/grade/report.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 TEST(GradeCommand, TheKernelPasses) {
@@ -523,4 +524,4 @@ TEST(GenerateCommand, NamesEveryCorpusAndRefusesOthers) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

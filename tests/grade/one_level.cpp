@@ -3,10 +3,11 @@
 // x86-64 of the last twenty years has, so that its answers are the same on all of them.
 #include <hwy/targets.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
-#include <tangency/bench/level.hpp>
+#include <tangency/bench/instruction_set.hpp>
 
 namespace {
 

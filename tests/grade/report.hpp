@@ -4,14 +4,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
+
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 inline const std::string kKernel = TANGENCY_CONTACT " contact";
 
@@ -52,4 +53,4 @@ inline std::string changed(const std::string& program) {
   return kKernel + " | awk -F, -v OFS=, '" + program + "'";
 }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <tangency/geometry/tool/csv.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 
 int main() {
   namespace csv = tangency::csv;

@@ -86,7 +86,7 @@ class Operators(unittest.TestCase):
 
     def test_every_change_of_the_kernel_changes_its_text_within_its_lines(self):
         seen = set()
-        for file, text in sources(ROOT, r"methods/(gap|both)").items():
+        for file, text in sources(ROOT, r"geometry/(gap|normals)/|two_lanes").items():
             for mutant in mutants_of(file, text):
                 self.assertNotEqual(plain(mutant.original), plain(mutant.mutated), mutant.diff())
                 self.assertEqual(mutant.change.applied_to(text).count("\n"), text.count("\n"))
@@ -190,7 +190,7 @@ class Reach(unittest.TestCase):
             self.assertTrue(any(room.startswith("tests/") for room in away), file)
 
     def test_a_source_reaches_what_uses_the_header_of_its_folder(self):
-        away = fast_tests.distances(ROOT, "geometry/methods/gap_search_coaxial.cpp")
+        away = fast_tests.distances(ROOT, "geometry/gap/search_coaxial.cpp")
         self.assertEqual(away["geometry/gap"], 2)
         self.assertEqual(away["tests/geometry/gap_test"], 3)
         self.assertNotIn("tests/geometry/polynomial_test", away)

@@ -12,8 +12,11 @@ Comments, strings, directives, assertions, template arguments, enumerators and p
 as they are, as do the arguments of functions that do not care for their order.
 """
 import dataclasses
+import pathlib
 import re
+import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "build"))
 from cpp_text import ASSERTING, Source
 
 OPERATORS = ("sign", "index", "comparison", "constant", "dropped statement", "swapped argument")

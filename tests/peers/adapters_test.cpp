@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // That the adapters ask what we mean: same bodies, same signs. How good the answers are is what
 // bench_peers reports; here they need to be near enough to tell a right question from a wrong one.
-#include <tangency/bench/peers/peer.hpp>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/bench/peers/isolate.hpp>
+#include <tangency/bench/peers/peer.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/verify/families/conversions.hpp>

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scores, isolation and tables, on made-up peers.
-#include <tangency/bench/peers/report.hpp>
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <tangency/bench/peers/isolate.hpp>
+#include <tangency/bench/peers/report.hpp>
 
 namespace tangency::peers {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <ios>
+#include <ostream>
 #include <tuple>
 #include <utility>
 

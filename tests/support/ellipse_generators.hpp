@@ -8,6 +8,7 @@
 #include <rapidcheck.h>
 
 #include <iosfwd>
+#include <ostream>
 
 #include <tangency/geometry/ellipse.hpp>
 

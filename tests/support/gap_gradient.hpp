@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/verify/oracles/gap.hpp>

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <ios>
+#include <ostream>
 #include <tuple>
 #include <utility>
 

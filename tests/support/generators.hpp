@@ -9,6 +9,7 @@
 #include <rapidcheck.h>
 
 #include <iosfwd>
+#include <ostream>
 
 #include <tangency/geometry/ellipsoid.hpp>
 

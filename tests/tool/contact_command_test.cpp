@@ -5,18 +5,22 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ostream>
 #include <random>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -462,4 +466,4 @@ TEST(Program, TellsItsVersion) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/tool/csv.hpp>
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,12 +6,18 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <ostream>
 #include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 
 namespace tangency::csv {
@@ -23,7 +27,7 @@ using Rows = std::vector<std::vector<double>>;
 
 /// Reads the columns x and y of a file with the given text.
 Rows read_x_y(const std::string& text) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Reader reader(folder.write("t.csv", text));
   const Column x = reader.header().require("x");
   const Column y = reader.header().require("y");
@@ -90,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"QuotesInComments", "# 5\" pipe\nx,y\n1,-2.5\n#\"\n3,4\n", ""}}),
     name_of);
 
-// geometry/tool/csv.hpp (3)
+// geometry/tables/csv.hpp (3)
 TEST_P(RefusedText, IsNamedWithPlaceValueAndRule) {
   EXPECT_EQ(refusal(GetParam().text), GetParam().message);
 }
@@ -185,7 +189,7 @@ TEST(CsvReader, NamesWhatItCannotOpen) {
 }
 
 TEST(CsvReader, ErrorCarriesItsParts) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const std::string path = folder.write("t.csv", "x\n-1\n");
   Reader reader(path);
   for_each_row(reader, [&](const RowCursor& row) {
@@ -205,7 +209,7 @@ TEST(CsvReader, KeepsCountAcrossBlocks) {
     if (i % 7 == 0) text += "# between\n";
     text += std::to_string(i) + "," + std::to_string(i + 2 + i / 7) + "\n";
   }
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Reader reader(folder.write("t.csv", text));
   const Column x = reader.header().require("x");
   const Column y = reader.header().require("y");
@@ -227,7 +231,7 @@ TEST(CsvReader, LineMayBeLongerThanABlock) {
 }
 
 TEST(CsvReader, GoesOnAfterARowOfTheWrongLength) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Reader reader(folder.write("t.csv", "x,y\n1\n2,3\n"));
   Block block;
   ASSERT_TRUE(reader.read(block));
@@ -337,7 +341,7 @@ std::string hostile_table(std::mt19937_64& random, std::size_t rows) {
 }
 
 void expect_same_rows(const std::string& text) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Reader reader(folder.write("t.csv", "x,y,z\n" + text));
   const std::vector<PlainReader::Row> expected = PlainReader("x,y,z\n" + text).rows();
   std::size_t index = 0;  // of the expected rows, the header before all
@@ -382,7 +386,7 @@ TEST(CsvQuotes, AreReadAsByAReaderThatKnowsNothingElse) {
   }
 }
 
-// geometry/tool/csv.hpp (4)
+// geometry/tables/csv.hpp (4)
 TEST(CsvQuotes, ThatNoCellNeedsChangeNothing) {
   std::mt19937_64 random(20261130);
   std::string plain = "x,y\n", quoted = plain;
@@ -396,7 +400,7 @@ TEST(CsvQuotes, ThatNoCellNeedsChangeNothing) {
 }
 
 TEST(CsvQuotes, LetARowComeAsSoonAsItIsWhole) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const std::string path = folder.path("pipe");
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
   const Descriptor writer(::open(path.c_str(), O_RDWR | O_CLOEXEC));
@@ -419,7 +423,7 @@ TEST(CsvQuotes, LetARowComeAsSoonAsItIsWhole) {
 }
 
 TEST(CsvReader, GivesTextCells) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Reader reader(folder.write("t.csv", "row, status\n0, ok \n1,\n"));
   const Column status = reader.header().require("status");
   std::vector<std::string> read;
@@ -449,10 +453,10 @@ std::string format(const char* how, double value) {
   return text;
 }
 
-// geometry/tool/csv.hpp (1)
+// geometry/tables/csv.hpp (1)
 TEST(CsvNumbers, ReadBackToTheSameDouble) {
-  using limits = std::numeric_limits<double>;
-  std::vector<double> values{0.0,  -0.0,        limits::max(), limits::min(), limits::denorm_min(),
+  using Limits = std::numeric_limits<double>;
+  std::vector<double> values{0.0,  -0.0,        Limits::max(), Limits::min(), Limits::denorm_min(),
                              -0.1, 1 + 0x1p-52, 1e22,          0x1.fp-1060,   123456789.0};
   Doubles doubles;
   for (int i = 0; i < 100'000; ++i) values.push_back(doubles.next());
@@ -468,7 +472,7 @@ TEST(CsvNumbers, ReadBackToTheSameDouble) {
   }
 }
 
-// geometry/tool/csv.hpp (2)
+// geometry/tables/csv.hpp (2)
 TEST(CsvNumbers, AreReadCorrectlyRounded) {
   // The C library rounds correctly; texts with more digits than a double holds, and exact ties.
   Doubles doubles;

@@ -9,7 +9,7 @@
 
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 const std::string kHeader = "a.x,a.y,a.r1,a.r2,a.ux,a.uy,b.x,b.y,b.r1,b.r2,b.ux,b.uy\n";
@@ -135,4 +135,4 @@ TEST(EllipseCommand, WritesTheSameForEveryNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

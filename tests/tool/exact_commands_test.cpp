@@ -2,6 +2,7 @@
 // `tangency overlap` and `tangency classify`, run as their users run them.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -9,7 +10,7 @@
 
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 const std::string kPairHeader = "a.x,a.y,a.z,a.r1,a.r2,a.r3,b.x,b.y,b.z,b.r1,b.r2,b.r3\n";
@@ -173,4 +174,4 @@ TEST(ClassifyCommand, RefusesACoefficientThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/geometry/tool/output_file.hpp>
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,7 +6,10 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/tests/tool/process.hpp>
 
 namespace tangency::csv {
@@ -26,17 +27,17 @@ std::string refusal(const std::string& path) {
 }
 
 TEST(OutputFile, AppearsOnCommitOnly) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   OutputFile file(folder.path("t.csv"));
   file.write("one\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path("t.csv")));
   file.commit();
   EXPECT_EQ(folder.names(), Names{"t.csv"});
-  EXPECT_EQ(test::read_file(folder.path("t.csv")), "one\n");
+  EXPECT_EQ(testing::read_file(folder.path("t.csv")), "one\n");
 }
 
 TEST(OutputFile, LeavesTheOldFileAndNothingElseWithoutCommit) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const std::string path = folder.write("t.csv", "old");
   {
     OutputFile file(path);
@@ -44,11 +45,11 @@ TEST(OutputFile, LeavesTheOldFileAndNothingElseWithoutCommit) {
     EXPECT_EQ(folder.names().size(), 2U);
   }
   EXPECT_EQ(folder.names(), Names{"t.csv"});
-  EXPECT_EQ(test::read_file(path), "old");
+  EXPECT_EQ(testing::read_file(path), "old");
 }
 
 TEST(OutputFile, ReplacesContentsAndKeepsPermissionsAndLink) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const std::string path = folder.write("t.csv", "old");
   ASSERT_EQ(::chmod(path.c_str(), 0640), 0);
   std::filesystem::create_symlink("t.csv", folder.path("link.csv"));
@@ -56,12 +57,12 @@ TEST(OutputFile, ReplacesContentsAndKeepsPermissionsAndLink) {
   file.write("new");
   file.commit();
   EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link.csv")));
-  EXPECT_EQ(test::read_file(path), "new");
+  EXPECT_EQ(testing::read_file(path), "new");
   EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
 }
 
 TEST(OutputFile, TwoMayBeWrittenToOnePlaceAtATime) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   OutputFile first(folder.path("t.csv"));
   OutputFile second(folder.path("t.csv"));
   first.write("first");
@@ -69,11 +70,11 @@ TEST(OutputFile, TwoMayBeWrittenToOnePlaceAtATime) {
   second.commit();
   first.commit();
   EXPECT_EQ(folder.names(), Names{"t.csv"});
-  EXPECT_EQ(test::read_file(folder.path("t.csv")), "first");
+  EXPECT_EQ(testing::read_file(folder.path("t.csv")), "first");
 }
 
 TEST(OutputFile, NamedPipeIsWrittenToDirectly) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const std::string path = folder.path("pipe");
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
   const Descriptor reader(::open(path.c_str(), O_RDWR | O_CLOEXEC));
@@ -94,7 +95,7 @@ TEST(OutputFile, NamesWhatItCannotWrite) {
 }
 
 TEST(OutputFile, RefusesTheNinthAtOnceAndTakesItLater) {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   std::vector<std::unique_ptr<OutputFile>> files;
   for (int i = 0; i < 8; ++i) {
     files.push_back(std::make_unique<OutputFile>(folder.path(std::to_string(i))));

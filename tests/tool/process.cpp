@@ -15,13 +15,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 struct Ends {
@@ -246,4 +248,4 @@ Finished run_tool(const std::vector<std::string>& arguments, std::string_view in
   return finished;
 }
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

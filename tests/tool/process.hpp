@@ -5,12 +5,13 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace tangency::test {
+namespace tangency::testing {
 
 /// An empty folder that is removed with everything in it.
 class TemporaryFolder {
@@ -120,4 +121,4 @@ class FolderWatch {
 Finished run_tool(const std::vector<std::string>& arguments, std::string_view input = "",
                   const Process::Place& place = Process::Place());
 
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::test {
+namespace tangency::testing {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -38,7 +40,7 @@ Finished run_with_threads(unsigned threads, Names arguments, const std::string& 
   return run_tool(arguments, input);
 }
 
-// geometry/tool/row_stream.hpp (1)
+// geometry/tables/row_stream.hpp (1)
 TEST(RowStream, EveryNumberOfThreadsWritesTheSameBytes) {
   const TemporaryFolder folder;
   const std::string text = kHeader + rows(30'000);  // about ten blocks
@@ -52,7 +54,7 @@ TEST(RowStream, EveryNumberOfThreadsWritesTheSameBytes) {
   }
 }
 
-// geometry/tool/row_stream.hpp (2)
+// geometry/tables/row_stream.hpp (2)
 TEST(RowStream, EveryNumberOfThreadsRefusesTheSameRow) {
   const TemporaryFolder folder;
   const std::string path = folder.write("pairs.csv", kHeader + rows(30'000, 20'000) + rows(9, 1));
@@ -237,4 +239,4 @@ TEST(RowStream, TerminalSeesTheProgressOfALargeFileOnly) {
 }
 
 }  // namespace
-}  // namespace tangency::test
+}  // namespace tangency::testing

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+
 #include <tangency/verify/oracles/cap_bounds.hpp>
 
 namespace tangency::verify {

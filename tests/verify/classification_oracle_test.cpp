@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <set>
 #include <stdexcept>
+
 #include <tangency/verify/oracles/classification.hpp>
 
 namespace tangency::verify {

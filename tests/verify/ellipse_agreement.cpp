@@ -4,12 +4,17 @@
 // and everything against the same pair exchanged. The merge gate runs a part of it; docs/guide.md
 // names the whole.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/geometry/ellipse_crossings.hpp>

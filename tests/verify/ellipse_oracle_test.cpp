@@ -5,8 +5,9 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <tangency/verify/oracles/ellipse.hpp>
 #include <vector>
+
+#include <tangency/verify/oracles/ellipse.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+
 #include <tangency/verify/oracles/elliptic.hpp>
 #include <tangency/verify/oracles/quadrature.hpp>
 

@@ -5,6 +5,7 @@
 // Prints the largest errors over their bounds. The merge gate runs a part of it; docs/guide.md
 // names the whole.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,15 +2,18 @@
 // Holds the kernel's gap, its certificate and its bounds on normal and points against the 100-digit
 // oracle, family by family. The merge gate runs a part of it; docs/guide.md names the whole.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <mutex>
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <tangency/geometry/gap.hpp>

@@ -11,8 +11,9 @@
 #include <cstddef>
 #include <random>
 #include <stdexcept>
-#include <tangency/verify/oracles/gap.hpp>
+
 #include <tangency/tests/verify/raw_sampler.hpp>
+#include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/gap_enclosure.hpp>
 
 namespace tangency::verify {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+
 #include <tangency/tests/verify/raw_sampler.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/relation.hpp>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+
 #include <tangency/tests/verify/raw_sampler.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 

@@ -3,14 +3,17 @@
 // many inputs of each as asked for, and prints the largest errors. The merge gate runs a part of
 // it; docs/guide.md names the whole.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/primitives.hpp>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the real roots of quartics, of coefficients over the whole range of doubles, against
 // Sturm's count in exact integers. The merge gate runs a part of it; docs/guide.md names the whole.
+#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <random>
 #include <string>

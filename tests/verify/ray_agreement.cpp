@@ -2,17 +2,19 @@
 // Holds rays against exact rational numbers: which hits lie in the interval, and how far hit points
 // are from surface and line, of bodies as thin as doubles allow and of origins exactly on the
 // surface. The merge gate runs a part of it; docs/guide.md names the whole.
+#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 #include <mpfr.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <tangency/geometry/ray.hpp>
 #include <tangency/verify/oracles/primitives.hpp>

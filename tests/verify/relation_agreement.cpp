@@ -2,8 +2,10 @@
 // Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies
 // by family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <functional>

@@ -16,9 +16,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/oracles/relation.hpp>
-#include <utility>
 
 namespace tangency::verify {
 

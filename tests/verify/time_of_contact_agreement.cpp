@@ -2,12 +2,14 @@
 // Holds the time of first contact against the interval oracle on as many motions as asked for, by
 // family, and the tolerance of many more that spin, exactly. The merge gate runs a part of it;
 // docs/guide.md names the whole.
+#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <random>
 #include <string>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/answers/tool_run.hpp>
+
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -19,9 +21,9 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/verify/answers/tool_run.hpp>
 #include <utility>
+
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// One run of a tool under test: inputs in, answers out, whatever the tool does.
+/// @file
+/// One run of a tool under test: inputs in, answers out, whatever the tool does.
 #pragma once
 
 #include <cstddef>
 #include <string>
-#include <tangency/geometry/tool/descriptor.hpp>
+
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::verify {
 

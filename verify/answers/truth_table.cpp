@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/answers/truth_table.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/verify/answers/truth_table.hpp>
+#include <utility>
+
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/oracles/classification.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The truth of a corpus as a grader holds it: NAME.truth.csv (verify/corpus/corpus.hpp), read back.
+/// @file
+/// The truth of a corpus as a grader holds it: NAME.truth.csv (verify/corpus/corpus.hpp), read
+/// back.
 #pragma once
 
 #include <array>
@@ -8,9 +9,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/oracles/relation.hpp>
-#include <vector>
 
 namespace tangency::verify {
 

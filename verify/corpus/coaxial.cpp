@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/corpus/coaxial.hpp>
+
 #include <algorithm>
 #include <cstddef>
-#include <tangency/verify/corpus/coaxial.hpp>
-#include <tangency/verify/oracles/ascent.hpp>
+
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/corpus/corpus.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <ios>
 #include <stdexcept>
-#include <tangency/verify/corpus/corpus.hpp>
+#include <vector>
+
 #include <tangency/verify/corpus/families.hpp>
 #include <tangency/verify/corpus/truth.hpp>
 

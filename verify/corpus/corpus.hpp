@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Golden corpora: inputs by families, and what is true of them, as the two tables NAME.csv and
-// NAME.truth.csv. Inputs are hex floats, exactly the doubles meant, in the columns of `tangency
-// contact`, `ellipse` or `classify`.
-//
-// Truth tables, one line an input, and for ellipsoids and ellipses one line a maximising normal:
-//
-//   all       row, from 0; family
-//   pairs     relation, inner; size L = |d| + both largest semi-axes; gap; normals: point, circle
-//             (all turns of nx ny nz about ax ay az) or all; pw.gap, pw.nx, pw.ny, pw.nz,
-//             mp.gap and cl.gap: the definitions perram-wertheim, midpoint-potential (of the same
-//             normal) and centre-line, empty where they do not apply
-//   ellipses  relation, inner, crossings (empty when equal), size, area, smaller_area, gap;
-//             normals: point or all; nx, ny
-//   quadrics  type
-//
-// Identities: (1) the same bytes every time, on every machine with IEEE doubles; (2) the first k
-// rows of a family do not depend on how many there are.
+/// @file
+/// Golden corpora: inputs by families, and what is true of them, as the two tables NAME.csv and
+/// NAME.truth.csv. Inputs are hex floats, exactly the doubles meant, in the columns of `tangency
+/// contact`, `ellipse` or `classify`.
+///
+/// Truth tables, one line an input, and for ellipsoids and ellipses one line a maximising normal:
+///
+///   all       row, from 0; family
+///   pairs     relation, inner; size L = |d| + both largest semi-axes; gap; normals: point, circle
+///             (all turns of nx ny nz about ax ay az) or all; pw.gap, pw.nx, pw.ny, pw.nz,
+///             mp.gap and cl.gap: the definitions perram-wertheim, midpoint-potential (of the same
+///             normal) and centre-line, empty where they do not apply
+///   ellipses  relation, inner, crossings (empty when equal), size, area, smaller_area, gap;
+///             normals: point or all; nx, ny
+///   quadrics  type
+///
+/// Identities: (1) the same bytes every time, on every machine with IEEE doubles; (2) the first k
+/// rows of a family do not depend on how many there are.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Seeded draws for the corpora. Logarithms and roots are MPFR's, correctly rounded, so that the
-// same seed gives the same doubles with every standard library, compiler and processor.
+/// @file
+/// Seeded draws for the corpora. Logarithms and roots are MPFR's, correctly rounded, so that the
+/// same seed gives the same doubles with every standard library, compiler and processor.
 #pragma once
 
 #include <array>
@@ -9,8 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 #include <utility>
+
+#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::verify {
 

@@ -2,11 +2,16 @@
 //
 // Families of plane ellipses.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
+
 #include <tangency/verify/corpus/draw.hpp>
 #include <tangency/verify/corpus/families.hpp>
-#include <utility>
 
 namespace tangency::verify {
 namespace {

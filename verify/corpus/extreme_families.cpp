@@ -2,10 +2,13 @@
 //
 // Families at the extremes of shape, size, place and depth.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+
 #include <tangency/verify/corpus/placing.hpp>
-#include <tangency/verify/oracles/ascent.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// What the corpora are made of: families of inputs, each an endless sequence that depends on
-// nothing but its seed.
+/// @file
+/// What the corpora are made of: families of inputs, each an endless sequence that depends on
+/// nothing but its seed.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <tangency/verify/oracles/ellipse.hpp>
-#include <tangency/verify/oracles/raw.hpp>
 #include <vector>
+
+#include <tangency/verify/oracles/ellipse.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

@@ -2,7 +2,11 @@
 //
 // Families whose gaps are moderate or small against the bodies.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+
 #include <tangency/verify/corpus/placing.hpp>
 
 namespace tangency::verify {

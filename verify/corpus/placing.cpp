@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/corpus/placing.hpp>
+
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
-#include <tangency/verify/corpus/placing.hpp>
-#include <tangency/verify/families/adversarial.hpp>
-#include <tangency/verify/oracles/ascent.hpp>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

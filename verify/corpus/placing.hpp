@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Bodies and pairs as the families of ellipsoids draw them.
+/// @file
+/// Bodies and pairs as the families of ellipsoids draw them.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+
 #include <tangency/verify/corpus/draw.hpp>
 #include <tangency/verify/corpus/families.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>

@@ -3,7 +3,11 @@
 // The displacement profiles of the published study [Ouadfel1998, section 4.4.1]: two equal
 // spheroids, b/a = 0.7, in four contacts with the normal z, B moved along it, along x, and turned
 // about y and its own centre. Unit of length: the short semi-axis.
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <string>
+
 #include <tangency/verify/corpus/placing.hpp>
 
 namespace tangency::verify {

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <vector>
+
 #include <tangency/verify/corpus/draw.hpp>
 #include <tangency/verify/corpus/families.hpp>
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <stdexcept>
-#include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/truth.hpp>
-#include <tangency/verify/oracles/ascent.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+#include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/oracles/gap.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

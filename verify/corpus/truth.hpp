@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// What is true of an input, by the oracles alone.
+/// @file
+/// What is true of an input, by the oracles alone.
 #pragma once
 
 #include <optional>
+#include <vector>
+
 #include <tangency/verify/corpus/families.hpp>
 #include <tangency/verify/oracles/classification.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 #include <tangency/verify/oracles/relation.hpp>
-#include <vector>
 
 namespace tangency::verify {
 

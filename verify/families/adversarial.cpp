@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/families/adversarial.hpp>
+
 #include <gmpxx.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tangency/verify/families/adversarial.hpp>
-#include <tangency/verify/families/exact_contact.hpp>
 #include <utility>
+
+#include <tangency/verify/families/exact_contact.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Hostile pairs for the yes/no and the relation question: exact touches, their neighbours in the
-// grid of doubles, zero discriminants, nests, equal sets and extremes. Wherever the construction
-// settles the exact relation of the stored doubles, the pair carries it; no solver is asked.
-//
-// The stream depends on the seed and the index alone. Draws of integers are the same on every
-// platform; logarithmic ones follow libm, and manufactured gaps the width of long double.
+/// @file
+/// Hostile pairs for the yes/no and the relation question: exact touches, their neighbours in the
+/// grid of doubles, zero discriminants, nests, equal sets and extremes. Wherever the construction
+/// settles the exact relation of the stored doubles, the pair carries it; no solver is asked.
+///
+/// The stream depends on the seed and the index alone. Draws of integers are the same on every
+/// platform; logarithmic ones follow libm, and manufactured gaps the width of long double.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency::verify {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/families/displacement.hpp>
+
 #include <Eigen/LU>
+
 #include <cassert>
 #include <cmath>
-#include <tangency/verify/families/displacement.hpp>
 
 namespace tangency::families {
 namespace {

@@ -10,8 +10,9 @@
 
 #include <array>
 #include <string_view>
-#include <tangency/geometry/ellipsoid.hpp>
 #include <vector>
+
+#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::families {
 
@@ -31,7 +32,7 @@ struct DisplacementContact {
 std::vector<DisplacementContact> displacement_contacts(double short_over_long, double overlap);
 
 enum class Motion { normal, tangential, rotation };
-constexpr std::array<Motion, 3> motions = {Motion::normal, Motion::tangential, Motion::rotation};
+constexpr std::array<Motion, 3> kMotions = {Motion::normal, Motion::tangential, Motion::rotation};
 std::string_view to_string(Motion motion);
 
 /// B after a motion: a length along the normal (away from A) or the tangent, or an angle in

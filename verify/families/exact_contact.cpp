@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <tangency/verify/families/exact_contact.hpp>
+
+#include <algorithm>
 
 namespace tangency::verify::construction {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The kit of the adversarial families: seeded draws that do not depend on the standard library's
-// distributions, bodies of integers, and two of them that touch exactly.
+/// @file
+/// The kit of the adversarial families: seeded draws that do not depend on the standard library's
+/// distributions, bodies of integers, and two of them that touch exactly.
 #pragma once
 
 #include <gmpxx.h>
@@ -12,8 +12,9 @@
 #include <cstdint>
 #include <optional>
 #include <random>
-#include <tangency/verify/oracles/raw.hpp>
 #include <utility>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify::construction {
 

@@ -2,8 +2,10 @@
 #include <tangency/verify/families/extreme.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <tangency/verify/families/support.hpp>

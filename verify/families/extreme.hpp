@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::families {
 

@@ -8,12 +8,13 @@
 /// g is corrected by n . (rounding), exact to second order in rounding / radius of curvature.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <random>
 #include <span>
 #include <string>
 
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::families {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include <tangency/verify/oracles/raw.hpp>
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::families {
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/grade/baseline.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -9,11 +14,11 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/verify/grade/baseline.hpp>
+#include <system_error>
 #include <utility>
+
+#include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::verify {
 namespace {

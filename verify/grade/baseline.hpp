@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// A grade beside an earlier one of the same corpora, so that no step back passes unseen.
-//
-//  (1) A grade beside itself is neither worse nor better.
-//  (2) Worse: a count that has grown; an error that has grown by more than the slack; a size that
-//      has changed; a value of a graded corpus that is no longer there; a graded corpus of which
-//      the baseline has nothing.
-//  (3) Better: a count that has fallen; an error that has fallen by more than the slack.
-//  (4) Times, and overlaps answered on an external touch, are information.
+/// @file
+/// A grade beside an earlier one of the same corpora, so that no step back passes unseen.
+///
+///  (1) A grade beside itself is neither worse nor better.
+///  (2) Worse: a count that has grown; an error that has grown by more than the slack; a size that
+///      has changed; a value of a graded corpus that is no longer there; a graded corpus of which
+///      the baseline has nothing.
+///  (3) Better: a count that has fallen; an error that has fallen by more than the slack.
+///  (4) Times, and overlaps answered on an external touch, are information.
 #pragma once
 
 #include <map>
 #include <string>
-#include <tangency/verify/grade/report.hpp>
 #include <vector>
+
+#include <tangency/verify/grade/report.hpp>
 
 namespace tangency::verify {
 

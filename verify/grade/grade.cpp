@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/grade/grade.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/verify/grade/grade.hpp>
-#include <tangency/verify/grade/normal.hpp>
 #include <utility>
+
+#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/verify/grade/normal.hpp>
 
 namespace tangency::verify {
 namespace {

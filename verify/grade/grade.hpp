@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// The grade of one table of answers, family by family.
-//
-// An answer is a line with `row` and any of: relation; overlaps (0 or 1); gap; nx, ny, nz; and with
-// gap: gap_error, a claimed bound, and status, whose word `local` says that the bound is for a
-// local gap; of ellipses also crossings and area; of quadrics type. Rows come in any order. What
-// the table's header offers, and what is demanded, is asked of every row.
-//
-//  (1) wrong: the relation, crossings, type or yes/no differ from the truth. `overlaps` 1 on an
-//      external touch is counted apart (`touches`) and never wrong.
-//  (2) missing: an answer that was asked for and is not there, or is no finite number or known
-//      word.
-//  (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes; the difference is taken
-//      with 106 bits, so that a correctly rounded gap is seen as that.
-//  (4) normal error: length of the difference to the nearest true normal. reversed: the normal is
-//      more than a right angle from every true one.
-//  (5) area error: |area - truth| / area of the smaller ellipse.
-//  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
-//      without gap_error claims none.
-//  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
-//      twice the first answer counts. A header without `row`, and a line of a mebibyte, end the
-//      reading, which is named too.
+/// @file
+/// The grade of one table of answers, family by family.
+///
+/// An answer is a line with `row` and any of: relation; overlaps (0 or 1); gap; nx, ny, nz; and
+/// with gap: gap_error, a claimed bound, and status, whose word `local` says that the bound is for
+/// a local gap; of ellipses also crossings and area; of quadrics type. Rows come in any order. What
+/// the table's header offers, and what is demanded, is asked of every row.
+///
+///  (1) wrong: the relation, crossings, type or yes/no differ from the truth. `overlaps` 1 on an
+///      external touch is counted apart (`touches`) and never wrong.
+///  (2) missing: an answer that was asked for and is not there, or is no finite number or known
+///      word.
+///  (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes; the difference is taken
+///      with 106 bits, so that a correctly rounded gap is seen as that.
+///  (4) normal error: length of the difference to the nearest true normal. reversed: the normal is
+///      more than a right angle from every true one.
+///  (5) area error: |area - truth| / area of the smaller ellipse.
+///  (6) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
+///      without gap_error claims none.
+///  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
+///      twice the first answer counts. A header without `row`, and a line of a mebibyte, end the
+///      reading, which is named too.
 #pragma once
 
 #include <array>
@@ -28,8 +28,9 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tangency/verify/answers/truth_table.hpp>
 #include <vector>
+
+#include <tangency/verify/answers/truth_table.hpp>
 
 namespace tangency::verify {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/grade/normal.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tangency/verify/grade/normal.hpp>
 
 namespace tangency::verify {
 namespace {

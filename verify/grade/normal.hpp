@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// A normal beside all true ones. Inner header of the grade.
+/// @file
+/// A normal beside all true ones. Inner header of the grade.
 #pragma once
 
 #include <array>
+
 #include <tangency/verify/answers/truth_table.hpp>
 
 namespace tangency::verify {

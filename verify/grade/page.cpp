@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <string_view>
+#include <vector>
+
 #include <tangency/verify/grade/report.hpp>
 
 namespace tangency::verify {

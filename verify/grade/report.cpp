@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/grade/report.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <tangency/verify/grade/report.hpp>
+#include <tuple>
 
 namespace tangency::verify {
 namespace {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Grades as text, as an array of {name, unit, value} and as a page of its own.
+/// @file
+/// Grades as text, as an array of {name, unit, value} and as a page of its own.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
-#include <tangency/verify/grade/grade.hpp>
 #include <vector>
+
+#include <tangency/verify/grade/grade.hpp>
 
 namespace tangency::verify {
 

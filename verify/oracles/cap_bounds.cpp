@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/cap_bounds.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <tangency/verify/oracles/cap_bounds.hpp>
 
 namespace tangency::verify::cap {
 namespace {

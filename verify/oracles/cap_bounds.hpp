@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// What is proven about f(n) = n.d - h_A(n) - h_B(n) on a cap of the sphere of normals, in outward
-// rounded doubles. Inner header of the gap oracles.
-//
-// Every function here requires the rounding mode that CGAL::Protect_FPU_rounding sets, lengths that
-// are moderate numbers (about 1 at the most), and caps of less than a right angle. The equations'
-// numbers are those of gap_enclosure.hpp. `sine` is at least the sine of the cap's angle.
+/// @file
+/// What is proven about f(n) = n.d - h_A(n) - h_B(n) on a cap of the sphere of normals, in outward
+/// rounded doubles. Inner header of the gap oracles.
+///
+/// Every function here requires the rounding mode that CGAL::Protect_FPU_rounding sets, lengths
+/// that are moderate numbers (about 1 at the most), and caps of less than a right angle. The
+/// equations' numbers are those of gap_enclosure.hpp. `sine` is at least the sine of the cap's
+/// angle.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
@@ -13,7 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <tangency/verify/oracles/ascent.hpp>
+
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify::cap {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/classification.hpp>
+
 #include <array>
 #include <cstddef>
-#include <tangency/verify/oracles/classification.hpp>
-#include <tangency/verify/oracles/inertia.hpp>
 #include <utility>
+
+#include <tangency/verify/oracles/inertia.hpp>
 
 namespace tangency::verify {
 namespace {

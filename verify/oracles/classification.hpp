@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: the type of a quadric surface, proven for the stored doubles.
-//
-// Theorem used: an affine change of coordinates maps the 4x4 matrix Q of the form in (x, y, z, 1)
-// and its upper 3x3 block S by congruence, so (Sylvester) the inertias of Q and S, taken up to one
-// common sign, are affine invariants; the 17 real types and the three degenerate sets have 20
-// different ones (Cauchy and Haynsworth interlacing leaves no others). Both inertias come from
-// exact symmetric elimination on integers, never from signs of invariants of a characteristic
-// polynomial.
-//
-// Identities: (1) classify(Q) == classify(k Q) for every k != 0, negative ones included;
-// (2) type and ranks do not change under an exact rigid motion or an exact change of units.
+/// @file
+/// Oracle: the type of a quadric surface, proven for the stored doubles.
+///
+/// Theorem used: an affine change of coordinates maps the 4x4 matrix Q of the form in (x, y, z, 1)
+/// and its upper 3x3 block S by congruence, so (Sylvester) the inertias of Q and S, taken up to one
+/// common sign, are affine invariants; the 17 real types and the three degenerate sets have 20
+/// different ones (Cauchy and Haynsworth interlacing leaves no others). Both inertias come from
+/// exact symmetric elimination on integers, never from signs of invariants of a characteristic
+/// polynomial.
+///
+/// Identities: (1) classify(Q) == classify(k Q) for every k != 0, negative ones included;
+/// (2) type and ranks do not change under an exact rigid motion or an exact change of units.
 #pragma once
 
 #include <string_view>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

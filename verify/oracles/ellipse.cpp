@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/ellipse.hpp>
+
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
@@ -8,10 +10,10 @@
 #include <cstddef>
 #include <iterator>
 #include <stdexcept>
-#include <tangency/verify/oracles/ellipse.hpp>
-#include <tangency/verify/oracles/inertia.hpp>
-#include <tangency/verify/oracles/radical.hpp>
 #include <utility>
+
+#include <tangency/verify/oracles/inertia.hpp>
+#include <tangency/verify/oracles/square_free.hpp>
 
 namespace tangency::verify {
 namespace {

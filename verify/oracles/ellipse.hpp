@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracles for two ellipses in the plane, for the stored doubles.
-//
-// Relation and crossings: after a shear x -> x + k y both boundaries are a_i y^2 + b_i(x) y +
-// c_i(x) = 0 in integers. Their resultant R in x and the leading coefficient s of their first
-// subresultant decide:
-//
-//  (1) R = 0 identically <=> the same boundary: an ellipse is irreducible.
-//  (2) Where s has no root in common with R, each root x of R belongs to just one common point,
-//      whose y = -(a_1 c_2 - a_2 c_1) / s is real with x and whose multiplicity is the root's. Only
-//      finitely many k break this, but for concentric homothetic ellipses, where s is 0 for all k:
-//      these have no common point.
-//  (3) A point of odd multiplicity is a crossing: overlap. With none of these, the boundaries only
-//      touch, or meet nowhere: a centre inside the other tells nested from disjoint, and the
-//      smaller area is the one inside.
-//
-// The kernel knows the same from the inertia of members of the pencil of the two forms.
+/// @file
+/// Oracles for two ellipses in the plane, for the stored doubles.
+///
+/// Relation and crossings: after a shear x -> x + k y both boundaries are a_i y^2 + b_i(x) y +
+/// c_i(x) = 0 in integers. Their resultant R in x and the leading coefficient s of their first
+/// subresultant decide:
+///
+///  (1) R = 0 identically <=> the same boundary: an ellipse is irreducible.
+///  (2) Where s has no root in common with R, each root x of R belongs to just one common point,
+///      whose y = -(a_1 c_2 - a_2 c_1) / s is real with x and whose multiplicity is the root's.
+///      Only finitely many k break this, but for concentric homothetic ellipses, where s is 0 for
+///      all k: these have no common point.
+///  (3) A point of odd multiplicity is a crossing: overlap. With none of these, the boundaries only
+///      touch, or meet nowhere: a centre inside the other tells nested from disjoint, and the
+///      smaller area is the one inside.
+///
+/// The kernel knows the same from the inertia of members of the pencil of the two forms.
 #pragma once
 
 #include <array>
+#include <vector>
+
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 #include <tangency/verify/oracles/relation.hpp>
-#include <vector>
 
 namespace tangency::verify {
 

@@ -2,8 +2,11 @@
 #include <gsl/gsl_poly.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <vector>
+
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/quadrature.hpp>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/elliptic.hpp>
+
 #include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_elljac.h>
 
@@ -6,7 +8,6 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
-#include <tangency/verify/oracles/elliptic.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Elliptic integrals and functions through GSL, in double. The parameter is m = k^2 throughout;
-// what is complementary to it, 1 - m, is formed here, exactly for m >= 1/2.
-//
-//  (1) E(m) K(1-m) + E(1-m) K(m) - K(m) K(1-m) = pi/2 (Legendre).
-//  (2) K - E = m D.
-//  (3) sn^2 + cn^2 = 1 and dn^2 + m sn^2 = 1; sn, cn have the period 4 K, dn has 2 K.
-//  (4) sn(F(phi)) = sin phi; F and E to pi/2 are K and E.
-//  (5) A perimeter and a surface do not depend on the order of the semi-axes, and grow as length
-//      and as length squared.
+/// @file
+/// Elliptic integrals and functions through GSL, in double. The parameter is m = k^2 throughout;
+/// what is complementary to it, 1 - m, is formed here, exactly for m >= 1/2.
+///
+///  (1) E(m) K(1-m) + E(1-m) K(m) - K(m) K(1-m) = pi/2 (Legendre).
+///  (2) K - E = m D.
+///  (3) sn^2 + cn^2 = 1 and dn^2 + m sn^2 = 1; sn, cn have the period 4 K, dn has 2 K.
+///  (4) sn(F(phi)) = sin phi; F and E to pi/2 are K and E.
+///  (5) A perimeter and a surface do not depend on the order of the semi-axes, and grow as length
+///      and as length squared.
 #pragma once
 
 #include <array>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/gap.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <tangency/verify/oracles/ascent.hpp>
-#include <tangency/verify/oracles/gap.hpp>
+
 #include <tangency/verify/oracles/gap_enclosure.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: the signed gap of two solid ellipsoids, to 100 digits.
-//
-//     g(A,B) = max over unit n of f(n) = n.d - h_A(n) - h_B(n),   d = c_B - c_A,
-//
-// h the support functions. Found by Newton ascent in 150 digits, which ends only where the gradient
-// of f on the sphere is below 1e-130 L and f is at no saddle, L = |d| + largest semi-axis of A +
-// that of B. Error of `gap` below 1e-140 L.
-//
-// Why an answer is the global one (GapTruth::global):
-//
-//  (1) gap > -rho, rho = a_min^2/a_max of A plus that of B. rho is at most the sum of the radii of
-//      curvature of any two normal sections, so F = f + rho has F'' + F <= 0 along great circles:
-//      from a stationary point with F > 0, F(t) <= F(0) cos t < F(0). So stationary is global.
-//  (2) Separate bodies: the normal n ~ ((1-s) M_A + s M_B)^-1 d of the greatest Perram-Wertheim
-//      function F has f(n) = (1 - 1/sqrt F) n.d > 0 [PerramWertheim1985], and ascent never goes
-//      down: it ends in (1).
-//  (3) Two spheres: f differs from n.d by a constant.
-//  (4) Deeper pairs: the enclosure (gap_enclosure.hpp) has discarded every normal outside caps on
-//      which f is concave, and the highest of their stationary points is taken. Where maxima tie
-//      along a curve this proves no more than `unproven`.
-//
-// Identities: (a) signed_gap(b, a).gap == signed_gap(a, b).gap up to the error; (b) so under a
-// common motion, and under a common scaling in proportion; (c) p_B - p_A = gap n, that is d + arm_b
-// - arm_a = gap n, to 1e-130 L.
+/// @file
+/// Oracle: the signed gap of two solid ellipsoids, to 100 digits.
+///
+///     g(A,B) = max over unit n of f(n) = n.d - h_A(n) - h_B(n),   d = c_B - c_A,
+///
+/// h the support functions. Found by Newton ascent in 150 digits, which ends only where the
+/// gradient of f on the sphere is below 1e-130 L and f is at no saddle, L = |d| + largest semi-axis
+/// of A + that of B. Error of `gap` below 1e-140 L.
+///
+/// Why an answer is the global one (GapTruth::global):
+///
+///  (1) gap > -rho, rho = a_min^2/a_max of A plus that of B. rho is at most the sum of the radii of
+///      curvature of any two normal sections, so F = f + rho has F'' + F <= 0 along great circles:
+///      from a stationary point with F > 0, F(t) <= F(0) cos t < F(0). So stationary is global.
+///  (2) Separate bodies: the normal n ~ ((1-s) M_A + s M_B)^-1 d of the greatest Perram-Wertheim
+///      function F has f(n) = (1 - 1/sqrt F) n.d > 0 [PerramWertheim1985], and ascent never goes
+///      down: it ends in (1).
+///  (3) Two spheres: f differs from n.d by a constant.
+///  (4) Deeper pairs: the enclosure (gap_enclosure.hpp) has discarded every normal outside caps on
+///      which f is concave, and the highest of their stationary points is taken. Where maxima tie
+///      along a curve this proves no more than `unproven`.
+///
+/// Identities: (a) signed_gap(b, a).gap == signed_gap(a, b).gap up to the error; (b) so under a
+/// common motion, and under a common scaling in proportion; (c) p_B - p_A = gap n, that is d +
+/// arm_b
+/// - arm_a = gap n, to 1e-130 L.
 #pragma once
 
 #include <array>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 #include <vector>
+
+#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::verify {
 

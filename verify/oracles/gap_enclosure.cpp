@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/gap_enclosure.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <tangency/verify/oracles/ascent.hpp>
+
 #include <tangency/verify/oracles/cap_bounds.hpp>
-#include <tangency/verify/oracles/gap_enclosure.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {

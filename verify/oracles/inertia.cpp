@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/inertia.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <tangency/verify/oracles/inertia.hpp>
 #include <utility>
 
 namespace tangency::verify {

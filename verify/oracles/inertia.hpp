@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Exact integers for the oracles: doubles under a common power of two, and the inertia of a
-// symmetric integer matrix by congruence. Nothing here rounds and nothing has a tolerance.
+/// @file
+/// Exact integers for the oracles: doubles under a common power of two, and the inertia of a
+/// symmetric integer matrix by congruence. Nothing here rounds and nothing has a tolerance.
 #pragma once
 
 #include <gmpxx.h>
 
 #include <array>
 #include <span>
-#include <tangency/verify/oracles/raw.hpp>
 #include <vector>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

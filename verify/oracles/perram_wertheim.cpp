@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstddef>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
+
+#include <array>
+#include <cstddef>
 
 namespace tangency::verify {
 namespace {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: the gap of two solid ellipsoids by the Perram-Wertheim function, by the midpoint of
-// potentials and along the line of centres, to 100 digits.
-//
-//     F = max over 0 < s < 1 of s (1-s) d' ((1-s) M_A + s M_B)^-1 d,   d = c_B - c_A,
-//
-// M the shape matrices [PerramWertheim1985]. With l = s/(1-s) it is l N / ((1+l) D), N and D
-// polynomials in l with positive coefficients; the root of its slope is bisected in 150 digits. At
-// the best s the normal n is along v = ((1-s) M_A + s M_B)^-1 d, and c_A + (1-s) M_A v is where
-// both level functions are F.
+/// @file
+/// Oracle: the gap of two solid ellipsoids by the Perram-Wertheim function, by the midpoint of
+/// potentials and along the line of centres, to 100 digits.
+///
+///     F = max over 0 < s < 1 of s (1-s) d' ((1-s) M_A + s M_B)^-1 d,   d = c_B - c_A,
+///
+/// M the shape matrices [PerramWertheim1985]. With l = s/(1-s) it is l N / ((1+l) D), N and D
+/// polynomials in l with positive coefficients; the root of its slope is bisected in 150 digits. At
+/// the best s the normal n is along v = ((1-s) M_A + s M_B)^-1 d, and c_A + (1-s) M_A v is where
+/// both level functions are F.
 #pragma once
 
 #include <optional>
+
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::verify {

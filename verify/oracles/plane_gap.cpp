@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <tangency/verify/oracles/ellipse.hpp>
 #include <utility>
+#include <vector>
+
+#include <tangency/verify/oracles/ellipse.hpp>
 
 namespace tangency::verify {
 namespace {

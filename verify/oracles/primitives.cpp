@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <stdexcept>
 #include <tangency/verify/oracles/primitives.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
 
 namespace tangency::verify {
 namespace {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: ellipsoids against points, lines and planes, in 120 decimal digits (MPFR) for the stored
-// doubles. Vectors are in space and relative to the body's centre unless said otherwise.
-//
-// (1) `nearest`: x is the point of the surface with grad(x) parallel to p - x and the multiplier t
-//     above -a_min^2, which makes it the closest of all surface points, inside as outside:
-//     p = x + t diag(1/a^2) x, and for any surface point z
-//     |p - z|^2 - |p - x|^2 = (x - z)'(I + t diag(1/a^2))(x - z) >= 0.
-// (2) `line`: the roots of the quadratic |diag(1/a) R'(o + t e)|^2 = 1.
-// (3) `wall`: the support function.
+/// @file
+/// Oracle: ellipsoids against points, lines and planes, in 120 decimal digits (MPFR) for the stored
+/// doubles. Vectors are in space and relative to the body's centre unless said otherwise.
+///
+/// (1) `nearest`: x is the point of the surface with grad(x) parallel to p - x and the multiplier t
+///     above -a_min^2, which makes it the closest of all surface points, inside as outside:
+///     p = x + t diag(1/a^2) x, and for any surface point z
+///     |p - z|^2 - |p - x|^2 = (x - z)'(I + t diag(1/a^2))(x - z) >= 0.
+/// (2) `line`: the roots of the quadratic |diag(1/a) R'(o + t e)|^2 = 1.
+/// (3) `wall`: the support function.
 #pragma once
 
-#include <array>
 #include <boost/multiprecision/mpfr.hpp>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <array>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

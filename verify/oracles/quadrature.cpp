@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/quadrature.hpp>
+
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
@@ -6,7 +8,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <tangency/verify/oracles/quadrature.hpp>
 
 namespace tangency::verify {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Quadrature through GSL, in double.
+/// @file
+/// Quadrature through GSL, in double.
 #pragma once
 
 #include <functional>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/real_ellipsoid.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::verify {
 namespace {

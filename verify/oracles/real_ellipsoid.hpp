@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Ellipsoids in 150-digit arithmetic: the stored doubles exactly, or bodies that no double can
-// store.
+/// @file
+/// Ellipsoids in 150-digit arithmetic: the stored doubles exactly, or bodies that no double can
+/// store.
 #pragma once
 
-#include <array>
 #include <boost/multiprecision/mpfr.hpp>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <array>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/relation.hpp>
+
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
@@ -12,13 +14,13 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
-#include <tangency/verify/oracles/guess.hpp>
-#include <tangency/verify/oracles/inertia.hpp>
-#include <tangency/verify/oracles/radical.hpp>
-#include <tangency/verify/oracles/relation.hpp>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <tangency/verify/oracles/inertia.hpp>
+#include <tangency/verify/oracles/square_free.hpp>
+#include <tangency/verify/oracles/witness_guess.hpp>
 
 namespace tangency::verify {
 namespace {

@@ -1,43 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: how two ellipsoids lie to each other, proven for the stored doubles.
-//
-// Q_A and Q_B are the 4x4 integer matrices of the forms that are negative inside, E(f) = Q_A + f
-// Q_B for real f ("members"). Both have inertia (3,1); E(f) has a positive definite 3x3 block for f
-// > 0. What is used, and so proven, each time by exact inertia (symmetric elimination on integers):
-//
-//  (1) E(f) > 0 for some f > 0  <=>  separate: no common point.
-//  (2) E(f) > 0 for some f < 0  <=>  A in the interior of B (with t = -1/f: t Q_A - Q_B > 0).
-//  (3) E(f) < 0 for some f < 0  <=>  B in the interior of A.
-//  (4) no definite member, but one that is zero: equal; one that is semidefinite and not zero:
-//      they touch: from outside (f > 0), A inside B (f < 0, E >= 0), B inside A (f < 0, E <= 0).
-//  (5) none of these: overlap.
-//      (1) to (5): the S-lemma for two quadratic forms, strict and not, with f homogenised; the
-//      limits E -> Q_A, E -> Q_B are indefinite, so only finite f != 0 counts.
-//  (6) The inertia is constant between neighbouring real roots of p(f) = det E(f), so one rational
-//      f in each gap finds every definite member; outside all roots it is that of -Q_B or Q_B.
-//  (7) A semidefinite E(f0), when no member is definite, has f0 as a multiple root: if f0 were
-//      simple its kernel would be a line x with x'Q_B x != 0, and E definite on one side of f0.
-//  (8) A multiple root f0 of p is rational, and E(f0) is tested as it is, or p = c m(f)^2 with m
-//      quadratic and irreducible over the rationals. Then both roots have the same corank (Galois);
-//      E(f) has 3 negative squares before and 1 after both and corank 1 changes none at a double
-//      root, so the corank is 2 at both; the pencil is diagonal there and the kernel of the root
-//      where nothing changes has one rising and one falling eigenvalue, which leaves at it one
-//      negative less and one positive less than beside it: E(f0) is semidefinite there (>= 0 if it
-//      is the later root, <= 0 if the earlier one) and indefinite at the other root.
-//
-// Generic pairs are settled sooner by a witness that is guessed in floating point (guess.hpp) and
-// verified exactly: a definite member for (1) to (3); for overlap one point inside both and, each
-// way, a point of one body outside the other. A guess that fails proves nothing and costs only
-// time.
-//
-// Identities, of every function here: swapping the bodies swaps a_in_b and b_in_a, and which body
-// is inside, and changes nothing else; so does a common exact motion or change of units change
-// nothing.
+/// @file
+/// Oracle: how two ellipsoids lie to each other, proven for the stored doubles.
+///
+/// Q_A and Q_B are the 4x4 integer matrices of the forms that are negative inside, E(f) = Q_A + f
+/// Q_B for real f ("members"). Both have inertia (3,1); E(f) has a positive definite 3x3 block for
+/// f > 0. What is used, and so proven, each time by exact inertia (symmetric elimination on
+/// integers):
+///
+///  (1) E(f) > 0 for some f > 0  <=>  separate: no common point.
+///  (2) E(f) > 0 for some f < 0  <=>  A in the interior of B (with t = -1/f: t Q_A - Q_B > 0).
+///  (3) E(f) < 0 for some f < 0  <=>  B in the interior of A.
+///  (4) no definite member, but one that is zero: equal; one that is semidefinite and not zero:
+///      they touch: from outside (f > 0), A inside B (f < 0, E >= 0), B inside A (f < 0, E <= 0).
+///  (5) none of these: overlap.
+///      (1) to (5): the S-lemma for two quadratic forms, strict and not, with f homogenised; the
+///      limits E -> Q_A, E -> Q_B are indefinite, so only finite f != 0 counts.
+///  (6) The inertia is constant between neighbouring real roots of p(f) = det E(f), so one rational
+///      f in each gap finds every definite member; outside all roots it is that of -Q_B or Q_B.
+///  (7) A semidefinite E(f0), when no member is definite, has f0 as a multiple root: if f0 were
+///      simple its kernel would be a line x with x'Q_B x != 0, and E definite on one side of f0.
+///  (8) A multiple root f0 of p is rational, and E(f0) is tested as it is, or p = c m(f)^2 with m
+///      quadratic and irreducible over the rationals. Then both roots have the same corank
+///      (Galois); E(f) has 3 negative squares before and 1 after both and corank 1 changes none at
+///      a double root, so the corank is 2 at both; the pencil is diagonal there and the kernel of
+///      the root where nothing changes has one rising and one falling eigenvalue, which leaves at
+///      it one negative less and one positive less than beside it: E(f0) is semidefinite there (>=
+///      0 if it is the later root, <= 0 if the earlier one) and indefinite at the other root.
+///
+/// Generic pairs are settled sooner by a witness that is guessed in floating point
+/// (witness_guess.hpp) and verified exactly: a definite member for (1) to (3); for overlap one
+/// point inside both and, each way, a point of one body outside the other. A guess that fails
+/// proves nothing and costs only time.
+///
+/// Identities, of every function here: swapping the bodies swaps a_in_b and b_in_a, and which body
+/// is inside, and changes nothing else; so does a common exact motion or change of units change
+/// nothing.
 #pragma once
 
 #include <string_view>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/oracles/time_of_contact.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tangency/verify/oracles/time_of_contact.hpp>
 #include <vector>
 
 namespace tangency::verify {

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Oracle: when two moving ellipsoids first touch, by interval arithmetic over time.
-//
-// [0, horizon] is cut in halves, from the left, until each part is one of these, each proven with
-// intervals that are rounded outwards:
-//
-//  (1) apart throughout: for one fixed direction n, f(t) = n.d(t) - h_A(n, t) - h_B(n, t) > 0 on
-//      the part, by the mean-value form f(m) + f'(part) (part - m);
-//  (2) in contact at its middle m: one point has levels < 1 of both bodies at m.
-//
-// Directions and points are guessed in plain floating point from the Perram-Wertheim form; a guess
-// that fails proves nothing and costs only time.
+/// @file
+/// Oracle: when two moving ellipsoids first touch, by interval arithmetic over time.
+///
+/// [0, horizon] is cut in halves, from the left, until each part is one of these, each proven with
+/// intervals that are rounded outwards:
+///
+///  (1) apart throughout: for one fixed direction n, f(t) = n.d(t) - h_A(n, t) - h_B(n, t) > 0 on
+///      the part, by the mean-value form f(m) + f'(part) (part - m);
+///  (2) in contact at its middle m: one point has levels < 1 of both bodies at m.
+///
+/// Directions and points are guessed in plain floating point from the Perram-Wertheim form; a guess
+/// that fails proves nothing and costs only time.
 #pragma once
 
 #include <array>
-#include <tangency/verify/oracles/raw.hpp>
+
+#include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the subcommands of tangency-verify have in common.
+/// @file
+/// What the subcommands of tangency-verify have in common.
 #pragma once
 
 #include <CLI/CLI.hpp>
+
 #include <functional>
 
 namespace tangency::verify {

@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/geometry/tool/csv.hpp>
-#include <tangency/geometry/tool/not_empty.hpp>
-#include <tangency/geometry/tool/output_file.hpp>
+#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/not_empty.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
 #include <tangency/verify/grade/report.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
+
 #include <vector>
 
 #include <tangency/geometry/tool/program.hpp>

@@ -2,13 +2,14 @@
 // Usage: user [layout]
 // A user of the libraries, compiled for one processor or another. Prints what the libraries answer,
 // or the layout of their public types: neither may depend on what the user is compiled for.
-#include "layout.inc"
-
 #include <cstdint>
 #include <cstdio>
 #include <new>
 #include <random>
 #include <string_view>
+#include <vector>
+
+#include "layout.inc"
 
 namespace {
 

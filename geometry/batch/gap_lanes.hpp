@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The fast path of the gap for several pairs at once, one pair in each lane of a vector register:
+/// what gap_batch.hpp is made of. The instruction set is chosen when the program runs.
+///
+/// Every lane holds what it computed against the certificate of docs/derivations/gap-batch.md; a
+/// lane that does not prove its answer says so, and nothing else of it may be used.
+#pragma once
+
+#include <cstdint>
+
+#include <tangency/geometry/batch/lane_block.hpp>
+
+namespace tangency::detail {
+
+/// Bit i of the result: pair i is settled, with its proof. Assumes rounding to nearest.
+std::uint64_t gap_lanes(LaneBlock& block) noexcept;
+
+/// Bit i: is pair i proven either way, and do its interiors meet?
+struct LaneOverlaps {
+  std::uint64_t decided, meet;
+};
+
+/// Reads shapes, pairs, count and separations of the block. In any rounding mode.
+LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept;
+
+}  // namespace tangency::detail

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Bodies and pairs as the lanes read them, and where their answers go. Internal.
+#pragma once
+
+#include <tangency/geometry/indexed_pair.hpp>
+
+namespace tangency::detail {
+
+/// A body as the lanes read it: two lines of cache, for random access.
+struct alignas(64) LaneBody {
+  double centre[3];
+  double largest;       ///< semi-axis; NaN where the body is not moderate(): no lane then settles
+  double least_radius;  ///< of curvature, rounded down
+  double factor[9];     ///< the columns a_k R e_k, one after the other, each product rounded once
+  double unused[2];
+};
+static_assert(sizeof(LaneBody) == 16 * sizeof(double) && alignof(LaneBody) == 64);
+
+/// A body as the lanes read it for the yes/no question.
+struct alignas(64) LaneShape {
+  double centre[3];
+  double largest;   ///< as LaneBody's
+  double shape[6];  ///< xx yy zz yz zx xy of M, each as Ellipsoid::shape()
+  double unused[6];
+};
+static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 64);
+
+/// In u L: a lane is settled where its gap_error is at most this and the tolerance.
+inline constexpr double kLaneErrorBound = 16.0;
+
+/// Up to 64 pairs, and where their answers go. Every array has kPairs entries, of which those from
+/// `count` on must be readable numbers or indices of some body, and may be written to.
+struct LaneBlock {
+  static constexpr int kPairs = 64;
+
+  const LaneBody* bodies_a;  ///< first of the array that index a counts in
+  const LaneBody* bodies_b;
+  const LaneShape* shapes_a;  ///< the same bodies; read by overlap_lanes() in place of the others
+  const LaneShape* shapes_b;
+  const IndexedPair* pairs;
+  const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
+  int count;
+  const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
+  const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere
+  /// Is the true separation that of the centres, not their rounded difference?
+  bool centres_are_exact;
+  /// What gap_error may be beyond rounding: a part of L, and a length.
+  double tolerance_of_size, tolerance;
+  int first_steps;  ///< of Newton's method before anything is proven
+  double coarse;    ///< of L: pairs of a tolerance from here on take one of them less
+  bool polish;      ///< one step more than the gap needs, for the normal's sake
+
+  double* gap;  ///< null, here and below: not wanted
+  double* gap_error;
+  double* normal;  ///< x y z of each
+  double* arm_a;
+  double* arm_b;
+};
+
+}  // namespace tangency::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/bodies/surface_projection.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tangency::detail {
+namespace {
+
+constexpr int kSteps = 200;  // chosen: docs/derivations/primitives.md, section 2, expects 90
+constexpr double kBoundRounding = 0x1p-50;  // above the rounding of c - f, 3 u (c + f)
+constexpr double kCoarse = 0x1p-50;         // | |w| - 1 | where double arithmetic has done its part
+constexpr double kFine = 0x1p-96;  // the same in double-double, a few units above its rounding
+
+double value(double x) { return x; }
+double value(const DoubleDouble& x) { return x.high; }
+
+/// The equation's coefficients c_i = r_i y_i and f_i.
+template <class Real>
+struct Secular {
+  std::array<Real, 3> c, f;
+
+  std::array<Real, 3> at(const Real& t) const {
+    const auto w = [&](std::size_t i) {
+      return value(c[i]) == 0.0 ? Real(0.0) : c[i] / (t + f[i]);
+    };
+    return {w(0), w(1), w(2)};
+  }
+
+  /// A root from `t`, of | |w| - 1 | <= tolerance. Never below the bounds r_i |y_i| - f_i.
+  Real root(Real t, double least, double tolerance) const {
+    using std::sqrt;
+    for (int step = 0; step < kSteps; ++step) {
+      const std::array<Real, 3> w = at(t);
+      const Real square = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+      const Real excess = sqrt(square) - Real(1.0);
+      if (std::abs(value(excess)) <= tolerance) break;
+      Real slope(0.0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (value(w[i]) != 0.0) slope = slope + w[i] * w[i] / (t + f[i]);
+      }
+      const Real next = t + excess * square / slope;
+      t = value(next) >= least ? next : Real(least);
+    }
+    return t;
+  }
+};
+
+/// w where y lies in the symmetry plane across the smallest axes, inside the focal curve: the tie.
+bool tied(const Secular<DoubleDouble>& secular, const DoubleDoubleVector& y, std::size_t k,
+          DoubleDoubleVector& w) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (value(secular.f[i]) == 0.0 && value(y[i]) != 0.0) return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    w[i] = value(y[i]) == 0.0 ? DoubleDouble() : secular.c[i] / secular.f[i];
+  }
+  const DoubleDouble rest = DoubleDouble(1.0) - dot(w, w);
+  if (value(rest) < 0.0) return false;
+  w[k] = sqrt(rest);
+  return true;
+}
+
+/// The unit vector w = diag(1/a) x of the closest point x.
+DoubleDoubleVector unit_coordinates(const Vec3& a, const DoubleDoubleVector& y) {
+  int least = 0;
+  a.minCoeff(&least);
+  const double smallest = a[least];
+  Secular<DoubleDouble> fine;
+  Secular<double> coarse;
+  double bound = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double ai = a[static_cast<int>(i)];
+    const DoubleDouble ratio = DoubleDouble(ai) / DoubleDouble(smallest);
+    fine.c[i] = ratio * y[i];
+    fine.f[i] = two_sum(ai, -smallest) * (ratio + DoubleDouble(1.0));
+    coarse.c[i] = fine.c[i].high;
+    coarse.f[i] = fine.f[i].high;
+    // |w_i| <= 1 at the root. Where rounding hides the difference it bounds nothing.
+    const double c = std::abs(coarse.c[i]), f = coarse.f[i];
+    bound = std::max(bound, (c - f) - kBoundRounding * (c + f));
+  }
+  DoubleDoubleVector w;
+  if (tied(fine, y, static_cast<std::size_t>(least), w)) return w;
+  const double start = coarse.root(bound, bound, kCoarse);
+  w = fine.at(fine.root(start, bound, kFine));
+  return DoubleDouble(1.0) / length(w) * w;
+}
+
+}  // namespace
+
+SurfaceProjection project_on_surface(const Vec3& semi_axes,
+                                     const DoubleDoubleVector& from) noexcept {
+  constexpr double kLeastComponent = 0x1p-300;  // below it products of two would underflow
+  DoubleDoubleVector y = from;
+  for (DoubleDouble& component : y) {
+    if (std::abs(component.high) < kLeastComponent) component = {};
+  }
+  const DoubleDoubleVector w = unit_coordinates(semi_axes, y);
+  DoubleDoubleVector gradient, point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const DoubleDouble a = semi_axes[static_cast<int>(i)];
+    gradient[i] = w[i] / a;
+    point[i] = a * w[i];
+  }
+  // n . y - h(n) at n = v / |v|, v = diag(1/a) w, of support 1.
+  const DoubleDouble scale = DoubleDouble(1.0) / length(gradient);
+  return {scale * (dot(gradient, y) - DoubleDouble(1.0)), scale * gradient, point};
+}
+
+}  // namespace tangency::detail

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/gap/proof.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tangency/geometry/bodies/double_double_body.hpp>
+#include <tangency/geometry/numbers/two_lanes.hpp>
+
+namespace tangency::detail {
+namespace {
+
+constexpr double kThinnest = 0x1p42;  // of a/h: where terms of second order are below 2^-6 u a
+
+struct Sides {
+  TwoLanes h;          ///< support functions
+  TwoLanesVec3 point;  ///< support points from the centres
+};
+
+Sides sides(const Pair& pair, const Vec3& n) noexcept {
+  const TwoLanesRotations rotations(pair.a.rotation(), pair.b.rotation());
+  const TwoLanesVec3 axes = both(pair.a.semi_axes(), pair.b.semi_axes());
+  const TwoLanesVec3 y = rotations.back(n) * axes;
+  const TwoLanes h = sqrt(dot(y, y));
+  return {h, rotations * (y * (1.0 / h) * axes)};
+}
+
+}  // namespace
+
+void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
+  const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
+  const Sides at = sides(pair, normal);
+  const Vec3 point_a = at.point.of_a(), point_b = at.point.of_b();
+  const Vec3 beyond_a = pair.d - point_a;
+  const Vec3 rest = (beyond_a - point_b) + pair.d_low;
+  // n.x is h but for the second order of n's rounding, so n.rest has fewer errors than
+  // n.d - h_A - h_B.
+  const double gap = normal.dot(rest);
+  const double axes = axis_a + axis_b, h = at.h[0] + at.h[1];
+  const double thin_a = axis_a / at.h[0], thin_b = axis_b / at.h[1];
+  const double radii = axis_a * thin_a + axis_b * thin_b;
+  // (V) of the derivation.
+  const double value_error =
+      kUnitRoundoff *
+      (6.71 * axes + 5.51 * h + 2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.71 * std::abs(gap));
+  proof.gap = gap;
+  proof.low = gap - value_error;
+  proof.normal = normal;
+  proof.arm_a = point_a;
+  proof.arm_b = -point_b;
+  const double ball = proof.low + pair.least_radius();
+  // (R): rounding, of which the radii of curvature amplify that of the normal.
+  const double rest_error = kUnitRoundoff * (8.0 * radii + 32.0 * (axes + std::abs(gap)));
+  const double reach2 = 1.01 * ((rest - gap * normal).squaredNorm() + rest_error * rest_error);
+  // Beyond kThinnest (V) and (R) do not hold: what low is then is not asked for.
+  proof.global = ball > 0.0 && std::max(thin_a, thin_b) <= kThinnest;
+  // (B): the ball seen from the origin.
+  proof.high = proof.global ? gap + (value_error + reach2 / ball) : GapProof::kUnproven;
+}
+
+namespace {
+
+using Vector = DoubleDoubleVector;
+
+constexpr double kValueError = 0x1p-92;    // (V2) of the derivation, of the size of the pair
+constexpr double kRestError = 0x1p-92;     // (R2), of size and largest radii of curvature
+constexpr double kTangentError = 0x1p-49;  // (R2), of the rest
+constexpr double kNarrow = 0x1p-40;        // chosen
+// Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more.
+constexpr int kMoves = 20;
+constexpr int kHalvings = 8;  // chosen, of one move
+
+/// f to first and second order at a normal.
+struct Local {
+  Vec3 normal;
+  DoubleDouble f;
+  Slope slope;
+  Bend bend;
+  Vec3 point_a, point_b;
+};
+
+Local evaluate(const Pair& pair, const Vec3& normal) {
+  const Vector n = {normal[0], normal[1], normal[2]};
+  const DoubleDoubleSide a(pair.a, n), b(pair.b, n);
+  const Vector point_a = a.support_point(), point_b = b.support_point();
+  const DoubleDouble square = dot(n, n);
+  Vector rest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<int>(i);
+    rest[i] = DoubleDouble(pair.d[k], pair.d_low[k]) - point_a[i] - point_b[i];
+  }
+  // n . rest is n.d - h_A - h_B.
+  const DoubleDouble along = dot(rest, n), part = along / square;
+  const DoubleDouble f = along / sqrt(square);
+  Vec3 r;
+  for (std::size_t i = 0; i < 3; ++i) r[static_cast<int>(i)] = (rest[i] - part * n[i]).high;
+  const auto radius = [](const Ellipsoid& body, const DoubleDoubleSide& side) {
+    return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
+  };
+  const Bend bend = bend_at({a, rounded(point_a)}, {b, rounded(point_b)}, normal);
+  // A support point is never further off than its body is long.
+  const double across = std::min(kRestError * (radius(pair.a, a) + radius(pair.b, b)),
+                                 2.0 * (pair.a.largest_semi_axis() + pair.b.largest_semi_axis()));
+  const double error = kTangentError * r.norm() + kRestError * pair.size + across;
+  return {normal,
+          f,
+          {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},
+          bend,
+          rounded(point_a),
+          rounded(point_b)};
+}
+
+/// Newton's step towards the maximum; zero where f is not concave.
+Vec3 step(const Local& at) {
+  Vec3 move = Vec3::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double bend = at.bend.curvature[i] + at.slope.value;
+    if (!(bend > 0.0)) return Vec3::Zero();
+    move += at.slope.rest[i] / bend * at.bend.tangent[i];
+  }
+  return move;
+}
+
+/// Ascent with backtracking from what an ascent in double found, where values below `error` are
+/// no gain.
+Local ascend(const Pair& pair, const Vec3& normal, double error) {
+  Local at = evaluate(pair, normal);
+  int halvings = 0;
+  for (int move = 0; move < kMoves && halvings <= kHalvings; ++move) {
+    Vec3 delta = step(at);
+    for (halvings = 0; halvings <= kHalvings; ++halvings, delta *= 0.5) {
+      if (!(delta.norm() > 0x1p-54)) return at;
+      const Local next = evaluate(pair, (at.normal + delta).normalized());
+      if (!((next.f - at.f).high > error)) continue;
+      at = next;
+      break;
+    }
+  }
+  return at;
+}
+
+/// The double above (below) a + b.
+double sum_up(double a, double b) { return std::nextafter(a + b, GapProof::kUnproven); }
+double sum_down(double a, double b) { return std::nextafter(a + b, -GapProof::kUnproven); }
+
+}  // namespace
+
+CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
+                                    double cap_width) noexcept {
+  const double error = kValueError * pair.size;
+  const Local at = ascend(pair, normal, error);
+  const Cap cap = cap_around(at.bend, at.slope, cap_width);
+  CapProof proof;
+  proof.cap = cap;
+  proof.low = sum_down(at.f.high, at.f.low - error);
+  proof.global = sum_down(proof.low, pair.least_radius()) > 0.0;
+  // (C): the cap; (B'): the ball of radius rho, which needs no cap.
+  double height = cap.proven ? cap.height : GapProof::kUnproven;
+  if (proof.global && !cap.proven) {
+    height =
+        (std::abs(at.slope.rest[0]) + std::abs(at.slope.rest[1]) + 2.0 * at.slope.error) * kMore;
+  }
+  proof.high = sum_up(at.f.high, at.f.low + (error + height * kMore));
+  // In the middle of what is proven, unless that is so wide that f(n) is the better answer.
+  const bool narrow = height < kNarrow * pair.size;
+  proof.gap = narrow ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
+  proof.normal = at.normal;
+  proof.arm_a = at.point_a;
+  proof.arm_b = -at.point_b;
+  return proof;
+}
+
+ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept {
+  const Local at = evaluate(pair, normal);
+  const Cap cap = cap_around(at.bend, at.slope, 1.0 / 16);
+  const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
+  if (!cap.proven) return {std::numbers::pi, 2.0 * axis_a, 2.0 * axis_b};
+  // (P): a support point moves by A times the change of its unit vector.
+  const auto shift = [&](double axis, const SideBend& side) {
+    const double bend = in_inverse_norm(cap, side.curvature[0], side.curvature[1]);
+    return std::min(2.0 * axis, 2.5 * axis * cap.eta * std::sqrt(bend / side.h));
+  };
+  const double turn = 2.0 * cap.eta * std::sqrt(in_inverse_norm(cap, 1.0, 1.0));
+  return {kMore * turn, shift(axis_a, at.bend.a), shift(axis_b, at.bend.b)};
+}
+
+}  // namespace tangency::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/numbers/contract.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace tangency::contract {
+
+void wrong_length(const char* call, const char* what, std::size_t length,
+                  std::size_t pairs) noexcept {
+  std::fprintf(stderr, "tangency: %s: %s: %zu entries, and there are %zu pairs\n", call, what,
+               length, pairs);
+  std::abort();
+}
+
+void outside(const char* call, std::size_t pair, char body, std::size_t index,
+             std::size_t bodies) noexcept {
+  std::fprintf(stderr, "tangency: %s: pairs[%zu].%c = %zu, and there are %zu bodies\n", call, pair,
+               body, index, bodies);
+  std::abort();
+}
+
+void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept {
+  std::fprintf(stderr, "tangency: %s: body %zu, and there are %zu bodies\n", call, index, bodies);
+  std::abort();
+}
+
+void not_finite(const char* call, const char* what, const Vec3& value) noexcept {
+  std::fprintf(stderr, "tangency: %s: %s = (%g, %g, %g): must be finite\n", call, what, value[0],
+               value[1], value[2]);
+  std::abort();
+}
+
+}  // namespace tangency::contract

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/plane/ellipse_meeting.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/numbers/running_error.hpp>
+
+namespace tangency::detail {
+namespace {
+
+using exact::ConicAnswer;
+using exact::Meeting;
+
+// Halvings from the largest length to the thinnest axis; chosen: products of sixteen lengths stay
+// clear of 2^-1022.
+constexpr int kThinnest = 40;
+
+/// One ellipse, in a unit of length and with a direction in [1, 2): their powers of two cancel.
+struct Body {
+  double ux, uy;
+  Bounded norm;           ///< |u|^2
+  Bounded first, second;  ///< squares of the semi-axes
+
+  Body(const Ellipse& e, int exponent) noexcept : Body(e, exponent, direction_exponent(e)) {}
+  Bounded determinant() const noexcept { return first * second; }
+  /// A component as it was scaled, which underflow may have rounded.
+  static Bounded component(double u) noexcept { return {u, 0x1p-1070}; }
+
+ private:
+  static int direction_exponent(const Ellipse& e) noexcept {
+    return std::max(exponent_of(e.direction()[0]), exponent_of(e.direction()[1]));
+  }
+  Body(const Ellipse& e, int exponent, int turn) noexcept
+      : ux(scaled_by_power(e.direction()[0], -turn)),
+        uy(scaled_by_power(e.direction()[1], -turn)),
+        norm(square(component(ux)) + square(component(uy))),
+        first(square(scaled_by_power(e.semi_axes()[0], -exponent))),
+        second(square(scaled_by_power(e.semi_axes()[1], -exponent))) {}
+};
+
+/// c0 + c1 l + c2 l^2 + c3 l^3 = |u_A|^2 |u_B|^2 det M_A det M_B det(l Q_A + Q_B), and what it is
+/// made of; docs/derivations/ellipses.md.
+struct Cubic {
+  Bounded determinant_a, determinant_b, mixed;  ///< times |u_A|^2 |u_B|^2
+  Bounded c0, c1, c2, c3;
+
+  Bounded operator()(double l) const noexcept { return c0 + l * (c1 + l * (c2 + l * c3)); }
+
+  Bounded discriminant() const noexcept {
+    const Bounded inner = c1 * c2, outer = c0 * c3;
+    return square(inner) - 4.0 * (c0 * (c2 * square(c2))) - 4.0 * (c3 * (c1 * square(c1))) +
+           18.0 * (inner * outer) - 27.0 * square(outer);
+  }
+};
+
+/// d' adj(|u|^2 M) d
+Bounded adjugate_form(const Body& e, const Bounded& dx, const Bounded& dy) noexcept {
+  const Bounded ux = Body::component(e.ux), uy = Body::component(e.uy);
+  return e.second * square(ux * dx + uy * dy) + e.first * square(ux * dy - uy * dx);
+}
+
+Cubic cubic_of(const Body& a, const Body& b, const Bounded& dx, const Bounded& dy) noexcept {
+  const Bounded norms = a.norm * b.norm;
+  const Bounded n_a = b.norm * adjugate_form(a, dx, dy), n_b = a.norm * adjugate_form(b, dx, dy);
+  const Bounded ax = Body::component(a.ux), ay = Body::component(a.uy);
+  const Bounded bx = Body::component(b.ux), by = Body::component(b.uy);
+  const Bounded cosine2 = square(ax * bx + ay * by), sine2 = square(ax * by - ay * bx);
+  const Bounded det_a = norms * a.determinant(), det_b = norms * b.determinant();
+  const Bounded mixed = cosine2 * (a.second * b.first + a.first * b.second) +
+                        sine2 * (a.second * b.second + a.first * b.first);
+  return {det_a, det_b, mixed, -det_a, n_a - det_a - mixed, n_b - mixed - det_b, -det_b};
+}
+
+/// Is the 2 x 2 block of t Q_A - Q_B surely definite, surely not?
+struct Block {
+  Bounded trace, determinant;
+
+  /// Of t M_A^-1 - M_B^-1 times |u_A|^2 |u_B|^2 det M_A det M_B.
+  Block(const Body& a, const Body& b, const Cubic& cubic, double t) noexcept
+      : trace(0.0), determinant(0.0) {
+    const Bounded weight_a = t * b.determinant(), weight_b = a.determinant();
+    const Bounded norms = a.norm * b.norm;
+    trace = norms * (weight_a * (a.first + a.second) - weight_b * (b.first + b.second));
+    determinant = square(weight_a) * cubic.determinant_a - weight_a * (weight_b * cubic.mixed) +
+                  square(weight_b) * cubic.determinant_b;
+  }
+  bool positive() const noexcept { return trace.positive() && determinant.positive(); }
+  bool negative() const noexcept { return trace.negative() && determinant.positive(); }
+  bool not_positive() const noexcept { return trace.negative() || determinant.negative(); }
+  bool not_negative() const noexcept { return trace.positive() || determinant.negative(); }
+};
+
+/// Three negative roots: one inside the other, or four crossings.
+std::optional<ConicAnswer> filter_inside(const Body& a, const Body& b,
+                                         const Cubic& cubic) noexcept {
+  // R(t) = det(t Q_A - Q_B) is < 0 between its two lower roots and > 0 between the two upper ones:
+  // its turning points, roughly, are where to look.
+  const double linear = -cubic.c1.value, square_term = -cubic.c2.value, lead = -cubic.c3.value;
+  const double root = std::sqrt(square_term * square_term - 3.0 * lead * linear);
+  const double upper = (square_term + root) / (3.0 * lead), lower = linear / (3.0 * lead * upper);
+  if (!(0.0 < lower && lower < upper && std::isfinite(upper))) return std::nullopt;
+  // R(t) = -P(-t)
+  if (!cubic(-lower).positive() || !cubic(-upper).negative()) return std::nullopt;
+  const Block high(a, b, cubic, upper), low(a, b, cubic, lower);
+  if (high.positive()) return ConicAnswer{Relation::a_in_b, Inner::none, Meeting::nowhere};
+  if (low.negative()) return ConicAnswer{Relation::b_in_a, Inner::none, Meeting::nowhere};
+  if (!high.not_positive() || !low.not_negative()) return std::nullopt;
+  return ConicAnswer{Relation::overlap, Inner::none, Meeting::four_simple};
+}
+
+}  // namespace
+
+std::optional<ConicAnswer> filter_meeting(const Ellipse& a, const Ellipse& b) noexcept {
+  const Vec2 d = b.centre() - a.centre();
+  if (!d.allFinite()) return std::nullopt;
+  const double reach = d.cwiseAbs().maxCoeff();
+  const int exponent = exponent_of(std::max({reach, a.largest_semi_axis(), b.largest_semi_axis()}));
+  const double thinnest = std::min(a.smallest_semi_axis(), b.smallest_semi_axis());
+  if (exponent_of(thinnest) < exponent - kThinnest) return std::nullopt;
+  const auto component = [&](double v) {
+    const double scaled = scaled_by_power(v, -exponent);
+    return Bounded(scaled, kUnitRoundoff * std::abs(scaled) + 0x1p-1070);
+  };
+  const Bounded dx = component(d[0]), dy = component(d[1]);
+  const Body body_a(a, exponent), body_b(b, exponent);
+  const Cubic cubic = cubic_of(body_a, body_b, dx, dy);
+
+  const Bounded discriminant = cubic.discriminant();
+  if (discriminant.negative())
+    return ConicAnswer{Relation::overlap, Inner::none, Meeting::two_simple};
+  if (!discriminant.positive()) return std::nullopt;
+  // All roots are real: Descartes' rule counts the positive ones.
+  if (cubic.c1.positive() || cubic.c2.positive())
+    return ConicAnswer{Relation::separate, Inner::none, Meeting::nowhere};
+  if (!cubic.c1.negative() || !cubic.c2.negative()) return std::nullopt;
+  return filter_inside(body_a, body_b, cubic);
+}
+
+MeetingAnswer ellipse_meeting(const Ellipse& a, const Ellipse& b) noexcept {
+  if (const auto found = filter_meeting(a, b)) return {*found, Tier::filter};
+  return {exact::conic_relation(a, b), Tier::exact};
+}
+
+}  // namespace tangency::detail

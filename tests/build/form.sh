@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Usage: form.sh CLANG-FORMAT SOURCE
+# Every C++ file has the form that clang-format gives it with .clang-format; of version 14, since
+# others break lines elsewhere.
+set -euo pipefail
+format=$1
+cd "$2"
+"$format" --version | grep -q 'version 14\.' || { echo "$format is not version 14"; exit 1; }
+mapfile -t files < <(find geometry dem verify bench tests -name '*.[ch]pp' | sort)
+[ ${#files[@]} -gt 0 ] || { echo "no file found: this test cannot fail"; exit 1; }
+"$format" --dry-run --Werror --ferror-limit=1 "${files[@]}" ||
+  { echo "mend with: $(basename "$format") -i FILE"; exit 1; }
