@@ -9,7 +9,7 @@ include its own room and the floors below.
 Usage: include_graph.py ROOT [--floors FILE] [--closure UNIT ...] [--dot]
 Prints circles and arrows against the floors and ends with 1 where there are any.
 --closure names a unit, as geometry/relation, and prints the files that its source reads, and their lines.
---dot prints the graph of folders for Graphviz, floor by floor.
+--dot prints the graph of rooms for Graphviz, floor by floor: docs/architecture.dot.
 """
 
 import argparse
@@ -182,20 +182,30 @@ class Floors:
 
 
 def dot(tree, floors):
-    count = {}
+    """The rooms but for the tests, the highest floor on top, and their arrows but for those that others imply."""
+    arrows = {}
     for path, targets in tree.arrows.items():
-        for target in targets:
-            arrow = (floors.room(unit(path)), floors.room(unit(target)))
-            if arrow[0] != arrow[1] and not arrow[0].startswith("tests"):
-                count[arrow] = count.get(arrow, 0) + 1
-    names = sorted({name for arrow in count for name in arrow})
-    print("digraph includes {\n  rankdir=BT; node [shape=box, fontname=\"sans-serif\"];")
-    for floor in sorted({floors.of[name] for name in names}):
-        same = "; ".join(f'"{name}"' for name in names if floors.of[name] == floor)
-        print(f"  {{ rank=same; {same} }}")
-    for (here, there), times in sorted(count.items()):
-        print(f'  "{here}" -> "{there}" [label="{times}", fontsize=9];')
-    print("}")
+        here = floors.room(unit(path))
+        if not here.startswith("tests"):
+            arrows.setdefault(here, set()).update(
+                there for there in map(floors.room, map(unit, targets)) if there != here)
+
+    def reached(start):
+        found, waiting = set(), [start]
+        while waiting:
+            waiting.extend(new := arrows[waiting.pop()] - found)
+            found |= new
+        return found
+
+    lines = ["digraph rooms {", "  node [shape=box, fontname=\"sans-serif\"];"]
+    for floor in sorted(set(floors.of.values()), reverse=True):
+        same = [f'"{name}"' for name in sorted(arrows) if floors.of[name] == floor]
+        if same:
+            lines.append(f"  {{ rank=same; {'; '.join(same)} }}")
+    for here in sorted(arrows):
+        implied = set().union(*map(reached, arrows[here]))
+        lines += [f'  "{here}" -> "{there}";' for there in sorted(arrows[here] - implied)]
+    return "\n".join(lines + ["}"])
 
 
 def main():
@@ -208,7 +218,9 @@ def main():
     tree = Tree(arguments.root)
     floors = Floors(arguments.floors or os.path.join(arguments.root, "tests/build/floors"))
     if arguments.dot:
-        return dot(tree, floors)
+        print("// SPDX-License-Identifier: MIT\n// Made by tests/build/include_graph.py . --dot")
+        print(dot(tree, floors))
+        return 0
     for start in arguments.closure:
         if start not in tree.units:
             sys.exit(f"{start}: no such unit, as geometry/relation")
