@@ -186,7 +186,7 @@ class FastTests:
         the nearest tests, and of those the cheap ones first. Left out are those which no includes
         lead to."""
         away = distances(self.tree.source, file)
-        of_tool = file.startswith("geometry/tool/")
+        of_tool = file.startswith(("geometry/tool/", "geometry/tables/"))
 
         def far(test):
             room = ROOMS.get(test) or self.room_of.get(test.split("/", 1)[1], "")
