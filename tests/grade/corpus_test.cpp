@@ -27,7 +27,7 @@
 namespace tangency::verify {
 namespace {
 
-const std::string kFolder = TANGENCY_TEST_DATA "/corpora/";
+const std::string kFolder = TANGENCY_CORPORA "/";
 
 std::string committed(std::string_view name, const char* suffix) {
   return testing::read_file(kFolder + std::string(name) + suffix);
