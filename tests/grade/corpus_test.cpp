@@ -19,7 +19,7 @@
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
-#include <tangency/verify/corpus/draw.hpp>
+#include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
