@@ -65,9 +65,9 @@ struct Answers {
   GapColumns with_arms() { return {gap, gap_error, normal, arm_a, arm_b, status}; }
 };
 
-Family make_family(const tangency::families::ContactFamily& shape, std::size_t count) {
+Family make_family(const tangency::verify::ContactFamily& shape, std::size_t count) {
   Family f{shape.name, {}, {}, {}, {}, {}};
-  tangency::families::ManufacturedContacts contacts(shape, kSeed);
+  tangency::verify::ManufacturedContacts contacts(shape, kSeed);
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto c = contacts.next();
     f.bodies.push_back(tangency::verify::to_ellipsoid(c.a));
@@ -199,10 +199,10 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<Family> families;
   std::vector<BodyArray> arrays;
-  for (const auto& shape : tangency::families::contact_classes())
+  for (const auto& shape : tangency::verify::contact_classes())
     families.push_back(make_family(shape, kInCache));
   for (const Family& f : families) arrays.emplace_back(f.bodies);
-  Family large = make_family(tangency::families::contact_classes()[0], 50000);
+  Family large = make_family(tangency::verify::contact_classes()[0], 50000);
   scatter(large);
   const BodyArray large_array(large.bodies);
   tangency::bench::add_inverse();

@@ -37,9 +37,9 @@ struct Family {
   std::vector<Vec3> previous_normal;
 };
 
-Family make_family(const tangency::families::ContactFamily& shape) {
+Family make_family(const tangency::verify::ContactFamily& shape) {
   Family f{shape.name, {}, {}, {}, {}, {}};
-  tangency::families::ManufacturedContacts contacts(shape, kSeed);
+  tangency::verify::ManufacturedContacts contacts(shape, kSeed);
   for (std::size_t i = 0; i < kInCache; ++i) {
     const auto c = contacts.next();
     f.a.push_back(tangency::verify::to_ellipsoid(c.a));
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<Family> families;
-  for (const auto& shape : tangency::families::contact_classes())
+  for (const auto& shape : tangency::verify::contact_classes())
     families.push_back(make_family(shape));
   tangency::bench::add_inverse();
   for (const Family& f : families) {

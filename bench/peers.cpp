@@ -48,10 +48,10 @@ struct Family {
   tangency::BodyArray array{{}};  ///< of bodies, whose memory moves with them
 };
 
-Family make_family(const tangency::families::ContactFamily& shape) {
+Family make_family(const tangency::verify::ContactFamily& shape) {
   Family f;
   f.name = shape.name;
-  tangency::families::ManufacturedContacts contacts(shape, kSeed);
+  tangency::verify::ManufacturedContacts contacts(shape, kSeed);
   for (std::size_t i = 0; i < kInCache; ++i) {
     const auto c = contacts.next();
     f.raw_a.push_back(c.a);
@@ -259,7 +259,7 @@ int main(int argc, char** argv) {
 
   const auto peers = all_peers();
   std::vector<Family> families;
-  for (const auto& shape : tangency::families::contact_classes())
+  for (const auto& shape : tangency::verify::contact_classes())
     families.push_back(make_family(shape));
   std::vector<Entry> entries;
   std::vector<std::vector<std::unique_ptr<PeerPair>>> pairs(families.size() * peers.size());

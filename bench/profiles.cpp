@@ -24,7 +24,7 @@
 namespace {
 
 using namespace tangency;
-using families::Motion;
+using verify::Motion;
 
 /// A contact scheme beside the common normal: a further column, and its overlap of a pair, nothing
 /// where it has no answer.
@@ -86,8 +86,7 @@ struct Sample {
 };
 
 /// The contact followed from the start to `end`, without the start.
-std::vector<Sample> follow(const families::DisplacementContact& contact, Motion motion,
-                           double end) {
+std::vector<Sample> follow(const verify::DisplacementContact& contact, Motion motion, double end) {
   std::vector<Sample> samples;
   Vec3 normal = contact.normal;
   for (int i = 1; i <= kSteps; ++i) {
@@ -100,7 +99,7 @@ std::vector<Sample> follow(const families::DisplacementContact& contact, Motion 
   return samples;
 }
 
-std::vector<Sample> profile(const families::DisplacementContact& contact, Motion motion) {
+std::vector<Sample> profile(const verify::DisplacementContact& contact, Motion motion) {
   const double range = range_of(motion);
   const std::vector<Sample> backwards = follow(contact, motion, -range);
   std::vector<Sample> all(backwards.rbegin(), backwards.rend());
@@ -126,9 +125,9 @@ int main() {
   std::cout << "contact,motion,displacement,overlap,expected,published,status";
   for (const Scheme& scheme : kSchemes) std::cout << ',' << scheme.name;
   std::cout << '\n';
-  for (const auto& contact : families::displacement_contacts(kShortOverLong, kInitialOverlap)) {
-    for (const Motion motion : families::kMotions) {
-      const families::OverlapExpansion expansion = expected_overlap(contact, motion);
+  for (const auto& contact : verify::displacement_contacts(kShortOverLong, kInitialOverlap)) {
+    for (const Motion motion : verify::kMotions) {
+      const verify::OverlapExpansion expansion = expected_overlap(contact, motion);
       for (const Sample& sample : profile(contact, motion)) {
         const double s = sample.displacement;
         const double expected =

@@ -53,8 +53,8 @@ std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
 }
 
 /// 0.03 along the normal and 0.3 else: bench/profiles.cpp.
-double displacement_of(families::Motion motion, int step) {
-  return (motion == families::Motion::normal ? 0.03 : 0.3) * step / kSteps;
+double displacement_of(verify::Motion motion, int step) {
+  return (motion == verify::Motion::normal ? 0.03 : 0.3) * step / kSteps;
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ int main() {
     }
   }
   std::cout << "contact,motion,displacement,overlap,trace\n";
-  for (const auto& contact : families::displacement_contacts(kShortOverLong, kOverlap)) {
-    for (const families::Motion motion : families::kMotions) {
+  for (const auto& contact : verify::displacement_contacts(kShortOverLong, kOverlap)) {
+    for (const verify::Motion motion : verify::kMotions) {
       for (int step = -kSteps; step <= kSteps; ++step) {
         const double s = displacement_of(motion, step);
         const Ellipsoid b = displaced(contact, motion, s);

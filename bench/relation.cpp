@@ -41,9 +41,9 @@ struct Family {
 
 std::vector<Family> make_families() {
   std::vector<Family> families;
-  for (const auto& shape : tangency::families::contact_classes()) {
+  for (const auto& shape : tangency::verify::contact_classes()) {
     Family family{shape.name, {}, {}, {}};
-    tangency::families::ManufacturedContacts contacts(shape, kSeed);
+    tangency::verify::ManufacturedContacts contacts(shape, kSeed);
     for (std::size_t i = 0; i < kInCache; ++i) {
       const auto c = contacts.next();
       family.a.push_back(to_ellipsoid(c.a));

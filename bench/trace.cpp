@@ -32,7 +32,7 @@ namespace {
 using namespace tangency;
 using detail::TraceFound;
 using detail::TraceOptions;
-using families::ContactFamily;
+using verify::ContactFamily;
 
 constexpr std::uint64_t kSeed = 20261122;
 constexpr int kPairs = 2000;
@@ -70,7 +70,7 @@ std::vector<Sample> draw(ContactFamily family, double depth) {
   if (family.name == "plane") return draw_in_plane(depth);
   family.gap_unit = ContactFamily::GapUnit::rho;
   family.largest_gap = depth;
-  families::ManufacturedContacts contacts(family, kSeed);
+  verify::ManufacturedContacts contacts(family, kSeed);
   std::vector<Sample> samples;
   while (samples.size() < kPairs) {
     const auto c = contacts.next();
@@ -82,7 +82,7 @@ std::vector<Sample> draw(ContactFamily family, double depth) {
 }
 
 std::vector<ContactFamily> all_families() {
-  const auto classes = families::contact_classes();
+  const auto classes = verify::contact_classes();
   std::vector<ContactFamily> result(classes.begin(), classes.end());
   result.insert(result.begin() + 1, {"oblate", ContactFamily::Shape::spheroid, 1 / 1.43, 1.0,
                                      ContactFamily::GapUnit::rho, 0.02});

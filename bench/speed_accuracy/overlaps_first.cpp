@@ -10,8 +10,8 @@
 #include <tangency/bench/moved_back.hpp>
 #include <tangency/bench/speed_accuracy/pairs.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/families/manufactured.hpp>
-#include <tangency/verify/families/support.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
@@ -145,25 +145,24 @@ std::span<const int> touching_shares() {
 }
 
 ListedPairs listed_pairs(const std::string& family, int touching, std::size_t count) {
-  const auto classes = families::contact_classes();
+  const auto classes = verify::contact_classes();
   const auto shape = std::find_if(classes.begin(), classes.end(),
                                   [&](const auto& kind) { return kind.name == family; });
-  families::ManufacturedContacts contacts(*shape, kSeed);
-  std::mt19937_64 random(kSeed);
+  verify::ManufacturedContacts contacts(*shape, kSeed);
+  verify::Draw draw(kSeed);
   std::vector<char> touches(count);
   std::fill_n(touches.begin(), count * static_cast<std::size_t>(touching) / 100, 1);
-  for (std::size_t i = count; i-- > 1;) std::swap(touches[i], touches[random() % (i + 1)]);
+  draw.shuffle(touches);
 
   ListedPairs p{family, touching, {}, {}, {}, {}, {}};
   for (std::uint32_t i = 0; i < count; ++i) {
-    families::ManufacturedContact c = contacts.next();
+    verify::ManufacturedContact c = contacts.next();
     while (c.gap >= 0) c = contacts.next();
     const Ellipsoid a = verify::to_ellipsoid(c.a);
     Ellipsoid b = verify::to_ellipsoid(c.b);
     double gap = c.gap;
     if (!touches[i]) {
-      const auto part = static_cast<double>(families::uniform(random, kNearest, kFurthest));
-      gap = part * mean_radius(a, b);
+      gap = draw.real(kNearest, kFurthest) * mean_radius(a, b);
       b = b.moved_to(b.centre() + (gap - c.gap) * Vec3(c.normal.data()));
     }
     p.bodies.push_back(a);

@@ -31,7 +31,7 @@ struct ListedPairs {
 /// The shares of touching pairs that are tried, in percent.
 std::span<const int> touching_shares();
 
-/// @param family  a name of families::contact_classes()
+/// @param family  a name of verify::contact_classes()
 ListedPairs listed_pairs(const std::string& family, int touching, std::size_t count);
 
 /// The contacts of all touching pairs, in two ways.

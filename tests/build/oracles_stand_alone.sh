@@ -12,7 +12,7 @@ if grep -rnE '#include.*tangency/(geometry/[^t]|geometry/t[^o]|dem)' "$@"; then
 fi
 symbols=$(nm --demangle --undefined-only "$library" 2>/dev/null)
 grep -qE 'gmp|std::' <<<"$symbols" || { echo "no symbols read: this test cannot fail"; exit 1; }
-if grep 'tangency::' <<<"$symbols" | grep -vE 'tangency::(verify|families)::'; then
+if grep 'tangency::' <<<"$symbols" | grep -v 'tangency::verify::'; then
   echo "an oracle leaves a symbol of the kernel to be linked"
   exit 1
 fi

@@ -25,9 +25,9 @@ struct Family {
   std::vector<Ellipsoid> a, b;
 };
 
-inline Family contacts(const families::ContactFamily& shape, std::size_t count) {
+inline Family contacts(const verify::ContactFamily& shape, std::size_t count) {
   Family f{shape.name, {}, {}};
-  families::ManufacturedContacts source(shape, kSeed);
+  verify::ManufacturedContacts source(shape, kSeed);
   for (std::size_t i = 0; i < count; ++i) {
     const auto c = source.next();
     f.a.push_back(verify::to_ellipsoid(c.a));

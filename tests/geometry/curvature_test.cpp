@@ -106,13 +106,12 @@ struct Worst {
 };
 
 Worst compare(double aspect, double size_ratio, int count) {
-  families::ManufacturedContacts contacts(
-      {"curvature", families::ContactFamily::Shape::drawn, aspect, size_ratio,
-       families::ContactFamily::GapUnit::rho, 0.5},
-      kSeed);
+  verify::ManufacturedContacts contacts({"curvature", verify::ContactFamily::Shape::drawn, aspect,
+                                         size_ratio, verify::ContactFamily::GapUnit::rho, 0.5},
+                                        kSeed);
   Worst worst;
   for (int i = 0; i < count; ++i) {
-    const families::ManufacturedContact c = contacts.next();
+    const verify::ManufacturedContact c = contacts.next();
     const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);
     const Vec3 n(c.normal[0], c.normal[1], c.normal[2]);
     const ContactCurvature k = contact_curvature(a, b, n);

@@ -18,14 +18,14 @@
 namespace tangency {
 namespace {
 
-using families::DisplacementContact;
-using families::Motion;
+using verify::DisplacementContact;
+using verify::Motion;
 
 constexpr double kU = 0x1p-53;
 constexpr double kShortOverLong = 0.7, kOverlap = 0.02;
 
 std::vector<DisplacementContact> contacts() {
-  return families::displacement_contacts(kShortOverLong, kOverlap);
+  return verify::displacement_contacts(kShortOverLong, kOverlap);
 }
 
 /// Overlap after a motion in 16 steps, the same local answer followed.
@@ -119,7 +119,7 @@ TEST(DisplacementProfile, PublishedTangentialFormulaIsRightForSpheresOnly) {
   const double published = kOverlap - published_overlap(side, Motion::tangential, 0.1);
   EXPECT_NEAR(drop, 0.00123, 5e-6);
   EXPECT_NEAR(published, 0.00252, 5e-6);
-  const DisplacementContact spheres = families::displacement_contacts(1.0, kOverlap).front();
+  const DisplacementContact spheres = verify::displacement_contacts(1.0, kOverlap).front();
   for (const double s : {0.01, 0.1, 0.3}) {
     EXPECT_NEAR(followed(spheres, Motion::tangential, s),
                 published_overlap(spheres, Motion::tangential, s), 32 * kU);

@@ -65,9 +65,8 @@ std::vector<Bodies> all_pairs() {
       all.push_back({verify::to_ellipsoid(pair.a), verify::to_ellipsoid(pair.b)});
     }
   };
-  for (const auto& family : families::extreme_families())
-    draw(families::ExtremePairs(family, kSeed));
-  for (const auto& family : families::deep_families()) draw(families::DeepPairs(family, kSeed));
+  for (const auto& family : verify::extreme_families()) draw(verify::ExtremePairs(family, kSeed));
+  for (const auto& family : verify::deep_families()) draw(verify::DeepPairs(family, kSeed));
   return all;
 }
 

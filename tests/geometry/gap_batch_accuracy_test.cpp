@@ -35,14 +35,13 @@ const std::vector<std::pair<std::string, Accuracy>>& points() {
 std::vector<Family> ordinary_families() {
   std::vector<Family> all;
   for (int i = 0; i < 2; ++i)
-    all.push_back(
-        testing::contacts(families::contact_classes()[static_cast<std::size_t>(i)], 1000));
-  for (const auto& shape : families::deep_families()) {
+    all.push_back(testing::contacts(verify::contact_classes()[static_cast<std::size_t>(i)], 1000));
+  for (const auto& shape : verify::deep_families()) {
     if (shape.aspect > 20) continue;
     Family f{shape.name, {}, {}};
-    families::DeepPairs source(shape, kSeed);
+    verify::DeepPairs source(shape, kSeed);
     for (int i = 0; i < 40; ++i) {
-      const families::RawPair p = source.next();
+      const verify::EllipsoidPair p = source.next();
       f.a.push_back(verify::to_ellipsoid(p.a));
       f.b.push_back(verify::to_ellipsoid(p.b));
     }
@@ -116,7 +115,7 @@ TEST(GapBatchAccuracy, FollowingKeepsThePromisesToo) {
 TEST(GapBatchAccuracy, CertifiedNormalsAreTheSingleCallsAndStandardOnesAreCoarser) {
   for (int which = 0; which < 2; ++which) {
     const Family f =
-        testing::contacts(families::contact_classes()[static_cast<std::size_t>(which)], 1000);
+        testing::contacts(verify::contact_classes()[static_cast<std::size_t>(which)], 1000);
     SCOPED_TRACE(f.name);
     at_every_level([&] {
       std::vector<Gap> certified(f.a.size()), standard(f.a.size());
@@ -139,7 +138,7 @@ TEST(GapBatchAccuracy, CertifiedNormalsAreTheSingleCallsAndStandardOnesAreCoarse
 }
 
 TEST(GapBatchAccuracy, ATighterToleranceGivesATighterBound) {
-  const Family f = testing::contacts(families::contact_classes()[0], 1000);
+  const Family f = testing::contacts(verify::contact_classes()[0], 1000);
   at_every_level([&] {
     const auto largest = [&](Accuracy accuracy) {
       std::vector<Gap> gaps(f.a.size());

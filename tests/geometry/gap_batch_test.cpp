@@ -60,7 +60,7 @@ Family extremes() {
 
 std::vector<Family> make_families() {
   std::vector<Family> all;
-  for (const auto& shape : families::contact_classes()) all.push_back(contacts(shape, 1000));
+  for (const auto& shape : verify::contact_classes()) all.push_back(contacts(shape, 1000));
   Family hostile{"adversarial", {}, {}};
   verify::for_each_adversarial_pair(kSeed, 1000, [&](const verify::AdversarialPair& p) {
     hostile.a.push_back(verify::to_ellipsoid(p.a));
@@ -70,16 +70,16 @@ std::vector<Family> make_families() {
   const auto add = [&](const auto& shape, auto source) {
     Family f{shape.name, {}, {}};
     for (int i = 0; i < 60; ++i) {
-      const families::RawPair p = source.next();
+      const verify::EllipsoidPair p = source.next();
       f.a.push_back(verify::to_ellipsoid(p.a));
       f.b.push_back(verify::to_ellipsoid(p.b));
     }
     all.push_back(std::move(f));
   };
-  for (const auto& shape : families::extreme_families()) {
-    add(shape, families::ExtremePairs(shape, kSeed));
+  for (const auto& shape : verify::extreme_families()) {
+    add(shape, verify::ExtremePairs(shape, kSeed));
   }
-  for (const auto& shape : families::deep_families()) add(shape, families::DeepPairs(shape, kSeed));
+  for (const auto& shape : verify::deep_families()) add(shape, verify::DeepPairs(shape, kSeed));
   all.push_back(extremes());
   return all;
 }
@@ -138,11 +138,11 @@ TEST(GapBatch, AgreesWithTheSingleCallWithinBothErrorsOnEveryFamilyAtEveryLevel)
 
 // geometry/gap_batch.hpp (1)
 TEST(GapBatch, ManufacturedGapsAreWithinTheReportedErrorAtEveryLevel) {
-  for (const auto& shape : families::contact_classes()) {
+  for (const auto& shape : verify::contact_classes()) {
     const Family f = contacts(shape, 1000);
     at_every_level([&] {
       const std::vector<Gap> batch = batch_answers(f);
-      families::ManufacturedContacts source(shape, kSeed);
+      verify::ManufacturedContacts source(shape, kSeed);
       for (std::size_t i = 0; i < batch.size(); ++i) {
         const auto c = source.next();
         // The truth is rounded to double and of second order in the rounding of the centre.
@@ -317,7 +317,7 @@ TEST(GapBatch, DerivativesAreThoseOfEachPairsOwnGap) {
   // Chosen, of the smallest semi-axis: for gaps, whose error is u; and for normals, which an answer
   // has to sqrt(u kappa), 1e-8 here. A difference of another pair would be off by its whole size.
   constexpr double kStep = 1e-5, kTurnStep = 1e-4;
-  const Family f = contacts(families::contact_classes()[1], 200);
+  const Family f = contacts(verify::contact_classes()[1], 200);
   const Indexed in(f);
   const BodyArray bodies(in.bodies);
   std::vector<Gap> gaps(in.pairs.size());
@@ -532,7 +532,7 @@ TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {
 }
 
 TEST(GapBatch, ARefreshedBodyIsTheChangedOne) {
-  Family f = contacts(families::contact_classes()[1], 20);
+  Family f = contacts(verify::contact_classes()[1], 20);
   Indexed in(f);
   BodyArray bodies(in.bodies);
   const Vec3 shift(0.01, -0.02, 0.005);

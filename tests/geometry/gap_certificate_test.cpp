@@ -37,8 +37,8 @@ double size_of(const Ellipsoid& a, const Ellipsoid& b) {
   return (b.centre() - a.centre()).stableNorm() + a.largest_semi_axis() + b.largest_semi_axis();
 }
 
-std::array<int, 5> tiers_of(const families::ExtremeFamily& family, int count) {
-  families::ExtremePairs pairs(family, kSeed);
+std::array<int, 5> tiers_of(const verify::ExtremeFamily& family, int count) {
+  verify::ExtremePairs pairs(family, kSeed);
   std::array<int, 5> tiers{};
   for (int i = 0; i < count; ++i) {
     const auto pair = pairs.next();
@@ -49,19 +49,19 @@ std::array<int, 5> tiers_of(const families::ExtremeFamily& family, int count) {
 
 TEST(GapTiers, OrdinaryContactsAreAnsweredByTheFastPath) {
   for (std::size_t k = 0; k < 2; ++k) {
-    families::ManufacturedContacts contacts(families::contact_classes()[k], kSeed);
+    verify::ManufacturedContacts contacts(verify::contact_classes()[k], kSeed);
     int fast = 0;
     for (int i = 0; i < 2000; ++i) {
       const auto c = contacts.next();
       fast += signed_gap(to_ellipsoid(c.a), to_ellipsoid(c.b)).tier == GapTier::fast;
     }
-    EXPECT_GE(fast, 1990) << families::contact_classes()[k].name;
+    EXPECT_GE(fast, 1990) << verify::contact_classes()[k].name;
   }
 }
 
 TEST(GapTiers, FollowedOrdinaryContactsAreAnsweredByTheFastPathToo) {
   for (std::size_t k = 0; k < 2; ++k) {
-    families::ManufacturedContacts contacts(families::contact_classes()[k], kSeed);
+    verify::ManufacturedContacts contacts(verify::contact_classes()[k], kSeed);
     for (int i = 0; i < 500; ++i) {
       const auto c = contacts.next();
       const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);
@@ -74,7 +74,7 @@ TEST(GapTiers, FollowedOrdinaryContactsAreAnsweredByTheFastPathToo) {
 
 TEST(GapTiers, ExtremeShapesNeedEveryTierAndAreAnswered) {
   std::array<int, 5> total{};
-  for (const auto& family : families::extreme_families()) {
+  for (const auto& family : verify::extreme_families()) {
     const auto tiers = tiers_of(family, 200);
     for (std::size_t t = 0; t < 5; ++t) total[t] += tiers[t];
   }
@@ -119,9 +119,9 @@ TEST(GapSign, IsThatOfTheExactRelationWithAGivenSeparationToo) {
 
 TEST(GapError, IsAtMostThePublishedConstantForAspectsTo100) {
   double largest = 0.0;
-  for (const auto& family : families::extreme_families()) {
+  for (const auto& family : verify::extreme_families()) {
     if (family.aspect > 100) continue;
-    families::ExtremePairs pairs(family, kSeed);
+    verify::ExtremePairs pairs(family, kSeed);
     for (int i = 0; i < 500; ++i) {
       const auto pair = pairs.next();
       const Ellipsoid a = to_ellipsoid(pair.a), b = to_ellipsoid(pair.b);
@@ -232,9 +232,9 @@ TEST(GapProof, OfBodiesApartHoldsFromAPoorNormalToo) {
   std::uniform_real_distribution<double> exponent(-60, 0);
   std::normal_distribution<double> any;
   int without_cap = 0;
-  for (const auto& family : families::extreme_families()) {
+  for (const auto& family : verify::extreme_families()) {
     if (family.aspect != 1e4 || family.scale != 1) continue;
-    families::ExtremePairs pairs(family, kSeed);
+    verify::ExtremePairs pairs(family, kSeed);
     for (int i = 0; i < 40; ++i) {
       const auto raw = pairs.next();
       const Ellipsoid a = to_ellipsoid(raw.a), b = to_ellipsoid(raw.b);

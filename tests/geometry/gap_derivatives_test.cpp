@@ -17,11 +17,11 @@
 namespace tangency {
 namespace {
 
-using families::ContactFamily;
-using families::ManufacturedContact;
 using testing::changed, testing::gradient_of, testing::is_angle;
 using testing::RealPair;
+using verify::ContactFamily;
 using verify::GapTruth;
+using verify::ManufacturedContact;
 using verify::Real;
 using verify::to_ellipsoid;
 
@@ -138,7 +138,7 @@ ContactFamily apart(double aspect, double size_ratio) {
 /// The gradient and, for every pair, one column of the Hessian (all 18 in turn) against 100 digits.
 /// @param closer  if not 1, the centres are brought that much closer: deep pairs, of any status
 Worst compare(const ContactFamily& family, int count, double closer = 1) {
-  families::ManufacturedContacts contacts(family, kSeed);
+  verify::ManufacturedContacts contacts(family, kSeed);
   Worst worst;
   for (int i = 0; i < count; ++i) {
     ManufacturedContact contact = contacts.next();
@@ -161,7 +161,7 @@ Worst compare(const ContactFamily& family, int count, double closer = 1) {
 
 TEST(GapDerivatives, GradientIsThatOfDifferencesOfTheGap) {
   for (const ContactFamily& family : {touching(5, 3), apart(5, 3)}) {
-    families::ManufacturedContacts contacts(family, kSeed);
+    verify::ManufacturedContacts contacts(family, kSeed);
     Worst worst;
     for (int i = 0; i < 40; ++i) {
       const Case c(contacts.next());
@@ -179,7 +179,7 @@ TEST(GapDerivatives, GradientIsThatOfDifferencesOfTheGap) {
 }
 
 TEST(GapDerivatives, HessianIsThatOfSecondDifferencesOfTheGap) {
-  families::ManufacturedContacts contacts(touching(5, 3), kSeed + 1);
+  verify::ManufacturedContacts contacts(touching(5, 3), kSeed + 1);
   Worst worst;
   for (int i = 0; i < 3; ++i) {
     const Case c(contacts.next());
@@ -231,7 +231,7 @@ ManufacturedContact on_a_face(std::mt19937_64& random, double aspect) {
   const Ellipsoid other({0, 0, 0}, {r, r, unit(random) > 0 ? r : r / aspect}, any());
   const double gap = 0.5 * (disc.least_radius() + other.least_radius()) * unit(random);
   const Vec3 d = disc.support_point(n) + other.support_point(n) + gap * n;
-  return {verify::to_raw(disc), verify::to_raw(other.moved_to(d)), {n[0], n[1], n[2]}, gap, 0, 0};
+  return {{verify::to_raw(disc), verify::to_raw(other.moved_to(d))}, {n[0], n[1], n[2]}, gap, 0, 0};
 }
 
 TEST(GapDerivatives, OnTheFacesOfDiscsAreWithinTheirPublishedBounds) {
@@ -254,12 +254,13 @@ TEST(GapDerivatives, OnTheFacesOfDiscsAreWithinTheirPublishedBounds) {
 
 TEST(GapDerivatives, OfADiscTouchedOnItsFaceWhichBrokeABoundWithoutItsSharpnessKeepThePromise) {
   const ManufacturedContact contact{
-      {{0, 0, 0},
-       {1, 0x1.4f799fd6ee6d1p-1, 0x1.47ae147ae147bp-7},
-       {0x1.e9569ce93dcf2p-2, 0x1.188dfb42b525ep-2, -0x1.086878443a99ep+0, 0x1.589a0efac340bp-10}},
-      {{-0x1.baa775702437ap-1, -0x1.1d0d790d8ce72p-2, -0x1.295c5e15c781cp-1},
-       {0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2},
-       {-0x1.5fd99dd3d8fddp+0, -0x1.5f594744ee6d6p+0, 0x1.9c3281fbeb54bp-4, 0x1.8f51932a60fe2p-1}},
+      {{{0, 0, 0},
+        {1, 0x1.4f799fd6ee6d1p-1, 0x1.47ae147ae147bp-7},
+        {0x1.e9569ce93dcf2p-2, 0x1.188dfb42b525ep-2, -0x1.086878443a99ep+0, 0x1.589a0efac340bp-10}},
+       {{-0x1.baa775702437ap-1, -0x1.1d0d790d8ce72p-2, -0x1.295c5e15c781cp-1},
+        {0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2, 0x1.38e45be54dd44p-2},
+        {-0x1.5fd99dd3d8fddp+0, -0x1.5f594744ee6d6p+0, 0x1.9c3281fbeb54bp-4,
+         0x1.8f51932a60fe2p-1}}},
       {},
       0,
       0,

@@ -19,8 +19,8 @@ namespace tangency {
 namespace {
 
 using Eigen::Quaterniond;
-using families::ContactFamily;
-using families::ManufacturedContact;
+using verify::ContactFamily;
+using verify::ManufacturedContact;
 using verify::to_ellipsoid;
 
 constexpr double kU = 0x1p-53;
@@ -36,7 +36,7 @@ struct Worst {
 
 /// Solves `count` contacts of a family and prints the worst.
 Worst run(const ContactFamily& family, int count) {
-  families::ManufacturedContacts contacts(family, kSeed);
+  verify::ManufacturedContacts contacts(family, kSeed);
   Worst worst;
   for (int i = 0; i < count; ++i) {
     const ManufacturedContact c = contacts.next();
@@ -90,7 +90,7 @@ TEST(GapOfManufacturedContacts, IsWithin8uLAtAspect100) {
 }
 
 TEST(GapOfManufacturedContacts, IsWithin8uLInEveryClass) {
-  for (const ContactFamily& family : families::contact_classes()) {
+  for (const ContactFamily& family : verify::contact_classes()) {
     const Worst worst = run(family, 10000);
     EXPECT_EQ(worst.wrong_sign, 0) << family.name;
     EXPECT_EQ(worst.not_ok, 0) << family.name;
@@ -170,7 +170,7 @@ TEST(Gap, FastPathRefusesWhatItWouldGetWrong) {
   // hide the short ones: proven must mean the known answer.
   int refused = 0;
   for (const double aspect : {1e3, 1e5}) {
-    families::ManufacturedContacts contacts(extreme(aspect, 1e3), kSeed);
+    verify::ManufacturedContacts contacts(extreme(aspect, 1e3), kSeed);
     for (int i = 0; i < 5000; ++i) {
       const ManufacturedContact c = contacts.next();
       const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);
@@ -211,7 +211,7 @@ TEST(Gap, AscentLeavesASaddleAndAMinimum) {
 
 // geometry/gap.hpp (3)
 TEST(Gap, OfScaledPairsScales) {
-  families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
+  verify::ManufacturedContacts contacts(verify::contact_classes()[1], kSeed);
   for (int i = 0; i < 200; ++i) {
     const ManufacturedContact c = contacts.next();
     const Ellipsoid a = to_ellipsoid(c.a), b = to_ellipsoid(c.b);

@@ -137,7 +137,7 @@ TEST(OtherGaps, TakeAGivenSeparationForThatOfTheCentres) {
 
 // geometry/other_gaps.hpp (4)
 TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
-  families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
+  verify::ManufacturedContacts contacts(verify::contact_classes()[1], kSeed);
   double largest = 0;
   for (int i = 0; i < 100; ++i) {
     const auto contact = contacts.next();
@@ -272,7 +272,7 @@ TEST(OtherGaps, AreRightOrSaidToBeUnknownAtEveryAspectRatio) {
 }
 
 TEST(OtherGaps, AreRightInEveryRoundingModeAndWithSubnormalsFlushed) {
-  families::ManufacturedContacts contacts(families::contact_classes()[1], kSeed);
+  verify::ManufacturedContacts contacts(verify::contact_classes()[1], kSeed);
   for (int i = 0; i < 4; ++i) {
     const auto contact = contacts.next();
     const Ellipsoid a = to_ellipsoid(contact.a), b = to_ellipsoid(contact.b);
@@ -328,22 +328,22 @@ void hold_against_oracle(const std::string& family, const Next& next) {
 }
 
 TEST(OtherGaps, OrdinaryContactsAreWhatTheOracleSaysToRounding) {
-  for (const auto& family : families::contact_classes()) {
-    families::ManufacturedContacts contacts(family, kSeed);
+  for (const auto& family : verify::contact_classes()) {
+    verify::ManufacturedContacts contacts(family, kSeed);
     hold_against_oracle(family.name, [&] { return contacts.next(); });
   }
 }
 
 TEST(OtherGaps, ExtremePairsAreWhatTheOracleSaysToRounding) {
-  for (const auto& family : families::extreme_families()) {
-    families::ExtremePairs pairs(family, kSeed);
+  for (const auto& family : verify::extreme_families()) {
+    verify::ExtremePairs pairs(family, kSeed);
     hold_against_oracle(family.name, [&] { return pairs.next(); });
   }
 }
 
 TEST(OtherGaps, DeepPairsAreWhatTheOracleSaysToRounding) {
-  for (const auto& family : families::deep_families()) {
-    families::DeepPairs pairs(family, kSeed);
+  for (const auto& family : verify::deep_families()) {
+    verify::DeepPairs pairs(family, kSeed);
     hold_against_oracle(family.name, [&] { return pairs.next(); });
   }
 }

@@ -88,9 +88,9 @@ TEST(Relation, HoldsAtTheEndsOfTheRangeOfDoubles) {
 // Near copies of bodies of extreme numbers: what the exact tier finds hardest.
 TEST(Relation, OfTheHeaviestPairsIsTheOracles) {
   std::set<Relation> seen;
-  families::HeaviestPairs pairs(20261122, 40);  // the oracle needs a second at 1074
+  verify::HeaviestPairs pairs({40}, 20261122);  // the oracle needs a second at 1074
   for (int i = 0; i < 36; ++i) {
-    const families::RawPair p = pairs.next();
+    const verify::EllipsoidPair p = pairs.next();
     const RelationAnswer answer = relation(verify::to_ellipsoid(p.a), verify::to_ellipsoid(p.b));
     const verify::ExactRelation truth = verify::exact_relation(p.a, p.b);
     ASSERT_EQ(to_string(answer.relation), verify::name(truth.relation)) << i;
@@ -101,8 +101,8 @@ TEST(Relation, OfTheHeaviestPairsIsTheOracles) {
 }
 
 TEST(Relation, OfGenericPairsComesFromTheFilter) {
-  for (const auto& family : families::contact_classes()) {
-    families::ManufacturedContacts contacts(family, 20261122);
+  for (const auto& family : verify::contact_classes()) {
+    verify::ManufacturedContacts contacts(family, 20261122);
     for (int i = 0; i < 5000; ++i) {
       const auto c = contacts.next();
       const Ellipsoid a = verify::to_ellipsoid(c.a), b = verify::to_ellipsoid(c.b);
@@ -115,10 +115,10 @@ TEST(Relation, OfGenericPairsComesFromTheFilter) {
 }
 
 TEST(Relation, OfPairsWithinRoundingOfATouchComesFromTheFilter) {
-  for (families::ContactFamily family : families::contact_classes()) {
-    family.gap_unit = families::ContactFamily::GapUnit::smallest_semi_axis;
+  for (verify::ContactFamily family : verify::contact_classes()) {
+    family.gap_unit = verify::ContactFamily::GapUnit::smallest_semi_axis;
     family.largest_gap = 0x1p-50;
-    families::ManufacturedContacts contacts(family, 20261122);
+    verify::ManufacturedContacts contacts(family, 20261122);
     for (int i = 0; i < 300; ++i) {
       const auto c = contacts.next();
       const auto answer = overlap_answer(verify::to_ellipsoid(c.a), verify::to_ellipsoid(c.b));
@@ -153,8 +153,8 @@ TEST(Relation, IsTheSameInEveryRoundingModeAndWithSubnormalsFlushed) {
   };
   verify::for_each_adversarial_pair(2, 1900,
                                     [&](const verify::AdversarialPair& p) { add(p.a, p.b); });
-  for (const auto& family : families::contact_classes()) {
-    families::ManufacturedContacts contacts(family, 3);
+  for (const auto& family : verify::contact_classes()) {
+    verify::ManufacturedContacts contacts(family, 3);
     for (int i = 0; i < 300; ++i) {
       const auto c = contacts.next();
       add(c.a, c.b);

@@ -92,7 +92,7 @@ TEST(TraceContact, ReferencePointIsTheMiddleOfTheShortestPQ) {
 // tangent plane of the lens: its normal is off the common one by the order of the contact's width,
 // and by nothing where planes of symmetry hold it.
 TEST(TraceContact, CountsTheCurvesOfWholeLevels) {
-  families::ManufacturedContacts contacts(families::contact_classes()[0], 20261122);
+  verify::ManufacturedContacts contacts(verify::contact_classes()[0], 20261122);
   int middle = 0, more = 0;
   for (int i = 0; i < 50; ++i) {
     const auto c = contacts.next();
@@ -259,10 +259,10 @@ TEST(TraceErrata, LabelsOfEqualAxesMatterAsPublishedAndNotAsOffered) {
 
 /// Medians of |gap - true gap| / depth of class 1 contacts, over the sum of the radii of curvature.
 double median_difference(double depth, int refinements) {
-  families::ContactFamily family = families::contact_classes()[0];
-  family.gap_unit = families::ContactFamily::GapUnit::rho;
+  verify::ContactFamily family = verify::contact_classes()[0];
+  family.gap_unit = verify::ContactFamily::GapUnit::rho;
   family.largest_gap = depth;
-  families::ManufacturedContacts contacts(family, 20261122);
+  verify::ManufacturedContacts contacts(family, 20261122);
   std::vector<double> difference;
   while (difference.size() < 400) {
     const auto c = contacts.next();

@@ -127,9 +127,9 @@ std::optional<Steps> by_steps(const Ellipsoid& a, const Ellipsoid& b) {
 }
 
 TEST(TraceContact, IsThePublishedSchemeDoneByStepsWithoutItsFormulas) {
-  families::ContactFamily family = families::contact_classes()[1];
+  verify::ContactFamily family = verify::contact_classes()[1];
   family.aspect = 2.5;
-  families::ManufacturedContacts contacts(family, 20261122);
+  verify::ManufacturedContacts contacts(family, 20261122);
   int compared = 0;
   double worst = 0;
   for (int i = 0; i < 400; ++i) {

@@ -19,7 +19,7 @@
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
-#include <tangency/verify/corpus/draw.hpp>
+#include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
@@ -27,7 +27,7 @@
 namespace tangency::verify {
 namespace {
 
-const std::string kFolder = TANGENCY_TEST_DATA "/corpora/";
+const std::string kFolder = TANGENCY_CORPORA "/";
 
 std::string committed(std::string_view name, const char* suffix) {
   return testing::read_file(kFolder + std::string(name) + suffix);

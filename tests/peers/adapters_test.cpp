@@ -137,9 +137,9 @@ TEST(Peers, ReadTheQuaternionAsWXYZOfAnyLengthAndAsTheTurnFromBodyToSpace) {
 }
 
 TEST(Peers, AgreeOnYesAndNoAndOnTheGapOfManufacturedContacts) {
-  for (const auto& family : families::contact_classes().first(2)) {
+  for (const auto& family : verify::contact_classes().first(2)) {
     for (const auto& peer : peers()) {
-      families::ManufacturedContacts contacts(family, 7);
+      verify::ManufacturedContacts contacts(family, 7);
       for (int i = 0; i < 100; ++i) {
         const auto c = contacts.next();
         const auto seen = ask(*peer, c.a, c.b);
@@ -174,7 +174,7 @@ TEST(PortalDepth, TendsToTheDepthAlongTheLineOfCentresWithTheTolerance) {
     const PeerDescription d = peer->description();
     if (d.gap_of == GapOf::none || d.definition != Definition::portal) continue;
     const bool tight = d.options.find("1e-12") != std::string::npos;
-    families::ManufacturedContacts contacts(families::contact_classes()[1], 11);
+    verify::ManufacturedContacts contacts(verify::contact_classes()[1], 11);
     double largest_difference_from_gap = 0;
     for (int i = 0; i < 100; ++i) {
       const auto c = contacts.next();
@@ -224,7 +224,7 @@ TEST(Peers, DescribeThemselves) {
 
 TEST(PlainPerramWertheim, GivesTheGapOfItsDefinitionForModeratePairs) {
   const auto peers = plain_perram_wertheim_peers();
-  families::ManufacturedContacts contacts(families::contact_classes()[1], 7);
+  verify::ManufacturedContacts contacts(verify::contact_classes()[1], 7);
   for (int i = 0; i < 100; ++i) {
     const auto c = contacts.next();
     const auto seen = ask(*peers.front(), c.a, c.b);

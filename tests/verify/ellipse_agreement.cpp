@@ -10,16 +10,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <limits>
-#include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/verify/families/families.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 
 namespace {
@@ -30,6 +28,7 @@ using tangency::EllipseRelation;
 using tangency::GapStatus;
 using tangency::PlaneGap;
 using tangency::Vec2;
+using tangency::verify::EllipsePair;
 using tangency::verify::RawEllipse;
 using tangency::verify::Real;
 using tangency::verify::Real2;
@@ -37,174 +36,18 @@ using tangency::verify::Real2;
 constexpr double kU = 0x1p-53;
 constexpr double kOracle = 1e-40;  // of the size: where the oracle's ascents end
 
-struct RawPair {
-  RawEllipse a, b;
-};
-
 Ellipse to_ellipse(const RawEllipse& e) {
   return {{e.centre[0], e.centre[1]},
           {e.semi_axes[0], e.semi_axes[1]},
           {e.direction[0], e.direction[1]}};
 }
 
-/// Random ellipses and pairs of them.
-class Sampler {
- public:
-  explicit Sampler(std::uint64_t seed) : engine_(seed) {}
+using Family = tangency::verify::InputFamily<EllipsePair>;
 
-  double uniform(double low, double high) { return low + (high - low) * unit_(engine_); }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-  std::array<double, 2> direction() {
-    const double t = uniform(0, 6.283185307179586), length = log_uniform(0.1, 10);
-    return {length * std::cos(t), length * std::sin(t)};
-  }
-  RawEllipse body(double aspect, double size = 1) {
-    const double half = std::sqrt(aspect);
-    return {{uniform(-1, 1), uniform(-1, 1)},
-            {size * log_uniform(1 / half, half), size * log_uniform(1 / half, half)},
-            direction()};
-  }
-  /// Centres `fraction` times as far apart as where the pair touches with a random normal.
-  RawPair at(RawEllipse a, RawEllipse b, double fraction) {
-    const auto n = direction();
-    const Vec2 normal(n[0], n[1]);
-    const Vec2 reach = to_ellipse(a).support_point(normal) + to_ellipse(b).support_point(normal);
-    for (std::size_t i = 0; i < 2; ++i) {
-      b.centre[i] = a.centre[i] + fraction * reach[static_cast<int>(i)];
-    }
-    return {a, b};
-  }
-  RawPair exchanged_now_and_then(const RawPair& p) {
-    return integer(0, 1) == 0 ? p : RawPair{p.b, p.a};
-  }
-
- private:
-  std::mt19937_64 engine_;
-  std::uniform_real_distribution<double> unit_;
-};
-
-RawPair random_pair(Sampler& s) {
-  const double aspect = s.log_uniform(1, 100);
-  return s.at(s.body(aspect), s.body(aspect, s.log_uniform(0.3, 3)), s.uniform(0, 1.5));
-}
-
-/// Ellipses about one line of direction (3, 4), sizes multiples of 5, so that vertices are exact:
-/// external and internal touches of every order, and touches beside two crossings.
-RawPair tangent_pair(Sampler& s) {
-  const double m = s.integer(1, 6), p = s.integer(1, 6), scale = std::exp2(s.integer(-3, 3));
-  const auto width = [&](double along) {
-    // Every fourth time the radius of curvature at the vertex is 5, whatever the length.
-    return s.integer(0, 3) == 0 && (along == 1 || along == 4) ? 5 * std::sqrt(along)
-                                                              : s.integer(1, 30);
-  };
-  RawPair pair{{{0, 0}, {5 * m, width(m)}, {3, 4}}, {{0, 0}, {5 * p, width(p)}, {-0.75, -1}}};
-  const double apart = s.integer(0, 1) == 0 ? m + p : m - p;
-  pair.b.centre = {3 * apart, 4 * apart};
-  for (RawEllipse* e : {&pair.a, &pair.b}) {
-    for (double& v : e->centre) v *= scale;
-    for (double& v : e->semi_axes) v *= scale;
-  }
-  return s.exchanged_now_and_then(pair);
-}
-
-/// The circle of curvature where (cos, sin) = (3, 4) / 5 on the ellipse of 45 and 80: a crossing of
-/// multiplicity 3 and one more.
-RawPair osculating_pair(Sampler& s) {
-  const double scale = std::exp2(s.integer(-20, 20)) * s.integer(1, 1000);
-  const double sx = s.integer(0, 1) == 0 ? -1 : 1, sy = s.integer(0, 1) == 0 ? -1 : 1;
-  const RawEllipse ellipse{{0, 0}, {45 * scale, 80 * scale}, {1, 0}};
-  const RawEllipse circle{{-21 * sx * scale, 28 * sy * scale}, {60 * scale, 60 * scale}, {1, 2}};
-  return s.exchanged_now_and_then({ellipse, circle});
-}
-
-RawPair four_crossing_pair(Sampler& s) {
-  const double aspect = s.log_uniform(1.05, 1000), turn = s.uniform(0.2, 1.5);
-  RawEllipse a = s.body(1), b = a;
-  a.semi_axes = {aspect, 1};
-  b.semi_axes = {aspect * s.uniform(0.9, 1.1), s.uniform(0.9, 1.1)};
-  const auto [x, y] = a.direction;
-  b.direction = {std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y};
-  b.centre[0] += s.uniform(-0.1, 0.1), b.centre[1] += s.uniform(-0.1, 0.1);
-  return {a, b};
-}
-
-RawPair concentric_pair(Sampler& s) {
-  RawPair pair{s.body(10), s.body(10)};
-  pair.b.centre = pair.a.centre;
-  const int kind = s.integer(0, 3);
-  if (kind == 0) pair.b.direction = pair.a.direction;
-  if (kind == 1) {  // two touches, or homothetic
-    pair.b.direction = {-2 * pair.a.direction[1], 2 * pair.a.direction[0]};
-    pair.b.semi_axes[1] = pair.a.semi_axes[0];
-    if (s.integer(0, 1) == 0) pair.b.semi_axes[0] = 2 * pair.a.semi_axes[1];
-  }
-  if (kind == 2) {
-    pair.b.direction = pair.a.direction;
-    pair.b.semi_axes = {2 * pair.a.semi_axes[0], 2 * pair.a.semi_axes[1]};
-  }
-  return s.exchanged_now_and_then(pair);
-}
-
-RawPair equal_pair(Sampler& s) {
-  RawPair pair{s.body(100), {}};
-  pair.b = pair.a;
-  const double stretch = std::exp2(s.integer(-9, 9));
-  auto& u = pair.b.direction;
-  u = {stretch * u[0], stretch * u[1]};
-  if (s.integer(0, 1) == 0) {
-    std::swap(pair.b.semi_axes[0], pair.b.semi_axes[1]);
-    u = {-u[1], u[0]};
-  }
-  // Half of them just not equal.
-  if (s.integer(0, 1) == 0) {
-    double& v = s.integer(0, 1) == 0 ? pair.b.semi_axes[0] : pair.b.centre[1];
-    v = std::nextafter(v, 1e9);
-  }
-  return pair;
-}
-
-RawPair circle_pair(Sampler& s) {
-  const auto circle = [&] {
-    const bool whole = s.integer(0, 1) == 0;
-    const double r = whole ? s.integer(1, 6) : s.log_uniform(0.1, 10);
-    return RawEllipse{{0, 0}, {r, r}, s.direction()};
-  };
-  RawPair pair{circle(), circle()};
-  if (s.integer(0, 1) == 0) {
-    pair.b.centre = {3.0 * s.integer(-2, 2), 4.0 * s.integer(-2, 2)};
-  } else {
-    pair = s.at(pair.a, pair.b, s.uniform(0, 1.5));
-  }
-  return pair;
-}
-
-RawPair near_touch_pair(Sampler& s) {
-  const double off = s.log_uniform(1e-16, 1e-3), sign = s.integer(0, 1) == 0 ? -1 : 1;
-  const double aspect = s.log_uniform(1, 1000);
-  return s.at(s.body(aspect), s.body(aspect), 1 + sign * off);
-}
-
-RawPair extreme_pair(Sampler& s) {
-  const double aspect = s.log_uniform(1, 1e8), fraction = s.uniform(0, 1.3);
-  RawPair pair = s.at(s.body(aspect), s.body(aspect, s.log_uniform(1e-3, 1e3)), fraction);
-  const int kind = s.integer(0, 2);
-  const double scale = kind == 0 ? std::exp2(500) : kind == 1 ? std::exp2(-500) : 1;
-  for (RawEllipse* e : {&pair.a, &pair.b}) {
-    for (double& v : e->semi_axes) v *= scale;
-    for (double& v : e->centre) v = v * scale + (kind == 2 ? std::exp2(20) : 0.0);
-  }
-  return pair;
-}
-
-struct Family {
-  const char* name;
-  std::function<RawPair(Sampler&)> next;
-  long count;         ///< pairs for the exact answers
-  double area_error;  ///< promised, relative
-};
+constexpr double kAreaError = 1e-13;    // promised, relative
+constexpr double kExtremeAspect = 1e8;  // beyond the corpus
+constexpr double kPairs = 10'000;       // of each family for the exact answers
+constexpr double kPairsOfRandom = 100'000;
 
 struct Tally {
   long pairs = 0, wrong = 0, filtered = 0, numbers = 0, unequal = 0, local = 0, violated = 0;
@@ -213,7 +56,7 @@ struct Tally {
   double place = 0, area = 0, gap = 0, gap_error = 0;
 };
 
-void print(const char* what, const RawPair& pair) {
+void print(const char* what, const EllipsePair& pair) {
   std::printf("%s:", what);
   for (const RawEllipse& e : {pair.a, pair.b}) {
     std::printf(" %a,%a,%a,%a,%a,%a", e.centre[0], e.centre[1], e.semi_axes[0], e.semi_axes[1],
@@ -265,7 +108,7 @@ bool agrees(const Ellipse& a, const Ellipse& b, const EllipseRelation& found,
   return multiplicities == truth.multiplicities && points.equal == (truth.crossings == -1);
 }
 
-double length(const RawPair& p) {
+double length(const EllipsePair& p) {
   return std::hypot(p.b.centre[0] - p.a.centre[0], p.b.centre[1] - p.a.centre[1]) +
          std::max(p.a.semi_axes[0], p.a.semi_axes[1]) +
          std::max(p.b.semi_axes[0], p.b.semi_axes[1]);
@@ -328,7 +171,7 @@ bool plain(const Ellipse& a, const Ellipse& b, const Crossings& found, double si
 }
 
 /// GSL's roots where double precision can find them: as many, and at the same places?
-void compare_with_gsl(const RawPair& pair, const Crossings& found, Tally& tally) {
+void compare_with_gsl(const EllipsePair& pair, const Crossings& found, Tally& tally) {
   const double size = length(pair);
   if (!plain(to_ellipse(pair.a), to_ellipse(pair.b), found, size)) return;
   ++tally.gsl;
@@ -344,7 +187,7 @@ void compare_with_gsl(const RawPair& pair, const Crossings& found, Tally& tally)
   if (wrong) ++tally.gsl_wrong, print("GSL", pair);
 }
 
-void compare_numbers(const RawPair& pair, const Family& family, Tally& tally) {
+void compare_numbers(const EllipsePair& pair, Tally& tally) {
   const Ellipse a = to_ellipse(pair.a), b = to_ellipse(pair.b);
   const double size = length(pair);
   ++tally.numbers;
@@ -358,7 +201,7 @@ void compare_numbers(const RawPair& pair, const Family& family, Tally& tally) {
   const Real off = abs(Real(area) - true_area);
   const double relative = true_area == 0 ? area : static_cast<double>(Real(off / true_area));
   tally.area = std::max(tally.area, relative);
-  if (!(relative <= family.area_error)) ++tally.violated, print("AREA", pair);
+  if (!(relative <= kAreaError)) ++tally.violated, print("AREA", pair);
 
   const PlaneGap gap = signed_gap(a, b);
   const double error =
@@ -372,7 +215,7 @@ void compare_numbers(const RawPair& pair, const Family& family, Tally& tally) {
   }
 }
 
-void compare(const RawPair& pair, Tally& tally) {
+void compare(const EllipsePair& pair, Tally& tally) {
   const Ellipse a = to_ellipse(pair.a), b = to_ellipse(pair.b);
   const EllipseRelation found = relation(a, b);
   const auto truth = tangency::verify::exact_ellipse_relation(pair.a, pair.b);
@@ -385,12 +228,13 @@ void compare(const RawPair& pair, Tally& tally) {
 
 Tally run(const Family& family, std::uint64_t seed, double share, long numbers) {
   Tally tally;
-  Sampler sampler(seed);
-  const long count = std::max(1L, std::lround(static_cast<double>(family.count) * share));
+  const auto next = family.sequence(seed);
+  const double whole = family.name == "random" ? kPairsOfRandom : kPairs;
+  const long count = std::max(1L, std::lround(whole * share));
   for (long i = 0; i < count; ++i) {
-    const RawPair pair = family.next(sampler);
+    const EllipsePair pair = next();
     compare(pair, tally);
-    if (i < numbers) compare_numbers(pair, family, tally);
+    if (i < numbers) compare_numbers(pair, tally);
   }
   return tally;
 }
@@ -411,30 +255,18 @@ int main(int argc, char** argv) {
   app.add_option("--seed", seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  constexpr double kPromised = 1e-13;
-  const std::vector<Family> families{
-      {"random", random_pair, 100'000, kPromised},
-      {"tangent", tangent_pair, 10'000, kPromised},
-      {"osculating", osculating_pair, 10'000, kPromised},
-      {"four crossings", four_crossing_pair, 10'000, kPromised},
-      {"concentric", concentric_pair, 10'000, kPromised},
-      {"equal, or nearly", equal_pair, 10'000, kPromised},
-      {"circles", circle_pair, 10'000, kPromised},
-      {"near a touch", near_touch_pair, 10'000, kPromised},
-      {"extreme", extreme_pair, 10'000, kPromised},
-  };
   std::printf("seed %llu\n%-17s %7s %5s %8s %-33s %5s %7s %8s %8s %8s %8s %5s %8s %9s\n",
               static_cast<unsigned long long>(seed), "family", "pairs", "wrong", "filter %",
               "crossings 0 1 2 3 4 and equal", "exch.", "numbers", "place/uL", "area", "gap/uL",
               "bound/uL", "local", "violated", "GSL wrong");
   bool fine = true;
-  for (const Family& family : families) {
+  for (const Family& family : tangency::verify::ellipse_families(kExtremeAspect)) {
     const Tally t = run(family, seed, share, numbers);
     const auto& c = t.crossings;
     std::printf(
         "%-17s %7ld %5ld %8.3f %5ld %5ld %5ld %5ld %5ld %5ld %5ld %7ld %8.2g %8.2g %8.2g "
         "%8.2g %5ld %8ld %4ld/%ld\n",
-        family.name, t.pairs, t.wrong,
+        family.name.c_str(), t.pairs, t.wrong,
         100.0 * static_cast<double>(t.filtered) / static_cast<double>(t.pairs), c[0], c[1], c[2],
         c[3], c[4], c[5], t.unequal, t.numbers, t.place, t.area, t.gap, t.gap_error, t.local,
         t.violated, t.gsl_wrong, t.gsl);

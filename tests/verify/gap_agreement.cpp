@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
-#include <random>
 #include <string>
 #include <thread>
 #include <utility>
@@ -29,10 +28,12 @@ using tangency::Ellipsoid;
 using tangency::Gap;
 using tangency::GapStatus;
 using tangency::Vec3;
-using tangency::families::RawPair;
+using tangency::verify::Draw;
+using tangency::verify::EllipsoidPair;
 using tangency::verify::GapTruth;
 using tangency::verify::Real;
 using tangency::verify::Real3;
+using tangency::verify::Sequence;
 
 constexpr double kU = 0x1p-53;
 
@@ -65,8 +66,8 @@ struct Tally {
 
 std::mutex printing;
 
-void print_pair(const char* what, const std::string& family, const RawPair& pair, const Gap& gap,
-                const GapTruth& truth) {
+void print_pair(const char* what, const std::string& family, const EllipsoidPair& pair,
+                const Gap& gap, const GapTruth& truth) {
   const std::lock_guard lock(printing);
   std::printf("%s, %s: gap %a +- %a, true %.17g: ", what, family.c_str(), gap.gap, gap.gap_error,
               truth.gap.convert_to<double>());
@@ -87,7 +88,7 @@ double distance(const Vec3& v, const Real3& w) {
   return sqrt(square).convert_to<double>();
 }
 
-void compare(const RawPair& pair, const GapTruth& truth, const std::string& family,
+void compare(const EllipsoidPair& pair, const GapTruth& truth, const std::string& family,
              const Limits& limits, Tally& tally) {
   const Ellipsoid a = tangency::verify::to_ellipsoid(pair.a);
   const Ellipsoid b = tangency::verify::to_ellipsoid(pair.b);
@@ -140,15 +141,22 @@ struct Family {
   std::function<void(std::uint64_t seed, long count, Tally& tally)> run;
 };
 
-template <class Pairs, class Kind>
-Family make_family(const Kind& kind, const Limits& limits) {
-  return {kind.name, 0, limits, [kind, limits](std::uint64_t seed, long count, Tally& tally) {
-            Pairs pairs(kind, seed);
+/// The pairs of a kind, held against `truth_of` each.
+template <class Kind>
+Family make_family(const Kind& kind, const Limits& limits,
+                   const std::function<GapTruth(const EllipsoidPair&)>& truth_of) {
+  return {kind.name, 0, limits,
+          [kind, limits, truth_of](std::uint64_t seed, long count, Tally& tally) {
+            Sequence pairs(kind, seed);
             for (long i = 0; i < count; ++i) {
-              const RawPair pair = pairs.next();
-              compare(pair, tangency::verify::signed_gap(pair.a, pair.b), kind.name, limits, tally);
+              const EllipsoidPair pair = pairs.next();
+              compare(pair, truth_of(pair), kind.name, limits, tally);
             }
           }};
+}
+
+GapTruth truth_of_any(const EllipsoidPair& pair) {
+  return tangency::verify::signed_gap(pair.a, pair.b);
 }
 
 /// A thin body whose flat face a round body touches, lies in or is inside of: where rounding the
@@ -159,57 +167,43 @@ struct FaceFamily {
   bool sphere;  ///< is the round body one?
 };
 
-class FacePairs {
- public:
-  FacePairs(const FaceFamily& family, std::uint64_t seed) : family_(family), random_(seed) {}
-
-  RawPair next() {
-    RawPair pair;
-    const double thin = 1 / log_uniform(family_.least_aspect, family_.largest_aspect);
-    const std::size_t across = random_() % 3;
-    for (std::size_t k = 0; k < 3; ++k) pair.a.semi_axes[k] = k == across ? thin : uniform(0.3, 1);
-    for (auto* body : {&pair.a, &pair.b}) {
-      for (double& q : body->orientation) q = uniform(-1, 1);
-    }
-    pair.a.centre = {0, 0, 0};
-    const double radius = log_uniform(1e-3, 10);
-    pair.b.semi_axes = {radius, radius, radius};
-    if (!family_.sphere) {
-      // From the neighbouring double to twice as long.
-      const double longer = random_() % 2 == 0 ? uniform(1, 2) : 1 + log_uniform(0x1p-52, 0.1);
-      pair.b.semi_axes[random_() % 3] *= longer;
-      pair.b.semi_axes[random_() % 3] *= longer;
-    }
-    const Ellipsoid a = tangency::verify::to_ellipsoid(pair.a);
-    const Vec3 n = a.rotation().col(static_cast<int>(across));
-    const double reach = tangency::verify::to_ellipsoid(pair.b).support(n);
-    // Apart or overlapping by 1e-18 to 0.1 of the radius; a sphere at any depth as well.
-    double height = reach + radius * (random_() % 2 == 0 ? 1 : -1) * log_uniform(1e-18, 0.1);
-    if (family_.sphere && random_() % 4 == 0) height = reach * uniform(-1, 1);
-    Vec3 centre = height * n;
-    for (int k = 0; k < 3; ++k) {
-      if (k != static_cast<int>(across))
-        centre += 0.7 * uniform(-1, 1) * a.semi_axes()[k] * a.rotation().col(k);
-    }
-    pair.b.centre = {centre[0], centre[1], centre[2]};
-    if (random_() % 2 == 0) std::swap(pair.a, pair.b);
-    return pair;
+EllipsoidPair drawn(Draw& draw, const FaceFamily& family) {
+  EllipsoidPair pair{};
+  const double thin = 1 / draw.log_uniform(family.least_aspect, family.largest_aspect);
+  const auto across = static_cast<std::size_t>(draw.integer(0, 2));
+  for (std::size_t k = 0; k < 3; ++k) pair.a.semi_axes[k] = k == across ? thin : draw.real(0.3, 1);
+  for (auto* body : {&pair.a, &pair.b}) {
+    for (double& q : body->orientation) q = draw.real(-1, 1);
   }
-
- private:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random_() >> 11) * kU);
+  pair.a.centre = {0, 0, 0};
+  const double radius = draw.log_uniform(1e-3, 10);
+  pair.b.semi_axes = {radius, radius, radius};
+  if (!family.sphere) {
+    // From the neighbouring double to twice as long.
+    const double longer = draw.coin() ? draw.real(1, 2) : 1 + draw.log_uniform(0x1p-52, 0.1);
+    for (int i = 0; i < 2; ++i) {
+      pair.b.semi_axes[static_cast<std::size_t>(draw.integer(0, 2))] *= longer;
+    }
   }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
+  const Ellipsoid a = tangency::verify::to_ellipsoid(pair.a);
+  const Vec3 n = a.rotation().col(static_cast<int>(across));
+  const double reach = tangency::verify::to_ellipsoid(pair.b).support(n);
+  // Apart or overlapping by 1e-18 to 0.1 of the radius; a sphere at any depth as well.
+  const double off = radius * draw.log_uniform(1e-18, 0.1);
+  double height = draw.coin() ? reach + off : reach - off;
+  if (family.sphere && draw.integer(0, 3) == 0) height = reach * draw.real(-1, 1);
+  Vec3 centre = height * n;
+  for (int k = 0; k < 3; ++k) {
+    if (k != static_cast<int>(across))
+      centre += 0.7 * draw.real(-1, 1) * a.semi_axes()[k] * a.rotation().col(k);
   }
-
-  FaceFamily family_;
-  std::mt19937_64 random_;
-};
+  pair.b.centre = {centre[0], centre[1], centre[2]};
+  if (draw.coin()) std::swap(pair.a, pair.b);
+  return pair;
+}
 
 /// By the oracle of closest points, at any aspect.
-GapTruth truth_of_sphere(const RawPair& pair) {
+GapTruth truth_of_sphere(const EllipsoidPair& pair) {
   const auto is_sphere = [](const tangency::verify::RawEllipsoid& e) {
     return e.semi_axes[0] == e.semi_axes[1] && e.semi_axes[1] == e.semi_axes[2];
   };
@@ -228,35 +222,22 @@ GapTruth truth_of_sphere(const RawPair& pair) {
   return truth;
 }
 
-Family make_family(const FaceFamily& kind, const Limits& limits) {
-  return {kind.name, 0, limits, [kind, limits](std::uint64_t seed, long count, Tally& tally) {
-            FacePairs pairs(kind, seed);
-            for (long i = 0; i < count; ++i) {
-              const RawPair pair = pairs.next();
-              compare(pair,
-                      kind.sphere ? truth_of_sphere(pair)
-                                  : tangency::verify::signed_gap(pair.a, pair.b),
-                      kind.name, limits, tally);
-            }
-          }};
-}
-
 std::vector<Family> make_families() {
   std::vector<Family> families;
-  for (const auto& kind : tangency::families::extreme_families()) {
+  for (const auto& kind : tangency::verify::extreme_families()) {
     Limits limits;
     if (kind.aspect <= 100) limits.gap_error = tangency::kOrdinaryGapErrorBound;
     // Rounding a centre may push bodies of aspect 1e8 deep into each other, deeper the further away
     // it is; measured: the search over all normals does not finish for so many of them.
     if (kind.aspect > 1e6) limits.local_share = kind.origin > 0 ? 0.15 : 0.02;
-    families.push_back(make_family<tangency::families::ExtremePairs>(kind, limits));
+    families.push_back(make_family(kind, limits, truth_of_any));
   }
-  for (const auto& kind : tangency::families::deep_families()) {
+  for (const auto& kind : tangency::verify::deep_families()) {
     Limits limits;
     if (kind.aspect <= 100) limits.gap_error = tangency::kOrdinaryGapErrorBound;
     if (kind.aspect > 5 || kind.within == 0) limits.local_share = 0.01;
     if (kind.aspect > 20) limits.local_share = 1;
-    families.push_back(make_family<tangency::families::DeepPairs>(kind, limits));
+    families.push_back(make_family(kind, limits, truth_of_any));
   }
   const FaceFamily faces[] = {{"faces on spheres, to 1e15", 1e9, 1e15, true},
                               {"faces on spheres, 1e15 to 1e18", 1e15, 1e18, true},
@@ -266,7 +247,7 @@ std::vector<Family> make_families() {
   for (const FaceFamily& kind : faces) {
     Limits limits;
     if (!kind.sphere) limits.local_share = kind.largest_aspect > 1e15 ? 1 : 0.02;
-    families.push_back(make_family(kind, limits));
+    families.push_back(make_family(kind, limits, kind.sphere ? truth_of_sphere : truth_of_any));
   }
   return families;
 }

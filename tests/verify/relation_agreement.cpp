@@ -96,7 +96,7 @@ void compare(const RawEllipsoid& raw_a, const RawEllipsoid& raw_b, std::string_v
 
 /// One part of the work, whose outcome depends on nothing but its own seed and count.
 struct Job {
-  const tangency::families::ContactFamily* family;  ///< none: adversarial or heaviest pairs
+  const tangency::verify::ContactFamily* family;  ///< none: adversarial or heaviest pairs
   bool heaviest;
   std::uint64_t seed;
   long count;
@@ -104,7 +104,7 @@ struct Job {
 
 void run(const Job& job, Tallies& tallies) {
   if (job.heaviest) {
-    tangency::families::HeaviestPairs pairs(job.seed, 1074);
+    tangency::verify::HeaviestPairs pairs({1074}, job.seed);
     for (long i = 0; i < job.count; ++i) {
       const auto pair = pairs.next();
       compare(pair.a, pair.b, "heaviest", tallies);
@@ -117,7 +117,7 @@ void run(const Job& job, Tallies& tallies) {
         [&](const tangency::verify::AdversarialPair& p) { compare(p.a, p.b, p.family, tallies); });
     return;
   }
-  tangency::families::ManufacturedContacts contacts(*job.family, job.seed);
+  tangency::verify::ManufacturedContacts contacts(*job.family, job.seed);
   for (long i = 0; i < job.count; ++i) {
     const auto contact = contacts.next();
     compare(contact.a, contact.b, job.family->name, tallies);
@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
 
   constexpr long kPart = 10'000;
   std::vector<Job> jobs;
-  const auto split = [&](const tangency::families::ContactFamily* family, long count,
+  const auto split = [&](const tangency::verify::ContactFamily* family, long count,
                          bool heavy = false) {
     const long part = heavy ? kPart / 100 : kPart;
     for (long done = 0; done < count; done += part) {
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   };
   split(nullptr, heaviest, true);
   split(nullptr, adversarial);
-  for (const auto& family : tangency::families::contact_classes()) split(&family, per_class);
+  for (const auto& family : tangency::verify::contact_classes()) split(&family, per_class);
 
   Tallies total;
   std::mutex adding;

@@ -11,28 +11,28 @@
 namespace tangency::verify {
 
 struct ToolLimits {
-  double seconds;          // of wall time
-  std::size_t most_bytes;  // of standard output
-  int deadline = -1;       // a descriptor that is readable once the time is up, in place of a clock
+  double seconds;          ///< of wall time
+  std::size_t most_bytes;  ///< of standard output
+  int deadline = -1;  ///< a descriptor that is readable once the time is up, in place of a clock
 };
 
 struct ToolRun {
-  csv::Descriptor output;   // a file in memory with what came on standard output; never closed yet
-  std::string output_path;  // by which this process opens it again
-  bool sound;               // ended by itself, not by a signal, a limit or an interrupt
-  std::string ending;       // "ended with status 0", "was ended by signal 11 (Segmentation fault)",
-                            // "had not ended after 300 s", "printed more than 2097152 bytes"
-  std::string last_words;   // last line on standard error
+  csv::Descriptor output;  ///< a file in memory with what came on standard output; never closed yet
+  std::string output_path;  ///< by which this process opens it again
+  bool sound;               ///< ended by itself, not by a signal, a limit or an interrupt
+  std::string ending;  ///< "ended with status 0", "was ended by signal 11 (Segmentation fault)",
+                       ///< "had not ended after 300 s", "printed more than 2097152 bytes"
+  std::string last_words;  ///< last line on standard error
   double seconds;
 };
 
-// `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
-// comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
-// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then, and no
-// more, is kept: a tool waits for what it has started.
-// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
-// by a shell.
-// Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
+/// `sh -c COMMAND` in a process group of its own, with the table at `inputs` on standard input, its
+/// comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
+/// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then, and no
+/// more, is kept: a tool waits for what it has started.
+/// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
+/// by a shell.
+/// Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
 
 }  // namespace tangency::verify

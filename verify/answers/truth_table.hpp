@@ -16,16 +16,16 @@
 
 namespace tangency::verify {
 
-// A number of 40 digits as the sum of two doubles, to 2^-106 of itself.
+/// A number of 40 digits as the sum of two doubles, to 2^-106 of itself.
 struct TwoDoubles {
   double high = 0, low = 0;
   bool operator==(const TwoDoubles&) const = default;
 };
 
-// Which gap and normal are meant; centre_line has no normal.
+/// Which gap and normal are meant; centre_line has no normal.
 enum class Definition { common_normal, perram_wertheim, midpoint_potential, centre_line };
 
-// A true normal (of ellipses with z = 0); of a circle, all turns about `axis`.
+/// A true normal (of ellipses with z = 0); of a circle, all turns about `axis`.
 struct Maximiser {
   std::array<double, 3> normal;
   std::optional<std::array<double, 3>> axis;
@@ -34,36 +34,36 @@ struct Maximiser {
 struct TruthRow {
   std::size_t family = 0;
   Relation relation = Relation::separate;
-  double size = 1;                // unit of the gap's error
-  std::optional<TwoDoubles> gap;  // nothing where the definition does not apply
+  double size = 1;                ///< unit of the gap's error
+  std::optional<TwoDoubles> gap;  ///< nothing where the definition does not apply
   bool every_normal = false;
-  std::size_t first_normal = 0, normals = 0;  // in TruthTable::maximisers
-  int crossings = -1;                         // of ellipses; -1: equal
-  double area = 0, smaller_area = 1;          // of ellipses
-  std::string type;                           // of a quadric
+  std::size_t first_normal = 0, normals = 0;  ///< in TruthTable::maximisers
+  int crossings = -1;                         ///< of ellipses; -1: equal
+  double area = 0, smaller_area = 1;          ///< of ellipses
+  std::string type;                           ///< of a quadric
 };
 
 struct TruthTable {
   CorpusKind kind;
-  std::vector<std::string> families;  // in the order of their first rows
+  std::vector<std::string> families;  ///< in the order of their first rows
   std::vector<TruthRow> rows;
   std::vector<Maximiser> maximisers;
   bool has_normals = false;
 };
 
-// By the columns: `type` makes quadrics, `crossings` ellipses. Throws csv::Error.
+/// By the columns: `type` makes quadrics, `crossings` ellipses. Throws csv::Error.
 CorpusKind kind_of_truth(const std::string& path);
 
-// `definition` is for pairs; it changes nothing else. Throws csv::Error: a table that cannot be
-// read, lacks a column, skips a row or returns to one.
+/// `definition` is for pairs; it changes nothing else. Throws csv::Error: a table that cannot be
+/// read, lacks a column, skips a row or returns to one.
 TruthTable read_truth(const std::string& path, Definition definition);
 
-// `relation` says the interiors meet.
+/// `relation` says the interiors meet.
 constexpr bool interiors_meet(Relation relation) {
   return relation != Relation::separate && relation != Relation::external_touch;
 }
 
-// Nothing for a word that names none.
+/// Nothing for a word that names none.
 std::optional<Relation> relation_named(std::string_view word);
 
 }  // namespace tangency::verify

@@ -22,13 +22,13 @@ namespace tangency::verify {
 
 struct CoaxialGap {
   Real gap;
-  Real3 axis;                 // unit, from A to B; either way round where the centres coincide
-  std::vector<Real> cosines;  // n.axis of every maximiser, descending
-  bool every_normal;          // concentric spheres: no normal is better than another
+  Real3 axis;                 ///< unit, from A to B; either way round where the centres coincide
+  std::vector<Real> cosines;  ///< n.axis of every maximiser, descending
+  bool every_normal;          ///< concentric spheres: no normal is better than another
 };
 
-// Nothing unless both bodies turn into themselves about one common axis. Requires a and b as
-// separation() does; not two spheres apart from each other, which signed_gap() answers as well.
+/// Nothing unless both bodies turn into themselves about one common axis. Requires a and b as
+/// separation() does; not two spheres apart from each other, which signed_gap() answers as well.
 std::optional<CoaxialGap> coaxial_gap(const RealEllipsoid& a, const RealEllipsoid& b);
 
 }  // namespace tangency::verify

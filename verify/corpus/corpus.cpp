@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include <tangency/verify/corpus/families.hpp>
 #include <tangency/verify/corpus/truth.hpp>
+#include <tangency/verify/families/families.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -219,17 +219,6 @@ CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>
     }
   }
   return text;
-}
-
-PairFamilies pair_families(std::string_view corpus) {
-  if (corpus == "classes") return class_families();
-  if (corpus == "near") return near_families();
-  if (corpus == "touching") return touch_families();
-  if (corpus == "symmetric") return symmetric_families();
-  if (corpus == "nested") return nested_families();
-  if (corpus == "extreme") return extreme_families();
-  if (corpus == "profiles") return profile_families();
-  return deep_families();
 }
 
 }  // namespace

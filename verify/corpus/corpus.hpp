@@ -31,7 +31,7 @@ enum class CorpusKind { pairs, ellipses, quadrics };
 struct CorpusInfo {
   std::string_view name;
   CorpusKind kind;
-  std::string_view what;  // one line
+  std::string_view what;  ///< one line
 };
 
 std::span<const CorpusInfo> corpora();
@@ -42,7 +42,7 @@ struct CorpusText {
 
 inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 
-// Throws std::invalid_argument for a name that corpora() does not list.
+/// Throws std::invalid_argument for a name that corpora() does not list.
 CorpusText generate(std::string_view name, std::size_t most_per_family = kWholeFamily);
 
 }  // namespace tangency::verify

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include <tangency/verify/families/exact_contact.hpp>
+#include <tangency/verify/families/placing.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 namespace {
 
 using namespace construction;
-
-using Real3 = std::array<long double, 3>;
 
 constexpr ExactRelation kSeparate{Relation::separate};
 constexpr ExactRelation kTouch{Relation::external_touch};
@@ -32,7 +32,7 @@ MaybePair pair(const ExactBody& a, const ExactBody& b, std::optional<ExactRelati
   const auto raw_a = raw(a, exponent);
   const auto raw_b = raw(b, exponent);
   if (!raw_a || !raw_b) return std::nullopt;
-  return AdversarialPair{*raw_a, *raw_b, {}, relation};
+  return AdversarialPair{{*raw_a, *raw_b}, {}, relation};
 }
 
 ExactRelation touch(bool inside) { return inside ? kInsideA : kTouch; }
@@ -40,16 +40,12 @@ ExactRelation touch(bool inside) { return inside ? kInsideA : kTouch; }
 // What a touch becomes when B moves by delta (a few ulps): the tangent plane parts the pair, or the
 // balls of curvature settle it; the factor 2 covers the rounding of this very estimate.
 std::optional<ExactRelation> after_motion(const Contact& c, const Real3& delta) {
-  long double along = 0, squared = 0, length = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const long double n = c.n[i].get_d();
-    along += n * delta[i];
-    length += n * n;
-    squared += delta[i] * delta[i];
-  }
+  Real3 n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = c.n[i].get_d();
+  const Real along = ascent::dot(n, delta), squared = ascent::dot(delta, delta);
   if (squared == 0) return touch(c.inside);
   if (along >= 0) return c.inside ? kOverlap : kSeparate;
-  if (c.rho * along / std::sqrt(length) + squared < 0) return c.inside ? kBInA : kOverlap;
+  if (c.rho * along / sqrt(ascent::dot(n, n)) + squared < 0) return c.inside ? kBInA : kOverlap;
   return std::nullopt;
 }
 
@@ -66,7 +62,7 @@ MaybePair integer_touch_inside(Draw& draw) {
 }
 
 MaybePair next_float_grid(Draw& draw) {
-  const auto c = contact(draw, draw.integer(0, 1) == 1);
+  const auto c = contact(draw, draw.coin());
   if (!c) return std::nullopt;
   MaybePair p = pair(c->a, c->b, std::nullopt);
   if (!p) return std::nullopt;
@@ -79,14 +75,14 @@ MaybePair next_float_grid(Draw& draw) {
       value = std::nextafter(value, steps * std::numeric_limits<double>::infinity());
     }
     if (start == 0) value = std::ldexp(static_cast<double>(steps), -40);  // not by subnormals
-    delta[i] = static_cast<long double>(value) - static_cast<long double>(start);
+    delta[i] = Real(value) - start;
   }
   p->relation = after_motion(*c, delta);
   return p;
 }
 
 MaybePair far_origin(Draw& draw) {
-  auto c = contact(draw, draw.integer(0, 1) == 1);
+  auto c = contact(draw, draw.coin());
   if (!c) return std::nullopt;
   const mpz_class far = mpz_class(1'000'000'000'000) + draw.integer(0, 1'000'000);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -98,13 +94,13 @@ MaybePair far_origin(Draw& draw) {
 }
 
 MaybePair extreme_scale(Draw& draw) {  // 2^500 is 3e150, 2^-1000 is 1e-301
-  const auto c = contact(draw, draw.integer(0, 1) == 1);
+  const auto c = contact(draw, draw.coin());
   if (!c) return std::nullopt;
   return pair(c->a, c->b, touch(c->inside), draw.one_of(std::array<int, 4>{500, -500, 960, -1000}));
 }
 
 MaybePair unnormalised_quaternion(Draw& draw) {
-  const auto c = contact(draw, draw.integer(0, 1) == 1);
+  const auto c = contact(draw, draw.coin());
   if (!c) return std::nullopt;
   MaybePair p = pair(c->a, c->b, touch(c->inside));
   if (!p) return std::nullopt;
@@ -116,87 +112,60 @@ MaybePair unnormalised_quaternion(Draw& draw) {
   return p;
 }
 
-struct Shape {
-  std::array<double, 3> axes;
-  std::array<double, 4> q;
-};
-
-// c_B from c_A = origin + M n / h and the like, in long double. L = |d| + a_A + a_B.
-MaybePair manufactured(Draw& draw, const Shape& a, const Shape& b, long double gap, double origin) {
-  Real3 n{draw.real(-1, 1), draw.real(-1, 1), draw.real(-1, 1)};
-  const long double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (long double& v : n) v /= length;
-  AdversarialPair p{};
-  long double size = std::fabs(origin);
-  long double rho = 0;
-  Real3 d{n[0] * gap, n[1] * gap, n[2] * gap};
-  for (const Shape* s : {&a, &b}) {
-    const long double w = s->q[0], x = s->q[1], y = s->q[2], z = s->q[3];
-    const long double norm2 = w * w + x * x + y * y + z * z;
-    const std::array<Real3, 3> columns{
-        {{w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)},
-         {2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)},
-         {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z}}};
-    Real3 point{};
-    long double h2 = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Real3& e = columns[k];
-      const long double along = s->axes[k] * (e[0] * n[0] + e[1] * n[1] + e[2] * n[2]) / norm2;
-      h2 += along * along;
-      for (std::size_t i = 0; i < 3; ++i) point[i] += s->axes[k] * along * e[i] / norm2;
-    }
-    for (std::size_t i = 0; i < 3; ++i) d[i] += point[i] / std::sqrt(h2);
-    const auto [low, high] = std::minmax_element(s->axes.begin(), s->axes.end());
-    size += 2.0L * *high;
-    rho += static_cast<long double>(*low) * *low / *high;
-  }
-  p.a = {{origin, -origin, origin / 2}, a.axes, a.q};
-  p.b = {{}, b.axes, b.q};
-  for (std::size_t i = 0; i < 3; ++i) {
-    p.b.centre[i] = static_cast<double>(static_cast<long double>(p.a.centre[i]) + d[i]);
-  }
-  // B's centre is off by at most `slip` in every direction; 2^-50 also covers the sums above.
-  const long double slip = std::ldexp(size, -50);
-  if (gap > slip) p.relation = kSeparate;
-  if (gap < -slip && -gap < rho / 2 && slip * slip < rho * (-gap - slip)) p.relation = kOverlap;
+// A's centre at `origin` in every direction, B's placed with the gap along a drawn normal. Requires
+// gap > -least semi-axis, so that neither body can be inside the other.
+MaybePair manufactured(Draw& draw, const RawEllipsoid& a, const RawEllipsoid& b, double gap,
+                       double origin) {
+  AdversarialPair p{{a, b}, {}, {}};
+  p.a.centre = {origin, -origin, origin / 2};
+  Real3 n;
+  for (Real& v : n) v = draw.real(-1, 1);
+  const double left = rounded(place_b(p, ascent::normalised(n), gap));
+  // B is off its place in the tangent plane by at most this. Balls of the least radii of curvature
+  // overlap by what is left of the gap, less the slip squared over their radii.
+  double slip = 0;
+  for (const double c : p.b.centre) slip += std::ldexp(std::abs(c), -53);
+  const double rho = least_radii(p);
+  if (left > 0) p.relation = kSeparate;
+  if (left < 0 && -left < rho / 2 && slip * slip < rho * -left) p.relation = kOverlap;
   return p;
 }
 
-Shape moderate_shape(Draw& draw, double size) {
-  return {{size * draw.real(1, 5), size * draw.real(1, 5), size}, draw.real_quaternion()};
+std::array<double, 4> any_quaternion(Draw& draw) {
+  return {draw.real(-1, 1), draw.real(-1, 1), draw.real(-1, 1), draw.real(0.01, 1)};
 }
 
-long double power_of_ten(int exponent) {
-  return std::pow(10.0L, static_cast<long double>(exponent));
+RawEllipsoid moderate_body(Draw& draw, double size) {
+  return {{}, {size * draw.real(1, 5), size * draw.real(1, 5), size}, any_quaternion(draw)};
 }
 
-long double signed_gap(Draw& draw, long double size) {
-  return draw.integer(0, 1) == 1 ? size : -size;
-}
+double power_of_ten(int exponent) { return rounded(pow(Real(10), exponent)); }
 
 MaybePair small_gap(Draw& draw) {
-  const Shape a = moderate_shape(draw, 1), b = moderate_shape(draw, draw.real(1, 3));
-  const long double gap = signed_gap(draw, power_of_ten(-draw.integer(6, 17)));
-  return manufactured(draw, a, b, gap, draw.real(-1, 1));
+  const RawEllipsoid a = moderate_body(draw, 1), b = moderate_body(draw, draw.real(1, 3));
+  const double gap = power_of_ten(-draw.integer(6, 17));
+  const bool apart = draw.coin();
+  return manufactured(draw, a, b, apart ? gap : -gap, draw.real(-1, 1));
 }
 
 MaybePair small_gap_far_origin(Draw& draw) {
-  const Shape a = moderate_shape(draw, 1), b = moderate_shape(draw, draw.real(1, 3));
-  const long double gap = signed_gap(draw, power_of_ten(-draw.integer(1, 9)));
-  return manufactured(draw, a, b, gap, draw.real(1e11, 1e12));
+  const RawEllipsoid a = moderate_body(draw, 1), b = moderate_body(draw, draw.real(1, 3));
+  const double gap = power_of_ten(-draw.integer(1, 9));
+  const bool apart = draw.coin();
+  return manufactured(draw, a, b, apart ? gap : -gap, draw.real(1e11, 1e12));
 }
 
 MaybePair extreme_ratios(Draw& draw) {
-  const auto shape = [&draw](double size) {
+  const auto body = [&draw](double size) {
     std::array<double, 3> axes{size, size * draw.log_uniform(1, 1e8), size};
     axes[2] = draw.integer(0, 2) == 0 ? axes[1] : size * draw.log_uniform(1, 1e8);
     draw.shuffle(axes);
-    return Shape{axes, draw.real_quaternion()};
+    return RawEllipsoid{{}, axes, any_quaternion(draw)};
   };
-  const Shape a = shape(1), b = shape(draw.log_uniform(1e-8, 1e8));
-  const double least_axis = std::min(std::ranges::min(a.axes), std::ranges::min(b.axes));
-  const long double gap = signed_gap(draw, draw.log_uniform(1e-17, 1) * least_axis);
-  return manufactured(draw, a, b, gap, 0);
+  const RawEllipsoid a = body(1), b = body(draw.log_uniform(1e-8, 1e8));
+  const double gap = draw.log_uniform(1e-17, 1) * std::min(least_axis(a), least_axis(b));
+  const bool apart = draw.coin();
+  return manufactured(draw, a, b, apart ? gap : -gap, 0);
 }
 
 MaybePair spheres(Draw& draw) {
@@ -206,8 +175,8 @@ MaybePair spheres(Draw& draw) {
   mpz_class r_a = draw.integer(1, 200);
   mpz_class r_b = abs(distance + (2 * draw.integer(0, 1) - 1) * r_a);  // a touch
   if (r_b == 0 || draw.integer(0, 2) == 0) r_b = draw.integer(1, 200);
-  ExactBody a{small_vector(draw, 50), {r_a, r_a, r_a}, draw.quaternion()};
-  ExactBody b{a.centre, {r_b, r_b, r_b}, draw.quaternion()};
+  ExactBody a{small_vector(draw, 50), {r_a, r_a, r_a}, small_quaternion(draw)};
+  ExactBody b{a.centre, {r_b, r_b, r_b}, small_quaternion(draw)};
   for (std::size_t i = 0; i < 3; ++i) b.centre[i] += u[i] * times;
   if (r_b > r_a) {
     std::swap(a, b);
@@ -226,7 +195,7 @@ MaybePair spheres(Draw& draw) {
 MaybePair equal_shapes_parallel_axes(Draw& draw) {
   const auto [u, radius] = sphere_point(draw);
   const Vector axes = small_axes(draw, 9);
-  ExactBody a{small_vector(draw, 100), axes, draw.quaternion()};
+  ExactBody a{small_vector(draw, 100), axes, small_quaternion(draw)};
   const Vector x = turned(a.q, {axes[0] * u[0], axes[1] * u[1], axes[2] * u[2]});
   for (mpz_class& axis : a.axes) axis *= radius * norm(a.q) * 8;
   ExactBody b = a;
@@ -236,7 +205,7 @@ MaybePair equal_shapes_parallel_axes(Draw& draw) {
 }
 
 MaybePair coaxial_spheroids(Draw& draw) {
-  const Quaternion q = draw.quaternion();
+  const Quaternion q = small_quaternion(draw);
   const int scale = norm(q);
   const int a1 = draw.integer(1, 12), c1 = draw.integer(2, 12);
   const int a2 = draw.integer(1, 12), c2 = draw.integer(1, 12);
@@ -248,7 +217,7 @@ MaybePair coaxial_spheroids(Draw& draw) {
     const int k = draw.integer(2, 4);
     return pair(on_axis(0, k * a1, k * c1), on_axis((k - 1) * c1, a1, c1), kInsideA);
   }
-  const int distance = draw.integer(0, 1) == 1 ? c1 + c2 : draw.integer(0, 26);
+  const int distance = draw.coin() ? c1 + c2 : draw.integer(0, 26);
   std::optional<ExactRelation> relation;  // deeper: neither pole tells
   if (distance > c1 + c2) relation = kSeparate;
   if (distance == c1 + c2) relation = kTouch;
@@ -257,18 +226,17 @@ MaybePair coaxial_spheroids(Draw& draw) {
 }
 
 MaybePair nested(Draw& draw) {
-  const Shape a = moderate_shape(draw, 1);
-  Shape b = moderate_shape(draw, draw.log_uniform(1e-6, 0.1));
-  const double room = (1 - std::ranges::max(b.axes)) / 2;  // half of what is left inside A's ball
-  const auto offset = [&] { return draw.real(-room, room) / 2; };
-  return AdversarialPair{
-      {{}, a.axes, a.q}, {{offset(), offset(), offset()}, b.axes, b.q}, {}, kBInA};
+  AdversarialPair p{{moderate_body(draw, 1), {}}, {}, kBInA};
+  p.b = moderate_body(draw, draw.log_uniform(1e-6, 0.1));
+  const double room = (1 - most_axis(p.b)) / 2;  // half of what is left inside A's ball
+  for (double& v : p.b.centre) v = draw.real(-room, room) / 2;
+  return p;
 }
 
 // Same centre and orientation, small integer axes: every tie of axes is a touch at two points, a
 // circle or everywhere; and crossing surfaces that touch elsewhere.
 MaybePair concentric_parallel(Draw& draw) {
-  ExactBody a{small_vector(draw, 9), small_axes(draw, 3), draw.quaternion()};
+  ExactBody a{small_vector(draw, 9), small_axes(draw, 3), small_quaternion(draw)};
   ExactBody b{a.centre, small_axes(draw, 3), a.q};
   int less = 0, more = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -284,8 +252,8 @@ MaybePair concentric_parallel(Draw& draw) {
 }
 
 MaybePair concentric_turned(Draw& draw) {
-  ExactBody a{small_vector(draw, 9), small_axes(draw, 4), draw.quaternion()};
-  ExactBody b{a.centre, small_axes(draw, 4), draw.quaternion()};
+  ExactBody a{small_vector(draw, 9), small_axes(draw, 4), small_quaternion(draw)};
+  ExactBody b{a.centre, small_axes(draw, 4), small_quaternion(draw)};
   return pair(a, b, std::nullopt);
 }
 
@@ -293,17 +261,18 @@ MaybePair concentric_turned(Draw& draw) {
 // far more.
 MaybePair nearly_concentric(Draw& draw) {
   const double size = std::ldexp(1.0, draw.integer(-50, 50));
-  const double offset = size * std::ldexp(draw.real(0.5, 1), -draw.integer(60, 1000));
+  const int closeness = draw.integer(60, 1000);
+  const double offset = size * std::ldexp(draw.real(0.5, 1), -closeness);
   const double growth = 1 + std::ldexp(1.0, -draw.integer(1, 40));
-  RawEllipsoid a{{}, {}, draw.real_quaternion()}, b{{}, {}, {}};
-  const bool spheres = draw.integer(0, 1) == 0;
+  RawEllipsoid a{{}, {}, any_quaternion(draw)}, b{{}, {}, {}};
+  const bool spheres = !draw.coin();
   for (std::size_t k = 0; k < 3; ++k) {
     a.semi_axes[k] = spheres ? size : size * draw.log_uniform(1, 4);
     b.semi_axes[k] = a.semi_axes[k] / growth;
     b.centre[k] = offset * draw.real(-1, 1);
   }
-  b.orientation = spheres ? draw.real_quaternion() : a.orientation;
-  return AdversarialPair{a, b, {}, kBInA};
+  b.orientation = spheres ? any_quaternion(draw) : a.orientation;
+  return AdversarialPair{{a, b}, {}, kBInA};
 }
 
 // The same point set: axes permuted and the quaternion that undoes it, signs, scale; spheres and
@@ -320,7 +289,7 @@ MaybePair equal_sets(Draw& draw) {
                                                              {{1, 0, 0, -1}, {1, 0, 2}},
                                                              {{0, 0, 1, 0}, {0, 1, 2}},
                                                              {{-3, 0, 0, 0}, {0, 1, 2}}}};
-  ExactBody a{small_vector(draw, 9), small_axes(draw, 5), draw.quaternion()};
+  ExactBody a{small_vector(draw, 9), small_axes(draw, 5), small_quaternion(draw)};
   ExactBody b = a;
   const auto multiply = [](const Quaternion& q, const Quaternion& p) -> Quaternion {
     return {q[0] * p[0] - q[1] * p[1] - q[2] * p[2] - q[3] * p[3],
@@ -343,7 +312,7 @@ MaybePair equal_sets(Draw& draw) {
 // B shares A's vertex +a1 and the directions of its axes, with p < a1. B is inside A if and only if
 // its radii of curvature there, s^2/p, do not exceed A's, b^2/a1; equal ones osculate.
 MaybePair vertex_touch(Draw& draw, bool osculating) {
-  const Quaternion q = draw.quaternion();
+  const Quaternion q = small_quaternion(draw);
   const int j = draw.integer(2, 5), i = draw.integer(1, j - 1), m = draw.integer(1, 4);
   const int a1 = m * j * j, p = m * i * i;  // with b = l j and s = l i the radii are equal
   std::array<int, 2> b{}, s{};
@@ -351,7 +320,7 @@ MaybePair vertex_touch(Draw& draw, bool osculating) {
   for (std::size_t k = 0; k < 2; ++k) {
     const int l = draw.integer(1, 6);
     b[k] = l * j;
-    s[k] = osculating && (k == 0 || draw.integer(0, 1) == 0) ? l * i : draw.integer(1, 2 * l * i);
+    s[k] = osculating && (k == 0 || !draw.coin()) ? l * i : draw.integer(1, 2 * l * i);
     fits = fits && s[k] * s[k] * a1 <= b[k] * b[k] * p;
   }
   ExactBody outer{small_vector(draw, 99), {a1, b[0], b[1]}, q};
@@ -375,16 +344,16 @@ MaybePair two_points_or_circle(Draw& draw) {
   static constexpr std::array<std::array<int, 3>, 5> kTriples{
       {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}, {20, 21, 29}}};
   auto legs = draw.one_of(kTriples), angle = draw.one_of(kTriples);
-  if (draw.integer(0, 1) == 1) std::swap(legs[0], legs[1]);
-  if (draw.integer(0, 1) == 1) std::swap(angle[0], angle[1]);
+  if (draw.coin()) std::swap(legs[0], legs[1]);
+  if (draw.coin()) std::swap(angle[0], angle[1]);
   const auto [b, c, a] = legs;
   const auto [cosine, sine, one] = angle;
   if (a * cosine >= c * one) return std::nullopt;
-  const Quaternion q = draw.quaternion();
+  const Quaternion q = small_quaternion(draw);
   const int scale = one * norm(q), r = b * sine * norm(q);
-  const int other = b + (draw.integer(0, 1) == 1 ? 0 : draw.integer(1, 9));
+  const int other = b + (draw.coin() ? 0 : draw.integer(1, 9));
   ExactBody outer{small_vector(draw, 99), {a * scale, b * scale, other * scale}, q};
-  ExactBody inner{outer.centre, {r, r, r}, draw.quaternion()};
+  ExactBody inner{outer.centre, {r, r, r}, small_quaternion(draw)};
   const Vector along = turned(q, {c * cosine, 0, 0});
   for (std::size_t k = 0; k < 3; ++k) inner.centre[k] += along[k];
   return pair(outer, inner, kInsideA);
@@ -445,7 +414,7 @@ void for_each_adversarial_pair(std::uint64_t seed, std::size_t count,
     MaybePair p;
     while (!p) p = family.make(draw);  // some draws do not fit into doubles: draw again
     p->family = family.name;
-    if (draw.integer(0, 1) == 1) exchange_bodies(*p);
+    if (draw.coin()) exchange_bodies(*p);
     use(*p);
   }
 }

@@ -4,8 +4,7 @@
 /// grid of doubles, zero discriminants, nests, equal sets and extremes. Wherever the construction
 /// settles the exact relation of the stored doubles, the pair carries it; no solver is asked.
 ///
-/// The stream depends on the seed and the index alone. Draws of integers are the same on every
-/// platform; logarithmic ones follow libm, and manufactured gaps the width of long double.
+/// The stream depends on the seed and the index alone.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +14,21 @@
 #include <span>
 #include <string_view>
 
-#include <tangency/verify/oracles/plain_bodies.hpp>
+#include <tangency/verify/families/placing.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency::verify {
 
-struct AdversarialPair {
-  RawEllipsoid a, b;
+struct AdversarialPair : EllipsoidPair {
   std::string_view family;
-  std::optional<ExactRelation> relation;  // where known by construction
+  std::optional<ExactRelation> relation;  ///< where known by construction
 };
 
-// The families, in the order in which they take turns.
+/// The families, in the order in which they take turns.
 std::span<const std::string_view> adversarial_family_names();
 
-// Calls `use` with `count` pairs, the families taking turns and either body coming first. The first
-// pairs of a longer stream are those of a shorter one.
+/// Calls `use` with `count` pairs, the families taking turns and either body coming first. The
+/// first pairs of a longer stream are those of a shorter one.
 void for_each_adversarial_pair(std::uint64_t seed, std::size_t count,
                                const std::function<void(const AdversarialPair&)>& use);
 

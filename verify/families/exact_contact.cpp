@@ -2,6 +2,8 @@
 #include <tangency/verify/families/exact_contact.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace tangency::verify::construction {
 namespace {
@@ -23,6 +25,14 @@ const mpz_class& least(const Vector& v) { return *std::min_element(v.begin(), v.
 const mpz_class& largest(const Vector& v) { return *std::max_element(v.begin(), v.end()); }
 
 }  // namespace
+
+Quaternion small_quaternion(Draw& draw) {
+  Quaternion q{};
+  while (q == Quaternion{}) {
+    for (int& v : q) v = draw.integer(-2, 2);
+  }
+  return q;
+}
 
 int norm(const Quaternion& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
 
@@ -75,8 +85,8 @@ Vector small_axes(Draw& draw, int largest) {
 std::optional<Contact> contact(Draw& draw, bool inside) {
   Contact c;
   c.inside = inside;
-  c.a.q = draw.quaternion();
-  c.b.q = draw.quaternion();
+  c.a.q = small_quaternion(draw);
+  c.b.q = small_quaternion(draw);
   const auto [u_a, radius_a] = sphere_point(draw);
   auto [u_b, radius_b] = sphere_point(draw);
   Vector axes_a = small_axes(draw, 6);

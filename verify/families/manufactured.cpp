@@ -2,16 +2,13 @@
 #include <tangency/verify/families/manufactured.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
+#include <cstddef>
 
-#include <tangency/verify/families/support.hpp>
+namespace tangency::verify {
 
-namespace tangency::families {
 std::span<const ContactFamily> contact_classes() {
   using F = ContactFamily;
-  static const std::array<ContactFamily, 3> classes = {{
+  static const std::array<ContactFamily, 3> classes{{
       {"class1", F::Shape::spheroid, 1.43, 1, F::GapUnit::smallest_semi_axis, 0.02},
       {"class2", F::Shape::drawn, 5, 3, F::GapUnit::smallest_semi_axis, 0.02},
       {"class3", F::Shape::drawn, 1000, 1000, F::GapUnit::rho, 1e-3},
@@ -19,60 +16,41 @@ std::span<const ContactFamily> contact_classes() {
   return classes;
 }
 
-ManufacturedContacts::ManufacturedContacts(const ContactFamily& family, std::uint64_t seed)
-    : family_(family), random_(seed) {}
-
-Real ManufacturedContacts::uniform(Real low, Real high) {
-  return families::uniform(random_, low, high);
+EllipsoidPair contact_bodies(Draw& draw, const ContactFamily& family) {
+  using Shape = ContactFamily::Shape;
+  const auto axes = [&](double size) {
+    if (family.shape == Shape::triaxial) return triaxial_axes(draw, size, family.aspect);
+    if (family.shape == Shape::drawn) {
+      return triaxial_axes(draw, size, draw.log_uniform(1, family.aspect));
+    }
+    std::array<double, 3> spheroid{size * family.aspect, size, size};
+    draw.shuffle(spheroid);
+    return spheroid;
+  };
+  EllipsoidPair pair{turned_body(draw, axes(1)), {}};
+  const double size = draw.log_uniform(1 / family.size_ratio, family.size_ratio);
+  pair.b = turned_body(draw, axes(size));
+  for (double& v : pair.a.centre) v = draw.real(-1, 1);
+  return pair;
 }
 
-Real ManufacturedContacts::log_uniform(Real high_over_low) {
-  const Real half = std::log(high_over_low) / 2;
-  return std::exp(uniform(-half, half));
-}
-
-std::array<double, 3> ManufacturedContacts::semi_axes(Real size) {
-  Real aspect = family_.aspect;
-  if (family_.shape == ContactFamily::Shape::drawn) aspect = std::exp(uniform(0, std::log(aspect)));
-  const Real middle =
-      family_.shape == ContactFamily::Shape::spheroid ? 1 : std::exp(uniform(0, std::log(aspect)));
-  std::array<double, 3> axes = {static_cast<double>(size * aspect),
-                                static_cast<double>(size * middle), static_cast<double>(size)};
-  for (std::size_t i = 2; i > 0; --i) std::swap(axes[i], axes[random_() % (i + 1)]);
-  return axes;
-}
-
-ManufacturedContact ManufacturedContacts::next() {
-  ManufacturedContact contact;
-  RawEllipsoid &a = contact.a, &b = contact.b;
-  a.semi_axes = semi_axes(1);
-  b.semi_axes = semi_axes(log_uniform(Real(family_.size_ratio) * family_.size_ratio));
-  a.orientation = draw_orientation(random_);
-  b.orientation = draw_orientation(random_);
-  for (double& c : a.centre) c = static_cast<double>(uniform(-1, 1));
-
-  const Vector n = draw_direction(random_);
-  const auto [min_a, max_a] = std::minmax_element(a.semi_axes.begin(), a.semi_axes.end());
-  const auto [min_b, max_b] = std::minmax_element(b.semi_axes.begin(), b.semi_axes.end());
-  contact.smallest_semi_axis = std::min(*min_a, *min_b);
-  const Real rho = Real(*min_a) * *min_a / *max_a + Real(*min_b) * *min_b / *max_b;
-  const Real unit =
-      family_.gap_unit == ContactFamily::GapUnit::rho ? rho : contact.smallest_semi_axis;
-  const Real largest = unit * family_.largest_gap;
-  const Real wanted = uniform(-std::min(largest, rho), largest);
-
-  const Vector point_a = support_point(a, n), point_b = support_point(b, n);
-  Real rounding = 0, distance2 = 0;
+ManufacturedContact drawn(Draw& draw, const ContactFamily& family) {
+  ManufacturedContact contact{contact_bodies(draw, family), {}, 0, 0, 0};
+  contact.smallest_semi_axis = least_axis(contact);
+  const double radii = least_radii(contact);
+  const bool by_radii = family.gap_unit == ContactFamily::GapUnit::rho;
+  const double most = (by_radii ? radii : contact.smallest_semi_axis) * family.largest_gap;
+  const double gap = draw.real(-std::min(most, radii), most);
+  const Real3 n = draw.direction();
+  contact.gap = rounded(place_b(contact, n, gap));
+  Real square = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Real centre = a.centre[i] + point_a[i] + wanted * n[i] + point_b[i];
-    b.centre[i] = static_cast<double>(centre);
-    rounding += n[i] * (b.centre[i] - centre);
-    distance2 += (centre - a.centre[i]) * (centre - a.centre[i]);
-    contact.normal[i] = static_cast<double>(n[i]);
+    const Real d = Real(contact.b.centre[i]) - contact.a.centre[i];
+    square += d * d;
+    contact.normal[i] = rounded(n[i]);
   }
-  contact.gap = static_cast<double>(wanted + rounding);
-  contact.size = static_cast<double>(std::sqrt(distance2)) + *max_a + *max_b;
+  contact.size = rounded(sqrt(square)) + most_axis(contact.a) + most_axis(contact.b);
   return contact;
 }
 
-}  // namespace tangency::families
+}  // namespace tangency::verify

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Manufactured contacts: pairs of ellipsoids whose gap, normal and witness points are known
-/// without a solver. Choose A, B's shape, a unit normal n and a gap g and put
-///     c_B = c_A + x_A(n) + g n + x_B(n);
-/// then n is stationary with gap g, and it is the global answer for g > -rho, rho the sum of the
-/// least radii of curvature a_min^2 / a_max. Computed in long double; after rounding c_B to double
-/// g is corrected by n . (rounding), exact to second order in rounding / radius of curvature.
+/// Manufactured contacts: pairs of ellipsoids whose gap and normal are known without a solver
+/// (placing.hpp).
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <random>
 #include <span>
 #include <string>
 
-#include <tangency/verify/oracles/plain_bodies.hpp>
+#include <tangency/verify/families/draw.hpp>
+#include <tangency/verify/families/placing.hpp>
 
-namespace tangency::families {
-
-using verify::RawEllipsoid;
+namespace tangency::verify {
 
 /// How shapes, sizes and gaps of a family are drawn.
 struct ContactFamily {
@@ -27,7 +20,7 @@ struct ContactFamily {
     triaxial,  ///< log-uniform: the longest `aspect` times the shortest, the middle in between
     drawn,     ///< triaxial with the aspect ratio itself log-uniform in [1, aspect]
   };
-  enum class GapUnit { smallest_semi_axis, rho };  ///< of the pair
+  enum class GapUnit { smallest_semi_axis, rho };  ///< of the pair; rho: least_radii()
 
   std::string name;
   Shape shape;
@@ -37,10 +30,9 @@ struct ContactFamily {
   double largest_gap;  ///< gaps are uniform in +- this, in gap_unit; rho stays the limit below 0
 };
 
-struct ManufacturedContact {
-  RawEllipsoid a, b;
+struct ManufacturedContact : EllipsoidPair {
   std::array<double, 3> normal;  ///< unit, from A to B, rounded
-  double gap;                    ///< of the stored doubles, rounded
+  double gap;                    ///< of the stored doubles, to second order, rounded
   double smallest_semi_axis;     ///< of the two bodies
   double size;                   ///< |c_B - c_A| + largest semi-axis of A + that of B
 };
@@ -48,20 +40,11 @@ struct ManufacturedContact {
 /// Classes 1, 2 and 3 of the published comparison of methods, in this order.
 std::span<const ContactFamily> contact_classes();
 
-/// An endless, reproducible sequence of contacts of one family.
-class ManufacturedContacts {
- public:
-  ManufacturedContacts(const ContactFamily& family, std::uint64_t seed);
-  ManufacturedContact next();
+/// Shapes and sizes of a family, A somewhere near the origin and B at it.
+EllipsoidPair contact_bodies(Draw& draw, const ContactFamily& family);
 
- private:
-  using Real = long double;
-  Real uniform(Real low, Real high);
-  Real log_uniform(Real high_over_low);  ///< in [1/sqrt, sqrt] of it
-  std::array<double, 3> semi_axes(Real size);
+ManufacturedContact drawn(Draw& draw, const ContactFamily& family);
 
-  ContactFamily family_;
-  std::mt19937_64 random_;
-};
+using ManufacturedContacts = Sequence<ContactFamily>;
 
-}  // namespace tangency::families
+}  // namespace tangency::verify

@@ -18,20 +18,20 @@
 
 namespace tangency::verify {
 
-// Values by name.
+/// Values by name.
 using Baseline = std::map<std::string, double>;
 
-// What as_json() wrote. Throws csv::Error, naming the file and the line, for anything else.
+/// What as_json() wrote. Throws csv::Error, naming the file and the line, for anything else.
 Baseline read_baseline(const std::string& path);
 
-// A line each, with both values; worse and better: the largest change first.
+/// A line each, with both values; worse and better: the largest change first.
 struct Comparison {
   std::vector<std::string> worse, better;
-  std::vector<std::string> unknown;      // names that the baseline does not have
-  std::vector<std::string> information;  // times
+  std::vector<std::string> unknown;      ///< names that the baseline does not have
+  std::vector<std::string> information;  ///< times
 };
 
-// `slack` >= 0 is a share of the baseline's error. Corpora that were not graded are left out.
+/// `slack` >= 0 is a share of the baseline's error. Corpora that were not graded are left out.
 Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack);
 
 }  // namespace tangency::verify

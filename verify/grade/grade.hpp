@@ -36,7 +36,7 @@ namespace tangency::verify {
 
 inline constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
-// Of the answers that there are; nearest rank.
+/// Of the answers that there are; nearest rank.
 struct ErrorSummary {
   std::size_t count = 0;
   double median = 0, percentile_99 = 0, largest = 0;
@@ -47,32 +47,32 @@ struct FamilyGrade {
   std::string name;
   std::size_t rows = 0;
   std::size_t wrong = 0, first_wrong = kNoRow;
-  std::size_t touches = 0;  // overlaps 1 on an external touch
+  std::size_t touches = 0;  ///< overlaps 1 on an external touch
   std::size_t missing = 0, first_missing = kNoRow;
-  std::size_t unanswered = 0;   // of the missing: rows without any line
-  std::size_t without_gap = 0;  // rows that have a true gap and were given none
+  std::size_t unanswered = 0;   ///< of the missing: rows without any line
+  std::size_t without_gap = 0;  ///< rows that have a true gap and were given none
   std::size_t broken_bounds = 0, first_broken = kNoRow;
-  std::size_t reversed = 0, first_reversed = kNoRow;  // normals
+  std::size_t reversed = 0, first_reversed = kNoRow;  ///< normals
   ErrorSummary gap, normal, area;
 };
 
 struct Grade {
   std::vector<FamilyGrade> families;
-  FamilyGrade all;                  // of the whole corpus
-  std::vector<std::string> faults;  // the first ten: duplicates, unknown rows, rubbish
+  FamilyGrade all;                  ///< of the whole corpus
+  std::vector<std::string> faults;  ///< the first ten: duplicates, unknown rows, rubbish
   std::size_t fault_count = 0;
-  bool judges_words = false;    // relation, overlaps, crossings or type were answered
-  bool judges_gaps = false;     // gaps were answered
-  bool judges_normals = false;  // normals were answered
-  bool claims_bounds = false;   // gap_error was answered
+  bool judges_words = false;    ///< relation, overlaps, crossings or type were answered
+  bool judges_gaps = false;     ///< gaps were answered
+  bool judges_normals = false;  ///< normals were answered
+  bool claims_bounds = false;   ///< gap_error was answered
 };
 
-// Asked of every row even where the answers' header does not offer it.
+/// Asked of every row even where the answers' header does not offer it.
 struct Demands {
   bool words = false, gap = false, normal = false;
 };
 
-// `answers` is a path. Never throws for what stands in it.
+/// `answers` is a path. Never throws for what stands in it.
 Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands);
 
 }  // namespace tangency::verify

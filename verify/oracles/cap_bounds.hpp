@@ -21,7 +21,7 @@ namespace tangency::verify::cap {
 
 using Interval = CGAL::Interval_nt<false>;
 using Interval3 = std::array<Interval, 3>;
-using Direction = std::array<double, 3>;  // of any length but 0, exact
+using Direction = std::array<double, 3>;  ///< of any length but 0, exact
 
 inline double middle(const Interval& v) { return v.inf() + (v.sup() - v.inf()) / 2; }
 
@@ -29,11 +29,11 @@ inline Interval squared_norm(const Interval3& v) {
   return square(v[0]) + square(v[1]) + square(v[2]);
 }
 
-// One body about a normal.
+/// One body about a normal.
 struct Side {
   ascent::Support<Interval> at;
-  double reach;     // >= the tangential part of the support point
-  Interval growth;  // >= e'Me - h^2 for every tangential unit e, and >= 0
+  double reach;     ///< >= the tangential part of the support point
+  Interval growth;  ///< >= e'Me - h^2 for every tangential unit e, and >= 0
 
   Side(const Shape<Interval>& body, const Interval3& n, const Interval3& s, const Interval3& t)
       : at(ascent::support(body, n, s, t)) {
@@ -44,9 +44,8 @@ struct Side {
     growth = std::max(0.0, Interval(at.h * most_bend + reach2 - square(at.h)).sup());
   }
 
-  // <= (h(n) / h)^3 wherever h is taken on the cap of sine `sine`: h^2 = (h cos)^2 + 2 sin cos h
-  // x.e
-  // + sin^2 e'Me, and e'Me = h e'Hess h e + (x.e)^2.
+  /// <= (h(n) / h)^3 wherever h is taken on the cap of sine `sine`:
+  /// h^2 = (h cos)^2 + 2 sin cos h x.e + sin^2 e'Me, and e'Me = h e'Hess h e + (x.e)^2.
   double share(double sine) const {
     const Interval hh = square(at.h), s = sine;
     const Interval q = hh / (hh + 2 * s * at.h * reach + square(s) * growth);
@@ -54,7 +53,7 @@ struct Side {
   }
 };
 
-// f with bounds of its derivatives at the normal along `direction`.
+/// f with bounds of its derivatives at the normal along `direction`.
 struct Point {
   Interval3 n, s, t;
   Side a, b;
@@ -86,19 +85,19 @@ struct Point {
         rt(ascent::dot(t, pair.d) - a.at.slope_t - b.at.slope_t) {}
 };
 
-// (1): an upper bound of f on the cap about the point.
+/// (1): an upper bound of f on the cap about the point.
 double upper_bound(const Point& at, double sine);
 
-// (3): another.
+/// (3): another.
 double upper_bound_by_plane(const Separation<Interval>& pair, const Point& at, double sine);
 
-// A lower bound of f on the cap; -infinity where a body's h may be far below n.x.
+/// A lower bound of f on the cap; -infinity where a body's h may be far below n.x.
 double lower_bound(const Point& at, double sine);
 
-// A lower bound, at least 0, of R on the cap in every direction.
+/// A lower bound, at least 0, of R on the cap in every direction.
 double least_radius(const Separation<Interval>& pair, const Point& at, double sine);
 
-// (4): f has proven to have no maximum on the cap, whose angle is at most `angle`.
+/// (4): f has proven to have no maximum on the cap, whose angle is at most `angle`.
 bool holds_no_maximum(const Separation<Interval>& pair, const Point& at, double angle);
 
 }  // namespace tangency::verify::cap

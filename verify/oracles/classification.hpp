@@ -37,22 +37,22 @@ enum class QuadricType {
   real_parallel_planes,
   imaginary_parallel_planes,
   coincident_planes,
-  plane,      // no quadric: a linear form
-  no_points,  // no quadric: a nonzero constant
-  all_space,  // no quadric: zero
+  plane,      ///< no quadric: a linear form
+  no_points,  ///< no quadric: a nonzero constant
+  all_space,  ///< no quadric: zero
 };
 
-// The name in the file formats, which is the enumerator's.
+/// The name in the file formats, which is the enumerator's.
 std::string_view name(QuadricType type);
 
 struct Classification {
   QuadricType type;
-  int rank4;  // rank of Q
-  int rank3;  // rank of its upper 3x3 block
+  int rank4;  ///< rank of Q
+  int rank3;  ///< rank of its upper 3x3 block
   friend bool operator==(const Classification&, const Classification&) = default;
 };
 
-// Throws std::invalid_argument if a coefficient is not finite.
+/// Throws std::invalid_argument if a coefficient is not finite.
 Classification classify(const RawQuadric& quadric);
 
 }  // namespace tangency::verify

@@ -15,14 +15,14 @@
 
 namespace tangency::verify {
 
-// From 0 to pi/2, of (1 - m sin^2)^(-1/2), of (1 - m sin^2)^(1/2) and of sin^2 (1 - m
-// sin^2)^(-1/2), each to 1e-15 of itself (D too where m is small, where (K - E) / m is not). Throw
-// std::invalid_argument unless m < 1; E has m = 1 too.
+/// From 0 to pi/2, of (1 - m sin^2)^(-1/2), of (1 - m sin^2)^(1/2) and of sin^2 (1 - m
+/// sin^2)^(-1/2), each to 1e-15 of itself (D too where m is small, where (K - E) / m is not). Throw
+/// std::invalid_argument unless m < 1; E has m = 1 too.
 double complete_elliptic_k(double m);
 double complete_elliptic_e(double m);
 double complete_elliptic_d(double m);
 
-// The first two from 0 to phi. Throw std::invalid_argument unless |phi| <= pi/2 and m < 1.
+/// The first two from 0 to phi. Throw std::invalid_argument unless |phi| <= pi/2 and m < 1.
 double incomplete_elliptic_f(double phi, double m);
 double incomplete_elliptic_e(double phi, double m);
 
@@ -30,10 +30,10 @@ struct JacobiElliptic {
   double sn, cn, dn;
 };
 
-// Each to 2e-15 max(1, |u|). Throws std::invalid_argument unless 0 <= m <= 1.
+/// Each to 2e-15 max(1, |u|). Throws std::invalid_argument unless 0 <= m <= 1.
 JacobiElliptic jacobi_elliptic(double u, double m);
 
-// Throw std::invalid_argument unless all semi-axes are finite and > 0.
+/// Throw std::invalid_argument unless all semi-axes are finite and > 0.
 double ellipse_perimeter(const std::array<double, 2>& semi_axes);
 double ellipsoid_surface(const std::array<double, 3>& semi_axes);
 

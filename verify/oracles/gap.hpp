@@ -36,26 +36,26 @@ namespace tangency::verify {
 
 struct GapTruth {
   Real gap;
-  Real3 normal;        // unit, from A to B
-  Real3 arm_a, arm_b;  // witness points relative to their body's centre: p_A - c_A, p_B - c_B
-  bool global;         // proven: no normal has a greater f
-  double unproven;     // the global gap is proven to be at most gap + unproven; 0 where `global`;
-                       // infinite where nothing was tried
+  Real3 normal;        ///< unit, from A to B
+  Real3 arm_a, arm_b;  ///< witness points relative to their body's centre: p_A - c_A, p_B - c_B
+  bool global;         ///< proven: no normal has a greater f
+  double unproven;     ///< the global gap is proven to be at most gap + unproven; 0 where `global`;
+                       ///< infinite where nothing was tried
 };
 
-// The stationary answer that an ascent from `start` (not 0, any length) leads to; `global` by (1)
-// alone. Throws std::invalid_argument unless both are ellipsoids, std::runtime_error if the ascent
-// does not arrive.
+/// The stationary answer that an ascent from `start` (not 0, any length) leads to; `global` by (1)
+/// alone. Throws std::invalid_argument unless both are ellipsoids, std::runtime_error if the ascent
+/// does not arrive.
 GapTruth stationary_gap(const RealEllipsoid& a, const RealEllipsoid& b,
                         const std::array<double, 3>& start);
 
-// The global answer. Where several normals tie, one of them. Throws as above.
+/// The global answer. Where several normals tie, one of them. Throws as above.
 GapTruth signed_gap(const RealEllipsoid& a, const RealEllipsoid& b);
 GapTruth signed_gap(const RawEllipsoid& a, const RawEllipsoid& b);
 
-// The global answer and after it, best first, every maximum whose gap is lower by up to `within`
-// >= 0 (in the unit of length); none is left out if the first is `global`, and only the first is
-// marked so. Where normals tie along a curve some of them. Throws as above.
+/// The global answer and after it, best first, every maximum whose gap is lower by up to `within`
+/// >= 0 (in the unit of length); none is left out if the first is `global`, and only the first is
+/// marked so. Where normals tie along a curve some of them. Throws as above.
 std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within);
 
 }  // namespace tangency::verify

@@ -39,28 +39,28 @@
 namespace tangency::verify {
 
 struct EnclosureLimits {
-  double width = 0;                 // stop once upper - lower is no more; in the unit of length
-  double within = 0;                // keep maxima that are lower than the best by up to this
-  std::size_t most_boxes = 400000;  // chosen: about a second
+  double width = 0;                 ///< stop once upper - lower is no more; in the unit of length
+  double within = 0;                ///< keep maxima that are lower than the best by up to this
+  std::size_t most_boxes = 400000;  ///< chosen: about a second
 };
 
-// All unit normals within `radius` (radians) of `centre` (unit to rounding).
+/// All unit normals within `radius` (radians) of `centre` (unit to rounding).
 struct NormalCap {
   std::array<double, 3> centre;
   double radius;
-  double upper;  // f <= upper on the cap
-  bool concave;  // f is concave on the cap and has a near-stationary point at its centre
+  double upper;  ///< f <= upper on the cap
+  bool concave;  ///< f is concave on the cap and has a near-stationary point at its centre
 };
 
 struct GapEnclosure {
-  double lower, upper;          // of the global gap
-  std::vector<NormalCap> caps;  // every global maximiser is in one of them; best bounds first
-  bool isolated;                // all caps are concave
-  std::size_t boxes;            // spent
+  double lower, upper;          ///< of the global gap
+  std::vector<NormalCap> caps;  ///< every global maximiser is in one of them; best bounds first
+  bool isolated;                ///< all caps are concave
+  std::size_t boxes;            ///< spent
 };
 
-// For bodies that differ by factors beyond 1e100 in size or distance the bounds may be infinite.
-// Throws std::invalid_argument unless both are ellipsoids.
+/// For bodies that differ by factors beyond 1e100 in size or distance the bounds may be infinite.
+/// Throws std::invalid_argument unless both are ellipsoids.
 GapEnclosure gap_enclosure(const RealEllipsoid& a, const RealEllipsoid& b,
                            const EnclosureLimits& limits = {});
 GapEnclosure gap_enclosure(const RawEllipsoid& a, const RawEllipsoid& b,

@@ -14,23 +14,23 @@
 
 namespace tangency::verify {
 
-// The integers m with values[i] = m[i] 2^exponent, for the largest exponent that keeps all of them
-// integers. All zero: exponent 0.
+/// The integers m with values[i] = m[i] 2^exponent, for the largest exponent that keeps all of them
+/// integers. All zero: exponent 0.
 struct ScaledIntegers {
   std::vector<mpz_class> m;
   int exponent = 0;
 };
 
-// Throws std::invalid_argument if a value is not finite.
+/// Throws std::invalid_argument if a value is not finite.
 ScaledIntegers to_integers(std::span<const double> values);
 
-// A symmetric 4x4 matrix; smaller ones use the leading block.
+/// A symmetric 4x4 matrix; smaller ones use the leading block.
 using IntegerMatrix = std::array<std::array<mpz_class, 4>, 4>;
 
-// The matrix of the quadratic form in (x, y, z, 1), times a positive power of two.
+/// The matrix of the quadratic form in (x, y, z, 1), times a positive power of two.
 IntegerMatrix discriminant_matrix(const RawQuadric& quadric);
 
-// Numbers of positive, negative and zero eigenvalues.
+/// Numbers of positive, negative and zero eigenvalues.
 struct Inertia {
   int positive = 0;
   int negative = 0;
@@ -40,10 +40,10 @@ struct Inertia {
   friend bool operator==(const Inertia&, const Inertia&) = default;
 };
 
-// Inertia of the leading size x size block (size <= 4): symmetric elimination with diagonal
-// pivots; when every diagonal entry left is zero and m_ij is not, row and column j are first
-// added to i. Sylvester's law makes the signs of the pivots the inertia. Bareiss' division keeps
-// the entries minors of the (unimodularly transformed) matrix, so they do not grow beyond those.
+/// Inertia of the leading size x size block (size <= 4): symmetric elimination with diagonal
+/// pivots; when every diagonal entry left is zero and m_ij is not, row and column j are first
+/// added to i. Sylvester's law makes the signs of the pivots the inertia. Bareiss' division keeps
+/// the entries minors of the (unimodularly transformed) matrix, so they do not grow beyond those.
 Inertia inertia(IntegerMatrix m, int size);
 
 }  // namespace tangency::verify

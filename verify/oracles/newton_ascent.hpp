@@ -40,7 +40,7 @@ Triple<T> scaled(const T& s, const Triple<T>& a) {
   return {s * a[0], s * a[1], s * a[2]};
 }
 
-// a + s u + t v.
+/// a + s u + t v.
 template <class T>
 Triple<T> combined(const Triple<T>& a, const T& s, const Triple<T>& u, const T& t,
                    const Triple<T>& v) {
@@ -49,7 +49,7 @@ Triple<T> combined(const Triple<T>& a, const T& s, const Triple<T>& u, const T& 
   return result;
 }
 
-// Of any length within the range of T; nothing is promised for 0.
+/// Of any length within the range of T; nothing is promised for 0.
 template <class T>
 Triple<T> normalised(Triple<T> a) {
   using std::abs, std::sqrt;
@@ -61,7 +61,7 @@ Triple<T> normalised(Triple<T> a) {
   return scaled(T(1 / sqrt(dot(a, a))), a);
 }
 
-// Right-handed with the unit vector n, which is not along space axis k.
+/// Right-handed with the unit vector n, which is not along space axis k.
 template <class T>
 std::array<Triple<T>, 2> tangents(const Triple<T>& n, std::size_t k) {
   using std::sqrt;
@@ -74,7 +74,7 @@ std::array<Triple<T>, 2> tangents(const Triple<T>& n, std::size_t k) {
   return {s, cross(n, s)};
 }
 
-// The space axis most nearly normal to n.
+/// The space axis most nearly normal to n.
 template <class T>
 std::size_t most_normal_axis(const Triple<T>& n) {
   using std::abs;
@@ -85,12 +85,12 @@ std::size_t most_normal_axis(const Triple<T>& n) {
   return k;
 }
 
-// h and its derivatives at a unit n; e = s, t.
+/// h and its derivatives at a unit n; e = s, t.
 template <class T>
 struct Support {
   T h;
-  T slope_s, slope_t;           // e . x
-  T bend_ss, bend_st, bend_tt;  // e' Hess h e'
+  T slope_s, slope_t;           ///< e . x
+  T bend_ss, bend_st, bend_tt;  ///< e' Hess h e'
 };
 
 template <class T>
@@ -116,7 +116,7 @@ Support<T> support(const Shape<T>& body, const Triple<T>& n, const Triple<T>& s,
   return {h, xs * per, xt * per, jtt * per3, -jst * per3, jss * per3};
 }
 
-// x(n) relative to the centre.
+/// x(n) relative to the centre.
 template <class T>
 Triple<T> support_point(const Shape<T>& body, const Triple<T>& n) {
   using std::sqrt;
@@ -134,9 +134,9 @@ template <class T>
 struct Value {
   Triple<T> n, s, t;
   T f;
-  T rs, rt;         // gradient
-  T residual;       // its length
-  T kss, kst, ktt;  // K
+  T rs, rt;         ///< gradient
+  T residual;       ///< its length
+  T kss, kst, ktt;  ///< K
 };
 
 template <class T>
@@ -159,7 +159,7 @@ Value<T> value(const Separation<T>& pair, const Triple<T>& unit) {
           f + a.bend_tt + b.bend_tt};
 }
 
-// K = low u u' + high v v', low <= high, with v = (-u_t, u_s) in the basis (s, t).
+/// K = low u u' + high v v', low <= high, with v = (-u_t, u_s) in the basis (s, t).
 template <class T>
 struct Principal {
   T low, high;
@@ -180,7 +180,7 @@ Principal<T> principal(const Value<T>& at) {
   return {low, high, x * per, y * per};
 }
 
-// r / |k|, no longer than `radius`.
+/// r / |k|, no longer than `radius`.
 template <class T>
 T bounded_step(const T& r, const T& k, const T& radius) {
   using std::abs;
@@ -191,10 +191,10 @@ T bounded_step(const T& r, const T& k, const T& radius) {
 template <class T>
 struct Arrival {
   Value<T> at;
-  bool stationary;  // |gradient| <= tolerance, and K >= 0 up to sqrt(epsilon) L
+  bool stationary;  ///< |gradient| <= tolerance, and K >= 0 up to sqrt(epsilon) L
 };
 
-// Sum of the bodies' extents and their distance.
+/// Sum of the bodies' extents and their distance.
 template <class T>
 T extent(const Separation<T>& pair) {
   using std::sqrt;
@@ -209,9 +209,9 @@ T extent(const Separation<T>& pair) {
   return sum;
 }
 
-// Never downhill: Newton along either principal direction of K with its eigenvalue's absolute
-// value, held within a trust radius. Ends at a stationary point that is no saddle, or where
-// rounding stops it.
+/// Never downhill: Newton along either principal direction of K with its eigenvalue's absolute
+/// value, held within a trust radius. Ends at a stationary point that is no saddle, or where
+/// rounding stops it.
 template <class T>
 Arrival<T> ascend(const Separation<T>& pair, const Triple<T>& start, const T& tolerance,
                   int most_steps) {

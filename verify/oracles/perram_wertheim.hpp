@@ -19,23 +19,23 @@ namespace tangency::verify {
 
 struct DefinedGap {
   Real gap;
-  Real3 normal;        // unit, from A to B
-  Real3 arm_a, arm_b;  // witness points relative to their body's centre
+  Real3 normal;        ///< unit, from A to B
+  Real3 arm_a, arm_b;  ///< witness points relative to their body's centre
 };
 
 struct PerramWertheimTruth {
-  Real contact_function;  // F; > 1 <=> apart
-  // Between the tangent planes with the normal n: (1 - 1/sqrt F) n.d; support points.
+  Real contact_function;  ///< F; > 1 <=> apart
+  /// Between the tangent planes with the normal n: (1 - 1/sqrt F) n.d; support points.
   DefinedGap tangent_planes;
-  // From the last point in A to the first in B of the line along n through the point of equal
-  // levels; nothing where the line misses a body.
+  /// From the last point in A to the first in B of the line along n through the point of equal
+  /// levels; nothing where the line misses a body.
   std::optional<DefinedGap> midpoint;
-  // Along the line of centres, (1 - 1/sqrt F) |d|: how far B moves along -d until both touch, F
-  // being homogeneous of degree 2 in d.
+  /// Along the line of centres, (1 - 1/sqrt F) |d|: how far B moves along -d until both touch, F
+  /// being homogeneous of degree 2 in d.
   Real centre_line;
 };
 
-// Nothing where the centres coincide. Throws std::invalid_argument unless both are ellipsoids.
+/// Nothing where the centres coincide. Throws std::invalid_argument unless both are ellipsoids.
 std::optional<PerramWertheimTruth> perram_wertheim(const RealEllipsoid& a, const RealEllipsoid& b);
 std::optional<PerramWertheimTruth> perram_wertheim(const RawEllipsoid& a, const RawEllipsoid& b);
 

@@ -30,23 +30,23 @@ Vector120 exact(const std::array<double, 3>& v);
 Vector120 from_centre(const RawEllipsoid& body, const std::array<double, 3>& point);
 
 struct NearestTruth {
-  Digits120 distance;  // signed, < 0 inside
+  Digits120 distance;  ///< signed, < 0 inside
   Vector120 point, normal;
-  Digits120 multiplier;  // t of (1)
+  Digits120 multiplier;  ///< t of (1)
 };
 NearestTruth nearest(const RawEllipsoid& body, const Vector120& point);
 
 struct LineTruth {
-  Digits120 discriminant;  // relative to |diag(1/a) R'e|^2: 1 - (least level along the line)
-  Digits120 t[2];          // where it is >= 0, by increasing t
+  Digits120 discriminant;  ///< relative to |diag(1/a) R'e|^2: 1 - (least level along the line)
+  Digits120 t[2];          ///< where it is >= 0, by increasing t
 };
 LineTruth line(const RawEllipsoid& body, const Vector120& origin, const Vector120& direction);
 
 struct WallTruth {
   Digits120 gap, centre_distance;
-  Vector120 point;  // the body's
+  Vector120 point;  ///< the body's
 };
-// The half-space normal . x <= offset, in space.
+/// The half-space normal . x <= offset, in space.
 WallTruth wall(const RawEllipsoid& body, const std::array<double, 3>& normal, double offset);
 
 }  // namespace tangency::verify

@@ -44,39 +44,40 @@
 namespace tangency::verify {
 
 enum class Relation {
-  separate,        // no common point
-  external_touch,  // common points, disjoint interiors
-  overlap,         // every other pair, whether or not the surfaces also touch somewhere
-  internal_touch,  // one inside the other, not equal, boundaries meeting
-  a_in_b,          // A inside the interior of B
+  separate,        ///< no common point
+  external_touch,  ///< common points, disjoint interiors
+  overlap,         ///< every other pair, whether or not the surfaces also touch somewhere
+  internal_touch,  ///< one inside the other, not equal, boundaries meeting
+  a_in_b,          ///< A inside the interior of B
   b_in_a,
   equal
 };
 
-// The name in the file formats, which is the enumerator's.
+/// The name in the file formats, which is the enumerator's.
 std::string_view name(Relation relation);
 
 enum class Inner { none, a, b };
 
-// `inner` says which body is inside for internal_touch and is none otherwise.
+/// `inner` says which body is inside for internal_touch and is none otherwise.
 struct ExactRelation {
   Relation relation;
   Inner inner = Inner::none;
   friend bool operator==(const ExactRelation&, const ExactRelation&) = default;
 };
 
-// Throws std::invalid_argument unless both are ellipsoids: finite, semi-axes > 0, orientation != 0.
+/// Throws std::invalid_argument unless both are ellipsoids: finite, semi-axes > 0, orientation !=
+/// 0.
 ExactRelation exact_relation(const RawEllipsoid& a, const RawEllipsoid& b);
 
-// The interiors meet: the relation is neither separate nor external_touch. Throws as above.
+/// The interiors meet: the relation is neither separate nor external_touch. Throws as above.
 bool exact_overlaps(const RawEllipsoid& a, const RawEllipsoid& b);
 
-// The same answer by (6) to (8) alone, without guessed witnesses: slower, and there so that the two
-// ways can be held against each other.
+/// The same answer by (6) to (8) alone, without guessed witnesses: slower, and there so that the
+/// two ways can be held against each other.
 ExactRelation exact_relation_by_pencil(const RawEllipsoid& a, const RawEllipsoid& b);
 
-// The same for two surfaces given by coefficients, either sign of each. Throws
-// std::invalid_argument unless both are real ellipsoids.
+/// The same for two surfaces given by coefficients, either sign of each. Throws
+/// std::invalid_argument unless both are real ellipsoids.
 ExactRelation exact_relation_by_pencil(const RawQuadric& a, const RawQuadric& b);
 
 }  // namespace tangency::verify

@@ -10,20 +10,20 @@
 
 namespace tangency::verify {
 
-// Coefficients from the constant upwards, the last one not 0. Empty: the zero polynomial.
+/// Coefficients from the constant upwards, the last one not 0. Empty: the zero polynomial.
 using IntegerPolynomial = std::vector<mpz_class>;
 
-// Greatest common divisor, primitive with a positive leading coefficient. Requires p and q not
-// zero.
+/// Greatest common divisor, primitive with a positive leading coefficient. Requires p and q not
+/// zero.
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial p, IntegerPolynomial q);
 
-// The two polynomials whose roots, all simple, are the distinct roots of p and its multiple roots.
+/// The two polynomials whose roots, all simple, are the distinct roots of p and its multiple roots.
 struct DistinctRoots {
   IntegerPolynomial all;
-  IntegerPolynomial multiple;  // of degree 0 if p is square-free
+  IntegerPolynomial multiple;  ///< of degree 0 if p is square-free
 };
 
-// Requires p not zero.
+/// Requires p not zero.
 DistinctRoots distinct_roots(const IntegerPolynomial& p);
 
 }  // namespace tangency::verify

@@ -19,30 +19,30 @@
 
 namespace tangency::verify {
 
-// With E(t) = exp(t [w]x): centre(t) = centre + t v + (E(t) - 1) r and R(t) = E(t) R(0); radians.
+/// With E(t) = exp(t [w]x): centre(t) = centre + t v + (E(t) - 1) r and R(t) = E(t) R(0); radians.
 struct RawMotion {
   std::array<double, 3> velocity{}, angular_velocity{}, pivot_arm{};
 };
 
 struct MovingBody {
-  RawEllipsoid body;  // at t = 0
+  RawEllipsoid body;  ///< at t = 0
   RawMotion motion;
 };
 
-// The first contact of the closed solids lies in [from, to], or there is none.
+/// The first contact of the closed solids lies in [from, to], or there is none.
 struct FirstContact {
   enum class Status {
-    none,       // apart throughout [0, horizon]
-    contact,    // apart before `from`, proven contact at `to`
-    undecided,  // apart before `from`; then a part as short as the resolution that is neither, and
-                // no contact is known: `to` is the horizon
+    none,       ///< apart throughout [0, horizon]
+    contact,    ///< apart before `from`, proven contact at `to`
+    undecided,  ///< apart before `from`; then a part as short as the resolution that is neither,
+                ///< and no contact is known: `to` is the horizon
   };
   Status status;
   double from, to;
 };
 
-// Parts are not cut shorter than `resolution`. The enclosure of a contact is no longer than that
-// but where intervals of double arithmetic cannot tell: it is proven, however long it is.
+/// Parts are not cut shorter than `resolution`. The enclosure of a contact is no longer than that
+/// but where intervals of double arithmetic cannot tell: it is proven, however long it is.
 FirstContact first_contact(const MovingBody& a, const MovingBody& b, double horizon,
                            double resolution);
 

@@ -4,11 +4,10 @@
 // spheroids, b/a = 0.7, in four contacts with the normal z, B moved along it, along x, and turned
 // about y and its own centre. Unit of length: the short semi-axis.
 #include <array>
-#include <cstdint>
-#include <functional>
 #include <string>
 
-#include <tangency/verify/corpus/placing.hpp>
+#include <tangency/verify/families/families.hpp>
+#include <tangency/verify/families/placing.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -59,14 +58,12 @@ EllipsoidPair displaced(const Contact& contact, Motion motion, int step) {
 
 // Steps 0, 1, -1, 2, -2 and so on.
 InputFamily<EllipsoidPair> profile(const Contact& contact, Motion motion, const char* name) {
-  return {std::string(contact.name) + ' ' + name, 2 * kSteps + 1,
-          [contact, motion](std::uint64_t) -> std::function<EllipsoidPair()> {
-            return [contact, motion, i = 0]() mutable {
-              const int step = (i % 2 == 1 ? i + 1 : -i) / 2;
-              ++i;
-              return displaced(contact, motion, step);
-            };
-          }};
+  return drawn_family(std::string(contact.name) + ' ' + name, 2 * kSteps + 1,
+                      [contact, motion, i = 0](Draw&) mutable {
+                        const int step = (i % 2 == 1 ? i + 1 : -i) / 2;
+                        ++i;
+                        return displaced(contact, motion, step);
+                      });
 }
 
 }  // namespace

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include <tangency/verify/corpus/draw.hpp>
-#include <tangency/verify/corpus/families.hpp>
+#include <tangency/verify/families/draw.hpp>
+#include <tangency/verify/families/families.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -49,10 +47,6 @@ EllipsePair apart(Draw& draw, const RawEllipse& a, RawEllipse b, double share) {
   return {a, b};
 }
 
-EllipsePair exchanged_by_chance(Draw& draw, const EllipsePair& pair) {
-  return draw.coin() ? EllipsePair{pair.b, pair.a} : pair;
-}
-
 EllipsePair random_pair(Draw& draw) {
   const double aspect = draw.log_uniform(1, 100);
   const RawEllipse a = body(draw, aspect), b = body(draw, aspect, draw.log_uniform(0.3, 3));
@@ -83,11 +77,12 @@ EllipsePair vertex_touches(Draw& draw) {
 // The circle of curvature where (cos, sin) = (3, 4) / 5 on the ellipse of 45 and 80: a crossing of
 // multiplicity 3 and one more.
 EllipsePair osculating(Draw& draw) {
-  const double scale = std::ldexp(draw.integer(1, 1000), draw.integer(-20, 20));
+  const int exponent = draw.integer(-20, 20);
+  const double scale = std::ldexp(draw.integer(1, 1000), exponent);
   const double sx = draw.coin() ? -1 : 1, sy = draw.coin() ? -1 : 1;
   return exchanged_by_chance(
-      draw, {{{0, 0}, {45 * scale, 80 * scale}, {1, 0}},
-             {{-21 * sx * scale, 28 * sy * scale}, {60 * scale, 60 * scale}, {1, 2}}});
+      draw, EllipsePair{{{0, 0}, {45 * scale, 80 * scale}, {1, 0}},
+                        {{-21 * sx * scale, 28 * sy * scale}, {60 * scale, 60 * scale}, {1, 2}}});
 }
 
 EllipsePair four_crossings(Draw& draw) {
@@ -157,8 +152,8 @@ EllipsePair near_touch(Draw& draw) {
   return apart(draw, a, b, draw.coin() ? 1 + off : 1 - off);
 }
 
-EllipsePair extreme(Draw& draw) {
-  const double aspect = draw.log_uniform(1, 1e6);
+EllipsePair extreme(Draw& draw, double largest_aspect) {
+  const double aspect = draw.log_uniform(1, largest_aspect);
   const RawEllipse a = body(draw, aspect), b = body(draw, aspect, draw.log_uniform(1e-3, 1e3));
   EllipsePair pair = apart(draw, a, b, draw.real(0, 1.3));
   const int kind = draw.integer(0, 2);
@@ -172,23 +167,18 @@ EllipsePair extreme(Draw& draw) {
 
 }  // namespace
 
-std::vector<InputFamily<EllipsePair>> ellipse_families() {
-  using Next = EllipsePair (*)(Draw&);
-  const auto family = [](const char* name, std::size_t count, Next next) {
-    return InputFamily<EllipsePair>{
-        name, count, [next](std::uint64_t seed) -> std::function<EllipsePair()> {
-          return [draw = Draw(seed), next]() mutable { return next(draw); };
-        }};
+std::vector<InputFamily<EllipsePair>> ellipse_families(double extreme_aspect) {
+  return {
+      drawn_family("random", 80, random_pair),
+      drawn_family("four crossings", 50, four_crossings),
+      drawn_family("near touch", 60, near_touch),
+      drawn_family("vertex touches", 60, vertex_touches),
+      drawn_family("osculating", 20, osculating),
+      drawn_family("concentric", 40, concentric),
+      drawn_family("equal or nearly", 30, equal_or_nearly),
+      drawn_family("circles", 40, circles),
+      drawn_family("extreme", 50, [=](Draw& draw) { return extreme(draw, extreme_aspect); }),
   };
-  return {family("random", 80, random_pair),
-          family("four crossings", 50, four_crossings),
-          family("near touch", 60, near_touch),
-          family("vertex touches", 60, vertex_touches),
-          family("osculating", 20, osculating),
-          family("concentric", 40, concentric),
-          family("equal or nearly", 30, equal_or_nearly),
-          family("circles", 40, circles),
-          family("extreme", 50, extreme)};
 }
 
 }  // namespace tangency::verify

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <vector>
 
-#include <tangency/verify/corpus/draw.hpp>
-#include <tangency/verify/corpus/families.hpp>
+#include <tangency/verify/families/draw.hpp>
+#include <tangency/verify/families/families.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -90,7 +89,8 @@ RawQuadric image(Draw& draw, Turns& turns) {
 
 RawQuadric scaled(Draw& draw, Turns& turns) {
   RawQuadric q = pulled_back(turns.form(), affine_map(draw, 4));
-  const double factor = std::ldexp(draw.coin() ? 1.0 : -1.0, draw.integer(-900, 900));
+  const int exponent = draw.integer(-900, 900);
+  const double factor = std::ldexp(draw.coin() ? 1.0 : -1.0, exponent);
   for (double* v : coefficients(q)) *v *= factor;
   return q;
 }
@@ -117,10 +117,8 @@ RawQuadric rounded_image(Draw& draw, Turns& turns) {
 std::vector<InputFamily<RawQuadric>> quadric_families() {
   using Next = RawQuadric (*)(Draw&, Turns&);
   const auto family = [](const char* name, std::size_t count, Next next) {
-    return InputFamily<RawQuadric>{
-        name, count, [next](std::uint64_t seed) -> std::function<RawQuadric()> {
-          return [draw = Draw(seed), turns = Turns(), next]() mutable { return next(draw, turns); };
-        }};
+    return drawn_family(name, count,
+                        [next, turns = Turns()](Draw& draw) mutable { return next(draw, turns); });
   };
   return {family("images", 200, image), family("scaled", 100, scaled),
           family("beside a border", 200, beside_a_border), family("rounded", 100, rounded_image)};
