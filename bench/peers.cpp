@@ -3,284 +3,174 @@
 // and times, in one run and on the same pairs. Every code is asked for its answers, in a process of
 // its own, before anything is timed; ours have to be right, those of others are reported.
 //
-// bench_peers            Google Benchmark's report, then the comparison with Simbody
+// bench_peers            the time of each, then the comparison with Simbody
 // bench_peers --table    the tables of docs/peers.md instead
 #include <hwy/targets.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <iostream>
-#include <map>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <tangency/bench/instruction_set.hpp>
+#include <tangency/bench/pairs.hpp>
 #include <tangency/bench/peers/isolate.hpp>
 #include <tangency/bench/peers/report.hpp>
-#include <tangency/bench/yardstick.hpp>
+#include <tangency/bench/timing.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/verify/families/conversions.hpp>
-#include <tangency/verify/families/manufactured.hpp>
 
 namespace {
 
 using namespace tangency::peers;
-using tangency::Ellipsoid;
-using tangency::bench::force_level;
-using tangency::bench::kInCache;
+using namespace tangency::bench;
+using tangency::verify::CallAnswer;
 
-constexpr std::uint64_t kSeed = 20261122;  // the pairs of bench_gap
+using Answers = std::vector<std::optional<CallAnswer>>;
+using PeerPairs = std::vector<std::unique_ptr<PeerPair>>;
 
-struct Family {
-  std::string name;
-  std::vector<RawEllipsoid> raw_a, raw_b;
-  std::vector<Ellipsoid> a, b;
-  std::vector<Truth> truth;
-  std::vector<Ellipsoid> bodies;  ///< A and B of every pair in turn
-  std::vector<tangency::IndexedPair> indices;
-  tangency::BodyArray array{{}};  ///< of bodies, whose memory moves with them
-};
+/// Each turn goes through all pairs, so that the slow ones count: the times of a code differ
+/// between pairs by more than between codes.
+constexpr Effort kEffort{15, 0.05, std::numeric_limits<double>::infinity()};
 
-Family make_family(const tangency::verify::ContactFamily& shape) {
-  Family f;
-  f.name = shape.name;
-  tangency::verify::ManufacturedContacts contacts(shape, kSeed);
-  for (std::size_t i = 0; i < kInCache; ++i) {
-    const auto c = contacts.next();
-    f.raw_a.push_back(c.a);
-    f.raw_b.push_back(c.b);
-    f.a.push_back(tangency::verify::to_ellipsoid(c.a));
-    f.b.push_back(tangency::verify::to_ellipsoid(c.b));
-    f.truth.push_back({c.gap, c.smallest_semi_axis});
-    f.bodies.insert(f.bodies.end(), {f.a.back(), f.b.back()});
-    const auto first = static_cast<std::uint32_t>(2 * i);
-    f.indices.push_back({first, first + 1});
-  }
-  f.array = tangency::BodyArray(f.bodies);
-  return f;
-}
-
-using Answers = std::vector<std::optional<PeerContact>>;
-
-/// A row, and the names of the two benchmarks that fill in its times.
+/// A row, and the jobs that give its times.
 struct Entry {
   Row row;
-  std::string timed, signed_gap;
+  std::size_t timed, signed_gap;
 };
 
-/// Registers a benchmark whose one iteration goes through all pairs, so that the slow ones count
-/// in each repetition: the times of a code differ between pairs by more than between codes.
-template <class Call>
-void add_sweep(const std::string& name, const std::vector<std::size_t>& pairs, const Call& call) {
-  tangency::bench::least_of_repetitions(
-      benchmark::RegisterBenchmark(name.c_str(), [pairs, call](benchmark::State& state) {
-        for (auto _ : state) {
-          for (const std::size_t i : pairs) benchmark::DoNotOptimize(call(i));
-        }
-        state.counters["pairs"] = static_cast<double>(pairs.size());
-      })->Unit(benchmark::kNanosecond));
-}
-
-void add_signed_gap(const std::string& name, const Family& f,
-                    const std::vector<std::size_t>& pairs) {
-  add_sweep(name, pairs, [&f](std::size_t i) { return signed_gap(f.a[i], f.b[i]); });
-}
-
-std::vector<std::size_t> every_pair() {
-  std::vector<std::size_t> pairs(kInCache);
-  for (std::size_t i = 0; i < kInCache; ++i) pairs[i] = i;
-  return pairs;
-}
-
-/// Ends the program where an answer of this library is wrong, by the bounds of bench_gap.
-void require_right(const Entry& entry) {
-  const Score& s = entry.row.score;
-  const double bound = entry.row.family.find('3') == std::string::npos ? 5e-15 : 1e-9;
-  if (s.wrong == 0 && s.unanswered == 0 && s.largest < bound) return;
-  std::fprintf(stderr, "%s: wrong: no timing\n", entry.timed.c_str());
-  std::exit(1);
-}
-
-/// @param own  filled with the answers of signed_gap
-void add_ours(const Family& f, std::vector<Entry>& entries, Answers& own) {
-  Answers yes_or_no;
-  for (std::size_t i = 0; i < kInCache; ++i) {
-    const auto gap = signed_gap(f.a[i], f.b[i]);
-    const bool certain = gap.status == tangency::GapStatus::ok;
-    own.push_back(certain ? std::optional(PeerContact{gap.gap < 0, gap.gap, {}, {}})
-                          : std::nullopt);
-    yes_or_no.push_back(PeerContact{overlaps(f.a[i], f.b[i]), {}, {}, {}});
-  }
-  const auto add = [&](const char* call, GapOf gap_of, const Answers& answers) {
-    Entry entry;
-    entry.row.family = f.name;
-    entry.row.peer = {"Tangency",   TANGENCY_VERSION,          call,
-                      "no options", Definition::common_normal, gap_of};
-    entry.row.ours = true;
-    entry.row.score = score(answers, f.truth);
-    entry.row.ours_there = entry.row.score.largest;
-    entry.timed = f.name + "/" + call;
-    entry.signed_gap = f.name + "/signed_gap";
-    require_right(entry);
-    entries.push_back(entry);
-  };
-  add("signed_gap", GapOf::all, own);
-  add("overlaps", GapOf::none, yes_or_no);
-  add_signed_gap(f.name + "/signed_gap", f, every_pair());
-  add_sweep(f.name + "/overlaps", every_pair(),
-            [&f](std::size_t i) { return overlaps(f.a[i], f.b[i]); });
-}
-
-/// signed_gaps at each instruction set of the machine that has lanes.
-void add_batch(const Family& f, std::vector<Entry>& entries) {
-  for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
-    if (level == HWY_SCALAR || level == HWY_EMU128) continue;
-    const auto gaps = std::make_shared<std::vector<tangency::Gap>>(kInCache);
-    force_level(level);
-    signed_gaps(f.array, {f.indices, {}}, *gaps);
-    force_level(0);
-    Answers answers;
-    for (const tangency::Gap& gap : *gaps)
-      answers.push_back(PeerContact{gap.gap < 0, gap.gap, {}, {}});
-    Entry entry;
-    entry.row.family = f.name;
-    const std::string name = level == HWY_AVX3 ? "AVX-512" : hwy::TargetName(level);
-    entry.row.peer = {"Tangency", TANGENCY_VERSION,          kBatchCall,
-                      name,       Definition::common_normal, GapOf::all};
-    entry.row.ours = true;
-    entry.row.score = score(answers, f.truth);
-    entry.row.ours_there = entry.row.score.largest;
-    entry.timed = f.name + "/" + kBatchCall + "/" + name;
-    entry.signed_gap = f.name + "/signed_gap";
-    require_right(entry);
-    entries.push_back(entry);
-    tangency::bench::least_of_repetitions(
-        benchmark::RegisterBenchmark(entry.timed.c_str(), [&f, level,
-                                                           gaps](benchmark::State& state) {
-          force_level(level);
-          for (auto _ : state) {
-            signed_gaps(f.array, {f.indices, {}}, *gaps);
-            benchmark::ClobberMemory();
-          }
-          force_level(0);
-          state.counters["pairs"] = static_cast<double>(kInCache);
-        })->Unit(benchmark::kNanosecond));
-  }
-}
-
-/// @param pairs  filled with what has to live while the benchmarks run
-void add_peer(const Family& f, const Peer& peer, const Answers& own, std::vector<Entry>& entries,
-              std::vector<std::unique_ptr<PeerPair>>& pairs) {
-  for (std::size_t i = 0; i < kInCache; ++i) pairs.push_back(peer.prepare(f.raw_a[i], f.raw_b[i]));
-  Entry entry;
-  entry.row.family = f.name;
-  entry.row.peer = peer.description();
-  Answers answers, own_there;
-  std::vector<std::size_t> safe;
-  const auto isolated = ask_isolated(pairs);
-  for (std::size_t i = 0; i < kInCache; ++i) {
-    answers.push_back(isolated[i].contact);
-    const bool has_gap = answers[i] && answers[i]->gap;
-    own_there.push_back(has_gap ? own[i] : std::nullopt);
-    const Outcome outcome = isolated[i].outcome;
-    if (outcome == Outcome::aborted || outcome == Outcome::hung)
-      ++entry.row.ended;
-    else
-      safe.push_back(i);
-  }
-  entry.row.score = score(answers, f.truth);
-  entry.row.ours_there = score(own_there, f.truth).largest;
-  const auto& d = entry.row.peer;
-  entry.timed = f.name + "/" + d.name + "/" + d.call + "/" + d.options;
-  entry.signed_gap = f.name + "/signed_gap";
-  if (safe.size() < kInCache) {
-    entry.signed_gap = entry.timed + "/signed_gap there";
-    add_signed_gap(entry.signed_gap, f, safe);
-  }
-  add_sweep(entry.timed, safe, [&pairs](std::size_t i) { return pairs[i]->contact(); });
-  entries.push_back(entry);
-}
-
-/// Keeps the least time of each benchmark, in ns a pair.
-class Collector : public benchmark::ConsoleReporter {
+class Comparison {
  public:
-  explicit Collector(bool quiet) : quiet_(quiet) {}
-  bool ReportContext(const Context& context) override {
-    return quiet_ || ConsoleReporter::ReportContext(context);
-  }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    if (!quiet_) ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "min") continue;
-      const auto pairs = run.counters.find("pairs");
-      times_[run.run_name.function_name] =
-          run.GetAdjustedCPUTime() / (pairs == run.counters.end() ? 1.0 : pairs->second.value);
+  void add_family(const Pairs& pairs, std::span<const std::unique_ptr<Peer>> peers) {
+    Answers gaps, yes_or_no;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      gaps.push_back(to_answer(signed_gap(pairs.a(i), pairs.b(i))));
+      yes_or_no.push_back(CallAnswer{.overlaps = overlaps(pairs.a(i), pairs.b(i))});
     }
+    std::vector<std::size_t> every(pairs.size());
+    std::iota(every.begin(), every.end(), std::size_t{0});
+    signed_gap_ = add_signed_gap(pairs, every);
+    add_ours(pairs, "signed_gap", "no options", GapOf::all, gaps, signed_gap_);
+    add_ours(pairs, "overlaps", "no options", GapOf::none, yes_or_no,
+             add_job(every, [&](std::size_t i) { return overlaps(pairs.a(i), pairs.b(i)); }));
+    for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
+      if (level != HWY_SCALAR && level != HWY_EMU128) add_batch(pairs, level);
+    }
+    for (const auto& peer : peers) add_peer(pairs, *peer, gaps);
   }
-  double time(const std::string& name) const {
-    const auto found = times_.find(name);
-    return found == times_.end() ? 0 : found->second;
+
+  std::vector<Row> rows() {
+    time_by_turns(jobs_, kEffort);
+    std::vector<Row> rows;
+    for (Entry& entry : entries_) {
+      entry.row.time = jobs_[entry.timed].least;
+      entry.row.signed_gap = jobs_[entry.signed_gap].least;
+      rows.push_back(entry.row);
+    }
+    return rows;
   }
+  double inverse() const { return jobs_.front().least; }
 
  private:
-  bool quiet_;
-  std::map<std::string, double> times_;
-};
-
-/// The arguments without --table, and with the repetitions interleaved.
-std::vector<char*> arguments(int argc, char** argv, bool& table) {
-  static std::string interleaved = "--benchmark_enable_random_interleaving=true";
-  std::vector<char*> kept;
-  for (int i = 0; i < argc; ++i) {
-    if (std::string_view(argv[i]) == "--table")
-      table = true;
-    else
-      kept.push_back(argv[i]);
+  template <class Call>
+  std::size_t add_job(const std::vector<std::size_t>& pairs, const Call& call) {
+    const auto run = [pairs, call] {
+      for (const std::size_t i : pairs) benchmark::DoNotOptimize(call(i));
+    };
+    jobs_.push_back({run, pairs.size()});
+    return jobs_.size() - 1;
   }
-  kept.insert(kept.begin() + 1, interleaved.data());
-  return kept;
-}
+
+  std::size_t add_signed_gap(const Pairs& pairs, const std::vector<std::size_t>& which) {
+    return add_job(which, [&pairs](std::size_t i) { return signed_gap(pairs.a(i), pairs.b(i)); });
+  }
+
+  /// Ends the program where an answer is wrong.
+  void add_ours(const Pairs& pairs, const char* call, const std::string& options, GapOf gap_of,
+                const Answers& answers, std::size_t job) {
+    require_right(pairs.name + "/" + call + "/" + options, pairs, answers);
+    Row row;
+    row.family = pairs.name;
+    row.peer = {"Tangency", TANGENCY_VERSION, call, options, Definition::common_normal, gap_of};
+    row.ours = true;
+    row.grade = grade_without_bounds(pairs, answers);
+    row.ours_there = row.grade.gap.largest;
+    entries_.push_back({row, job, signed_gap_});
+  }
+
+  void add_batch(const Pairs& pairs, std::int64_t level) {
+    const auto gaps = std::make_shared<std::vector<tangency::Gap>>(pairs.size());
+    Job job{[&pairs, gaps] {
+              signed_gaps(*pairs.array, {pairs.list, {}}, *gaps);
+            },
+            pairs.size(), level};
+    force_level(level);
+    job.run();
+    force_level(0);
+    Answers answers;
+    for (const tangency::Gap& gap : *gaps) answers.push_back(to_answer(gap));
+    jobs_.push_back(std::move(job));
+    add_ours(pairs, kBatchCall, level == HWY_AVX3 ? "AVX-512" : hwy::TargetName(level), GapOf::all,
+             answers, jobs_.size() - 1);
+  }
+
+  /// @param own  the answers of signed_gap
+  void add_peer(const Pairs& pairs, const Peer& peer, const Answers& own) {
+    const auto prepared = std::make_shared<PeerPairs>();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      prepared->push_back(peer.prepare(pairs.raw[2 * i], pairs.raw[2 * i + 1]));
+    Row row;
+    row.family = pairs.name;
+    row.peer = peer.description();
+    Answers answers, own_there;
+    std::vector<std::size_t> safe;
+    for (const Isolated& seen : ask_isolated(*prepared)) {
+      const std::size_t i = answers.size();
+      answers.push_back(std::nullopt);
+      if (seen.contact)
+        answers.back() = CallAnswer{.overlaps = seen.contact->overlap, .gap = seen.contact->gap};
+      own_there.push_back(seen.contact && seen.contact->gap ? own[i] : std::nullopt);
+      if (seen.outcome == Outcome::aborted || seen.outcome == Outcome::hung)
+        ++row.ended;
+      else
+        safe.push_back(i);
+    }
+    row.grade = grade_without_bounds(pairs, answers);
+    row.ours_there = grade_without_bounds(pairs, own_there).gap.largest;
+    const std::size_t ours = row.ended == 0 ? signed_gap_ : add_signed_gap(pairs, safe);
+    const std::size_t job =
+        add_job(safe, [prepared](std::size_t i) { return (*prepared)[i]->contact(); });
+    entries_.push_back({row, job, ours});
+  }
+
+  std::vector<Job> jobs_ = {inverse_job()};
+  std::vector<Entry> entries_;
+  std::size_t signed_gap_ = 0;  ///< the job of all pairs of this family
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool table = false;
-  std::vector<char*> kept = arguments(argc, argv, table);
-  int count = static_cast<int>(kept.size());
-  benchmark::Initialize(&count, kept.data());
-  if (benchmark::ReportUnrecognizedArguments(count, kept.data())) return 2;
-
+  const bool table = argc == 2 && std::string_view(argv[1]) == "--table";
+  if (argc > 1 && !table) {
+    std::fputs("usage: bench_peers [--table]\n", stderr);
+    return 2;
+  }
   const auto peers = all_peers();
-  std::vector<Family> families;
-  for (const auto& shape : tangency::verify::contact_classes())
-    families.push_back(make_family(shape));
-  std::vector<Entry> entries;
-  std::vector<std::vector<std::unique_ptr<PeerPair>>> pairs(families.size() * peers.size());
-  auto next_pairs = pairs.begin();
-  tangency::bench::add_inverse();
-  for (const Family& f : families) {
-    Answers own;
-    add_ours(f, entries, own);
-    add_batch(f, entries);
-    for (const auto& peer : peers) add_peer(f, *peer, own, entries, *next_pairs++);
-  }
-
-  Collector collector(table);
-  benchmark::RunSpecifiedBenchmarks(&collector);
-  std::vector<Row> rows;
-  for (Entry& entry : entries) {
-    entry.row.time = collector.time(entry.timed);
-    entry.row.signed_gap = collector.time(entry.signed_gap);
-    rows.push_back(entry.row);
-  }
-  if (table) std::cout << tables(rows, collector.time("inverse")) << '\n';
-  std::cout << against_simbody(rows);
+  std::vector<std::unique_ptr<Pairs>> families;
+  Comparison comparison;
+  for (const auto& kind : tangency::verify::contact_classes())
+    comparison.add_family(*families.emplace_back(contacts_of(kind, kInCache)), peers);
+  const std::vector<Row> rows = comparison.rows();
+  std::cout << (table ? tables(rows, comparison.inverse()) + '\n' : times(rows))
+            << against_simbody(rows);
   return 0;
 }

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/yardstick.hpp>
+#include <tangency/bench/timing.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/relation/exact_pair.hpp>
 #include <tangency/geometry/relation/overlap_filter.hpp>

@@ -17,20 +17,18 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/instruction_set.hpp>
+#include <tangency/bench/pairs.hpp>
 #include <tangency/bench/speed_accuracy/count.hpp>
 #include <tangency/bench/speed_accuracy/methods.hpp>
 #include <tangency/bench/speed_accuracy/overlaps_first.hpp>
-#include <tangency/bench/speed_accuracy/picture.hpp>
 #include <tangency/bench/speed_accuracy/report.hpp>
-#include <tangency/bench/speed_accuracy/timing.hpp>
+#include <tangency/bench/timing.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
 namespace {
 
 using namespace tangency::speed_accuracy;
-using tangency::BodyArray;
-using tangency::bench::force_level;
+using namespace tangency::bench;
 
 // Callgrind is some fifty times slower: instructions are those of four blocks of the batch.
 constexpr std::size_t kCounted = 256;
@@ -56,7 +54,6 @@ void say(const std::string& what) {
 /// A family with all that is asked about it.
 struct Subject {
   std::unique_ptr<Pairs> pairs;
-  std::vector<Truth> truth;
   std::vector<Method> methods;
 };
 
@@ -80,18 +77,17 @@ Row row_of(const Pairs& pairs, const Method& method) {
   return row;
 }
 
-/// The oracle's answers, by as many threads as there are processors.
-std::vector<Truth> truth_of_all(const Pairs& pairs) {
-  std::vector<Truth> truth(pairs.size());
+/// Asks the oracle, by as many threads as there are processors.
+void find_truth(Pairs& pairs) {
+  pairs.truth.resize(pairs.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t i = next++; i < pairs.size(); i = next++) truth[i] = truth_of(pairs, i);
+    for (std::size_t i = next++; i < pairs.size(); i = next++) pairs.truth[i] = truth_of(pairs, i);
   };
   std::vector<std::jthread> pool;
   for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) pool.emplace_back(work);
   work();
   pool.clear();  // waits for all
-  return truth;
 }
 
 /// Asks every method. False where one breaks its promise.
@@ -101,12 +97,12 @@ bool check(Subject& subject, std::vector<Row>& rows) {
     Row row = row_of(*subject.pairs, method);
     force_level(method.level);
     method.run();
-    row.score = score(method.answers(), subject.truth);
+    row.grade = tangency::verify::grade_calls(method.answers(), subject.pairs->truth);
     force_level(0);
-    if (method.promises && row.score.wrong > 0) {
+    if (method.promises && row.grade.wrong > 0) {
       std::fprintf(stderr, "%s: %zu wrong answers, the first for pair %zu: ", row.key().c_str(),
-                   row.score.wrong, *row.score.first_wrong);
-      print_pair(*subject.pairs, *row.score.first_wrong);
+                   row.grade.wrong, row.grade.first_wrong);
+      print_pair(*subject.pairs, row.grade.first_wrong);
       right = false;
     }
     rows.push_back(row);
@@ -115,11 +111,11 @@ bool check(Subject& subject, std::vector<Row>& rows) {
 }
 
 std::vector<Subject> make_subjects(const Options& options) {
-  const auto levels = tangency::bench::best_levels();
+  const auto levels = best_levels();
   std::vector<Subject> subjects;
   for (const std::string& family : options.families) {
     Subject subject;
-    subject.pairs = draw_pairs(family, options.counted ? options.counted_pairs() : options.pairs);
+    subject.pairs = drawn_pairs(family, options.counted ? options.counted_pairs() : options.pairs);
     subject.methods = methods_on(*subject.pairs, levels);
     subjects.push_back(std::move(subject));
   }
@@ -169,15 +165,14 @@ void time_all(const Options& options, const std::vector<Subject>& subjects,
 
 /// The yes/no question ahead of the contact. False where an answer is wrong.
 bool run_ahead(const Options& options, std::vector<AheadRow>& rows) {
-  const auto levels = tangency::bench::best_levels();
+  const auto levels = best_levels();
   for (const char* family : {"class1", "class2"}) {
-    for (const int touching : touching_shares()) {
+    for (const int touching : kTouchingShares) {
       say(std::string("yes or no first, ") + family + ", " + std::to_string(touching) +
           " % touching");
-      const ListedPairs pairs = listed_pairs(family, touching, options.pairs);
-      const BodyArray array(pairs.bodies);
+      const std::unique_ptr<Pairs> pairs = listed_pairs(family, touching, options.pairs);
       std::vector<Job> jobs;
-      const std::vector<Ahead> ways = ways_to_contacts(pairs, array, levels);
+      const std::vector<Ahead> ways = ways_to_contacts(*pairs, levels);
       for (const Ahead& way : ways) {
         force_level(way.level);
         way.all();
@@ -187,8 +182,8 @@ bool run_ahead(const Options& options, std::vector<AheadRow>& rows) {
           std::fprintf(stderr, "%s, %s: wrong contacts: no timing\n", way.method.c_str(), family);
           return false;
         }
-        jobs.push_back({way.all, pairs.list.size(), way.level});
-        jobs.push_back({way.asked, pairs.list.size(), way.level});
+        jobs.push_back({way.all, pairs->size(), way.level});
+        jobs.push_back({way.asked, pairs->size(), way.level});
       }
       time_by_turns(jobs, options.effort());
       for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -213,7 +208,7 @@ int run(const Options& options) {
   bool right = true;
   for (Subject& subject : subjects) {
     say("truth of " + subject.pairs->name);
-    subject.truth = truth_of_all(*subject.pairs);
+    find_truth(*subject.pairs);
     right = check(subject, rows) && right;
   }
   if (!right) return 1;
@@ -221,13 +216,14 @@ int run(const Options& options) {
   time_all(options, subjects, rows);
   if (!run_ahead(options, ahead)) return 1;
   if (options.count) add_instructions(options, rows);
-  write(options.csv, to_csv(rows));
+  const std::string table = to_csv(rows), ahead_table = to_csv(ahead);
+  write(options.csv, table);
   write(options.json, to_json(rows));
-  write(options.ahead, to_csv(ahead));
-  write(options.markdown, to_markdown(rows, ahead));
-  write(options.picture, options.picture.empty() ? "" : draw(rows));
+  write(options.ahead, ahead_table);
+  if (!options.picture.empty()) write(options.picture, to_picture(table));
   const bool silent = options.csv.empty() && options.json.empty() && options.markdown.empty();
-  if (silent) std::fputs(to_markdown(rows, ahead).c_str(), stdout);
+  if (silent) std::fputs(to_markdown(table, ahead_table).c_str(), stdout);
+  if (!options.markdown.empty()) write(options.markdown, to_markdown(table, ahead_table));
   say("done");
   return 0;
 }

@@ -69,7 +69,7 @@ std::string yes_or_no(const std::vector<Row>& rows, double inverse) {
     if (first.family != rows.front().family) continue;
     text += "| " + name_of(first.peer) + " |";
     for (const Row* row : rows_of(rows, first.peer)) {
-      text += format(" %zu | %zu%s | %.0f | %.1f |", row->score.wrong, row->score.unanswered,
+      text += format(" %zu | %zu%s | %.0f | %.1f |", row->grade.wrong, row->grade.unanswered,
                      row->ended > 0 ? "*" : "", row->time, row->time / inverse);
     }
     text += "\n";
@@ -82,10 +82,10 @@ std::string gaps(const std::vector<Row>& rows, double inverse, Definition defini
       "| family | code | gaps | median | 99 % | largest | `signed_gap` there | ns | / `signed_gap` "
       "| / inverse |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
   for (const Row& row : rows) {
-    const Score& s = row.score;
+    const verify::ErrorSummary& s = row.grade.gap;
     if (row.peer.gap_of == GapOf::none || row.peer.definition != definition) continue;
     text += "| " + row.family + " | " + name_of(row.peer) +
-            format(" | %zu | %.1e | %.1e | %.1e | %.1e | %.0f | %.1f | %.1f |\n", s.gaps, s.median,
+            format(" | %zu | %.1e | %.1e | %.1e | %.1e | %.0f | %.1f | %.1f |\n", s.count, s.median,
                    s.percentile_99, s.largest, row.ours_there, row.time, row.time / row.signed_gap,
                    row.time / inverse);
   }
@@ -100,13 +100,20 @@ std::string tables(const std::vector<Row>& rows, double inverse) {
          format(
              "\n### Do the solids overlap?\n\nOf %zu pairs a family; Eigen's inverse took %.2f "
              "ns.\n\n",
-             rows.front().score.pairs, inverse) +
+             rows.front().grade.pairs, inverse) +
          yes_or_no(rows, inverse) +
          "\n### Gap by the common normal\n\nErrors in the smallest semi-axis of the pair.\n\n" +
          gaps(rows, inverse, Definition::common_normal) +
          "\n### Depth of the last portal\n\nDifferences from the gap by the common normal, of "
          "definition and of accuracy, in the smallest semi-axis of the pair.\n\n" +
          gaps(rows, inverse, Definition::portal);
+}
+
+std::string times(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows)
+    text += format("%10.1f ns  ", row.time) + row.family + ": " + name_of(row.peer) + "\n";
+  return text;
 }
 
 std::string against_simbody(const std::vector<Row>& rows) {
@@ -116,15 +123,14 @@ std::string against_simbody(const std::vector<Row>& rows) {
         "%s: %s %.0f ns, Simbody's ConvexImplicitPair %.0f ns: %.1f x as fast; "
         "largest error %.1e against %.1e\n",
         simbody.family.c_str(), ours.c_str(), time, simbody.time, simbody.time / time, error,
-        simbody.score.largest);
+        simbody.grade.gap.largest);
   };
   for (const Row& row : rows) {
-    const bool timed = row.time > 0 && row.signed_gap > 0;  // --benchmark_filter leaves some out
-    if (row.peer.call != kSimbodyTracker || !timed) continue;
+    if (row.peer.call != kSimbodyTracker) continue;
     line(row, "signed_gap", row.signed_gap, row.ours_there);
     for (const Row& ours : rows) {
-      if (ours.peer.call != kBatchCall || ours.family != row.family || !(ours.time > 0)) continue;
-      line(row, ours.peer.call + ", " + ours.peer.options, ours.time, ours.score.largest);
+      if (ours.peer.call != kBatchCall || ours.family != row.family) continue;
+      line(row, ours.peer.call + ", " + ours.peer.options, ours.time, ours.grade.gap.largest);
     }
   }
   return text;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <tangency/bench/peers/peer.hpp>
-#include <tangency/bench/peers/score.hpp>
+#include <tangency/verify/grade/calls.hpp>
 
 namespace tangency::peers {
 
@@ -17,12 +17,15 @@ struct Row {
   std::string family;
   PeerDescription peer;
   bool ours = false;
-  Score score;
-  std::size_t ended = 0;  ///< of score.unanswered: pairs that ended the program or hung it
+  verify::CallGrade grade;
+  std::size_t ended = 0;  ///< of grade.unanswered: pairs that ended the program or hung it
   double ours_there = 0;  ///< largest error of signed_gap over the pairs that have a gap here
   double time = 0;        ///< ns per pair, over all pairs but those that ended the program
   double signed_gap = 0;  ///< ns per pair of signed_gap over the same pairs
 };
+
+/// A line a row: what was timed, and its time.
+std::string times(const std::vector<Row>& rows);
 
 /// @param inverse  ns of Eigen's 3x3 inverse, the yardstick of all benchmarks here
 std::string tables(const std::vector<Row>& rows, double inverse);

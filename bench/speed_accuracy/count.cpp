@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <tangency/bench/speed_accuracy/subprocess.hpp>
+#include <tangency/bench/speed_accuracy/programs.hpp>
 
 #if __has_include(<valgrind/callgrind.h>)
 #pragma GCC diagnostic push
@@ -54,14 +54,11 @@ std::pair<std::string, double> read_dump(const fs::path& path) {
 
 std::map<std::string, double> count_by_valgrind(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
-  std::vector<std::string> words = {"valgrind",
-                                    "-q",
-                                    "--tool=callgrind",
-                                    "--collect-atstart=no",
-                                    "--callgrind-out-file=" + (folder.path() / "out").string(),
-                                    fs::read_symlink("/proc/self/exe").string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  run_program(std::move(words));
+  std::string command = "valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=" +
+                        shell_word((folder.path() / "out").string()) + " " +
+                        shell_word(fs::read_symlink("/proc/self/exe").string());
+  for (const std::string& argument : arguments) command += " " + shell_word(argument);
+  output_of(command);
   std::map<std::string, double> counts;
   for (const auto& file : fs::directory_iterator(folder.path())) {
     const auto [name, total] = read_dump(file.path());

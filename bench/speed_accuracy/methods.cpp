@@ -18,40 +18,36 @@
 namespace tangency::speed_accuracy {
 namespace {
 
+using bench::Columns;
 using detail::LaneBlock;
+using verify::CallAnswer;
+
+constexpr std::size_t kBlock = LaneBlock::kPairs;
 
 // What calls answer, as an Answer. Another method that answers one pair at a time needs a function
 // here, unless its answer is one of these, and a line in add_singles().
 
-Answer to_answer(const Gap& gap) {
-  const bool ok = gap.status == GapStatus::ok;
-  return {ok ? Standing::proven : Standing::local,
-          std::nullopt,
-          gap.gap,
-          gap.gap_error,
-          gap.normal,
-          gap.arm_a,
-          gap.arm_b};
+using bench::to_answer;
+
+/// A gap without a bound.
+Answer estimate(double gap, const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b) {
+  CallAnswer answer = to_answer(Gap{gap, normal, arm_a, arm_b, 0, GapStatus::ok, {}});
+  answer.gap_error.reset();
+  return answer;
 }
 
 Answer to_answer(const OtherGap& gap) {
   if (gap.status != OtherGapStatus::ok) return {};
-  return {Standing::estimate, std::nullopt, gap.gap, 0, gap.normal, gap.arm_a, gap.arm_b};
+  return estimate(gap.gap, gap.normal, gap.arm_a, gap.arm_b);
 }
 
 /// `ok` or no answer: the scheme has nothing to say of pairs that do not overlap.
 Answer to_answer(const TraceContact& contact) {
   if (contact.status != TraceStatus::ok) return {};
-  return {Standing::estimate, std::nullopt,  contact.gap,  0,
-          contact.normal,     contact.arm_a, contact.arm_b};
+  return estimate(contact.gap, contact.normal, contact.arm_a, contact.arm_b);
 }
 
-Answer to_answer(const OverlapAnswer& answer) {
-  Answer a;
-  a.standing = Standing::proven;
-  a.overlaps = answer.overlaps;
-  return a;
-}
+Answer to_answer(const OverlapAnswer& answer) { return CallAnswer{.overlaps = answer.overlaps}; }
 
 Answer to_answer(const Answer& answer) { return answer; }
 
@@ -63,7 +59,7 @@ Answer start_alone(const Ellipsoid& a, const Ellipsoid& b, int steps) {
   const detail::PerramWertheimForm form(a, b, d);
   const Vec3 n = form.normal_direction(form.maximise(steps)).stableNormalized();
   const Vec3 arm_a = a.support_point(n), arm_b = -b.support_point(n);
-  return {Standing::estimate, std::nullopt, n.dot(d - arm_a + arm_b), 0, n, arm_a, arm_b};
+  return estimate(n.dot(d - arm_a + arm_b), n, arm_a, arm_b);
 }
 
 /// Adds call(i) for every pair.
@@ -112,51 +108,6 @@ void add_singles(std::vector<Method>& all, const Pairs& pairs) {
   }
 }
 
-/// Answers of a batch by columns, with room for whole blocks.
-struct Columns {
-  std::size_t count;
-  std::vector<double> gap, gap_error;
-  std::vector<Vec3> normal, arm_a, arm_b;
-  std::vector<GapStatus> status;
-  std::vector<std::uint64_t> settled;  ///< bits by block, of the lanes alone
-
-  explicit Columns(std::size_t pairs)
-      : count(pairs),
-        gap(padded()),
-        gap_error(padded()),
-        normal(padded()),
-        arm_a(padded()),
-        arm_b(padded()),
-        status(padded()),
-        settled(padded() / LaneBlock::kPairs, ~std::uint64_t{0}) {}
-
-  std::size_t padded() const {
-    return (count + LaneBlock::kPairs - 1) / LaneBlock::kPairs * LaneBlock::kPairs;
-  }
-  /// The columns that bench_batch times, too.
-  GapColumns usual() {
-    return {std::span(gap).first(count),
-            std::span(gap_error).first(count),
-            std::span(normal).first(count),
-            {},
-            {},
-            std::span(status).first(count)};
-  }
-  GapColumns arms() {
-    return {{}, {}, {}, std::span(arm_a).first(count), std::span(arm_b).first(count), {}};
-  }
-  std::vector<Answer> answers() const {
-    std::vector<Answer> all;
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool answered = (settled[i / LaneBlock::kPairs] >> i % LaneBlock::kPairs & 1) != 0;
-      const Gap gap_i{gap[i],       normal[i], arm_a[i],     arm_b[i],
-                      gap_error[i], status[i], GapTier::fast};
-      all.push_back(answered ? to_answer(gap_i) : Answer{});
-    }
-    return all;
-  }
-};
-
 struct NamedAccuracy {
   const char* name;
   Accuracy accuracy;
@@ -175,7 +126,8 @@ std::vector<NamedAccuracy> accuracies(double least) {
 void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy& named,
                bool following, std::int64_t level) {
   const Pairs& p = pairs;
-  const auto columns = std::make_shared<Columns>(p.size());
+  const std::size_t count = p.size();
+  const auto columns = std::make_shared<Columns>(count);
   const auto call = [&p, following, accuracy = named.accuracy](const GapColumns& to) {
     if (following)
       follow_gaps(*p.array, {p.list, {}}, p.previous_normal, to, accuracy);
@@ -183,10 +135,12 @@ void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy
       signed_gaps(*p.array, {p.list, {}}, to, accuracy);
   };
   Method method{following ? "follow_gaps" : "signed_gaps", named.name, {}, level, {}, true, {}, {}};
-  method.run = [columns, call] { call(columns->usual()); };
-  method.answers = [columns, call] {
-    call(columns->arms());  // of the same answers: they depend on the pair alone
-    return columns->answers();
+  method.run = [columns, call, count] { call(columns->usual(count)); };
+  method.answers = [columns, call, count] {
+    call(columns->arms(count));  // of the same answers: they depend on the pair alone
+    std::vector<Answer> answers;
+    for (std::size_t i = 0; i < count; ++i) answers.push_back(columns->answer(i));
+    return answers;
   };
   all.push_back(std::move(method));
 }
@@ -196,22 +150,25 @@ void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy
 /// leave to the single call have no answer.
 void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool following,
                std::int64_t level) {
-  struct Padded {
+  struct Work {
+    Columns columns;
     std::vector<IndexedPair> list;
     std::vector<Vec3> normals;
+    std::vector<std::uint64_t> settled;  ///< bits by block
   };
-  const auto columns = std::make_shared<Columns>(pairs.size());
-  const auto in = std::make_shared<Padded>(Padded{pairs.list, pairs.previous_normal});
-  in->list.resize(columns->padded(), pairs.list.front());
-  in->normals.resize(columns->padded(), pairs.previous_normal.front());
-  const auto solve = [&pairs, columns, in, steps, following](bool arms) {
-    Columns& c = *columns;
-    for (std::size_t first = 0; first < c.count; first += LaneBlock::kPairs) {
+  const auto work =
+      std::make_shared<Work>(Work{Columns(pairs.size()), pairs.list, pairs.previous_normal, {}});
+  work->list.resize(work->columns.gap.size(), pairs.list.front());
+  work->normals.resize(work->columns.gap.size(), pairs.previous_normal.front());
+  work->settled.resize(work->columns.gap.size() / kBlock);
+  const auto solve = [&pairs, work, steps, following](bool arms) {
+    Columns& c = work->columns;
+    for (std::size_t first = 0; first < pairs.size(); first += kBlock) {
       LaneBlock block{};
       block.bodies_a = block.bodies_b = pairs.array->lanes();
-      block.pairs = &in->list[first];
-      block.count = static_cast<int>(std::min<std::size_t>(LaneBlock::kPairs, c.count - first));
-      block.normals = following ? in->normals[first].data() : nullptr;
+      block.pairs = &work->list[first];
+      block.count = static_cast<int>(std::min(kBlock, pairs.size() - first));
+      block.normals = following ? work->normals[first].data() : nullptr;
       block.centres_are_exact = true;
       block.tolerance = std::numeric_limits<double>::infinity();
       block.first_steps = steps;
@@ -220,14 +177,19 @@ void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool fol
       block.gap_error = &c.gap_error[first];
       block.normal = c.normal[first].data();
       if (arms) block.arm_a = c.arm_a[first].data(), block.arm_b = c.arm_b[first].data();
-      c.settled[first / LaneBlock::kPairs] = detail::gap_lanes(block);
+      work->settled[first / kBlock] = detail::gap_lanes(block);
     }
   };
   Method method{"gap_lanes", following ? "following" : "cold", steps, level, {}, true, {}, {}};
   method.run = [solve] { solve(false); };
-  method.answers = [solve, columns] {
+  method.answers = [solve, work, count = pairs.size()] {
     solve(true);
-    return columns->answers();
+    std::vector<Answer> answers;
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool settled = (work->settled[i / kBlock] >> i % kBlock & 1) != 0;
+      answers.push_back(settled ? Answer(work->columns.answer(i)) : Answer());
+    }
+    return answers;
   };
   all.push_back(std::move(method));
 }
@@ -273,7 +235,7 @@ std::vector<Method> methods_on(const Pairs& pairs, std::span<const std::int64_t>
   add_singles(all, pairs);
   for (const std::int64_t level : levels) {
     for (const bool following : {false, true}) {
-      for (const NamedAccuracy& named : accuracies(pairs.least))
+      for (const NamedAccuracy& named : accuracies(std::ranges::min(pairs.smallest)))
         add_batch(all, pairs, named, following, level);
       for (int steps = 0; steps <= 4; ++steps) add_lanes(all, pairs, steps, following, level);
     }

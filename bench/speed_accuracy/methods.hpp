@@ -11,9 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/bench/speed_accuracy/pairs.hpp>
+#include <tangency/bench/pairs.hpp>
 
 namespace tangency::speed_accuracy {
+
+using bench::Pairs;
+using Answer = std::optional<verify::CallAnswer>;  ///< to one pair
 
 /// What the gap of a method is. Beside the signed gap an "error" of the others is a difference of
 /// definition, not of accuracy.
@@ -27,7 +30,7 @@ struct Method {
   std::optional<int> steps{};  ///< of the iteration that the option limits
   std::int64_t level = 0;      ///< instruction set of a batch; 0: one pair at a time
   Definition definition = Definition::common_normal;
-  bool promises = false;  ///< that no answer is wrong (Score::wrong)
+  bool promises = false;  ///< that no answer is wrong (verify::CallGrade)
 
   std::function<void()> run;                     ///< all pairs once: what is timed
   std::function<std::vector<Answer>()> answers;  ///< of the last run

@@ -2,19 +2,20 @@
 #include <tangency/bench/speed_accuracy/overlaps_first.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <utility>
 
-#include <tangency/bench/moved_back.hpp>
-#include <tangency/bench/speed_accuracy/pairs.hpp>
 #include <tangency/verify/families/conversions.hpp>
-#include <tangency/verify/families/draw.hpp>
-#include <tangency/verify/families/manufactured.hpp>
+#include <tangency/verify/families/support.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
+
+using bench::Columns;
+using bench::Pairs;
 
 // Of the mean radius. Chosen: as far as neighbour lists reach, and far above rounding.
 constexpr double kFurthest = 0.2, kNearest = 1e-6;
@@ -25,99 +26,68 @@ double mean_radius(const Ellipsoid& a, const Ellipsoid& b) {
   return 0.5 * (std::cbrt(a.semi_axes().prod()) + std::cbrt(b.semi_axes().prod()));
 }
 
-/// What both ways work with.
+/// Contacts of some of the pairs, and what a way to them works with.
 struct Contacts {
-  std::vector<Gap> gaps;  ///< of single calls, as many as asked for
-  std::vector<double> gap, gap_error;
-  std::vector<Vec3> normal, start;
-  std::vector<GapStatus> status;
-  std::vector<IndexedPair> list;
   std::vector<std::size_t> index;  ///< of the pairs that were asked for, in order
+  std::vector<Gap> gaps;           ///< theirs, of single calls
+  Columns columns;                 ///< theirs, of a batch
+  std::vector<IndexedPair> list;
+  std::vector<Vec3> start;
   std::unique_ptr<bool[]> meet;
 
   explicit Contacts(std::size_t count)
-      : gap(count),
-        gap_error(count),
-        normal(count),
-        start(count),
-        status(count),
-        list(count),
-        meet(new bool[count]) {
+      : index(count), columns(count), list(count), start(count), meet(new bool[count]) {
+    std::iota(index.begin(), index.end(), std::size_t{0});
     gaps.reserve(count);
-    index.reserve(count);
   }
-  GapColumns columns(std::size_t count) {
-    return {std::span(gap).first(count),
-            std::span(gap_error).first(count),
-            std::span(normal).first(count),
-            {},
-            {},
-            std::span(status).first(count)};
+
+  bool right(const Pairs& pairs, bool single) const {
+    std::vector<std::optional<verify::CallAnswer>> answers(pairs.size());
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      answers[index[k]] = single ? bench::to_answer(gaps[k]) : columns.answer(k);
+    }
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!answers[i] && pairs.truth[i].gap.high < 0) return false;
+    }
+    const verify::CallGrade grade = bench::grade_without_bounds(pairs, answers);
+    return grade.wrong == 0 && grade.gap.largest < kRight && grade.local_error.value_or(0) < kRight;
   }
 };
 
-/// Do the gaps, of the pairs of these indices, hold every touching pair's?
-template <class GapOf>
-bool all_touching(const ListedPairs& pairs, const std::vector<std::size_t>& index,
-                  const GapOf& gap_of) {
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < index.size(); ++k) {
-    const std::size_t i = index[k];
-    if (!(std::abs(gap_of(k) - pairs.gap[i]) < kRight * pairs.unit[i])) return false;
-    found += gap_of(k) < 0;
-  }
-  const auto touches = [](double gap) { return gap < 0; };
-  return found ==
-         static_cast<std::size_t>(std::count_if(pairs.gap.begin(), pairs.gap.end(), touches));
-}
-
-std::vector<std::size_t> every(std::size_t count) {
-  std::vector<std::size_t> index(count);
-  for (std::size_t i = 0; i < count; ++i) index[i] = i;
-  return index;
-}
-
-Ahead single_way(const ListedPairs& p) {
-  const std::size_t count = p.list.size();
-  const auto whole = std::make_shared<Contacts>(count), part = std::make_shared<Contacts>(count);
+Ahead single_way(const Pairs& p) {
+  const auto whole = std::make_shared<Contacts>(p.size()),
+             part = std::make_shared<Contacts>(p.size());
   Ahead way{"signed_gap", 0, {}, {}, {}};
-  way.all = [&p, whole, count] {
+  way.all = [&p, whole] {
     whole->gaps.clear();
-    for (std::size_t i = 0; i < count; ++i)
-      whole->gaps.push_back(signed_gap(p.bodies[2 * i], p.bodies[2 * i + 1]));
+    for (std::size_t i = 0; i < p.size(); ++i) whole->gaps.push_back(signed_gap(p.a(i), p.b(i)));
   };
-  way.asked = [&p, part, count] {
+  way.asked = [&p, part] {
     part->gaps.clear();
     part->index.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!overlaps(p.bodies[2 * i], p.bodies[2 * i + 1])) continue;
-      part->gaps.push_back(signed_gap(p.bodies[2 * i], p.bodies[2 * i + 1]));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!overlaps(p.a(i), p.b(i))) continue;
+      part->gaps.push_back(signed_gap(p.a(i), p.b(i)));
       part->index.push_back(i);
     }
   };
-  way.right = [&p, whole, part, count] {
-    const auto gap_of = [](const Contacts& c) {
-      return [&c](std::size_t k) { return c.gaps[k].gap; };
-    };
-    return all_touching(p, every(count), gap_of(*whole)) &&
-           all_touching(p, part->index, gap_of(*part));
-  };
+  way.right = [&p, whole, part] { return whole->right(p, true) && part->right(p, true); };
   return way;
 }
 
-Ahead batch_way(const ListedPairs& p, const BodyArray& array, bool following, std::int64_t level) {
-  const std::size_t count = p.list.size();
+Ahead batch_way(const Pairs& p, bool following, std::int64_t level) {
+  const std::size_t count = p.size();
   const auto whole = std::make_shared<Contacts>(count), part = std::make_shared<Contacts>(count);
   Ahead way{following ? "follow_gaps" : "signed_gaps", level, {}, {}, {}};
-  way.all = [&p, &array, whole, following, count] {
+  way.all = [&p, whole, following, count] {
     if (following)
-      follow_gaps(array, {p.list, {}}, p.previous_normal, whole->columns(count));
+      follow_gaps(*p.array, {p.list, {}}, p.previous_normal, whole->columns.usual(count));
     else
-      signed_gaps(array, {p.list, {}}, whole->columns(count));
+      signed_gaps(*p.array, {p.list, {}}, whole->columns.usual(count));
   };
-  way.asked = [&p, &array, part, following, count] {
+  way.asked = [&p, part, following, count] {
     Contacts& c = *part;
-    overlaps(array, {p.list, {}}, std::span(c.meet.get(), count));
+    overlaps(*p.array, {p.list, {}}, std::span(c.meet.get(), count));
     c.index.clear();
     for (std::size_t i = 0; i < count; ++i) {
       if (c.meet[i]) c.index.push_back(i);
@@ -125,36 +95,27 @@ Ahead batch_way(const ListedPairs& p, const BodyArray& array, bool following, st
     const std::size_t met = c.index.size();
     for (std::size_t k = 0; k < met; ++k) c.list[k] = p.list[c.index[k]];
     const std::span<const IndexedPair> list = std::span(c.list).first(met);
-    if (!following) return signed_gaps(array, {list, {}}, c.columns(met));
+    if (!following) return signed_gaps(*p.array, {list, {}}, c.columns.usual(met));
     for (std::size_t k = 0; k < met; ++k) c.start[k] = p.previous_normal[c.index[k]];
-    follow_gaps(array, {list, {}}, std::span(c.start).first(met), c.columns(met));
+    follow_gaps(*p.array, {list, {}}, std::span(c.start).first(met), c.columns.usual(met));
   };
-  way.right = [&p, whole, part, count] {
-    const auto gap_of = [](const Contacts& c) { return [&c](std::size_t k) { return c.gap[k]; }; };
-    return all_touching(p, every(count), gap_of(*whole)) &&
-           all_touching(p, part->index, gap_of(*part));
-  };
+  way.right = [&p, whole, part] { return whole->right(p, false) && part->right(p, false); };
   return way;
 }
 
 }  // namespace
 
-std::span<const int> touching_shares() {
-  static constexpr std::array<int, 7> kShares = {0, 10, 25, 50, 75, 90, 100};
-  return kShares;
-}
-
-ListedPairs listed_pairs(const std::string& family, int touching, std::size_t count) {
-  const auto classes = verify::contact_classes();
-  const auto shape = std::find_if(classes.begin(), classes.end(),
-                                  [&](const auto& kind) { return kind.name == family; });
-  verify::ManufacturedContacts contacts(*shape, kSeed);
-  verify::Draw draw(kSeed);
+std::unique_ptr<Pairs> listed_pairs(const std::string& family, int touching, std::size_t count) {
+  const auto kind =
+      std::ranges::find(verify::contact_classes(), family, &verify::ContactFamily::name);
+  verify::ManufacturedContacts contacts(*kind, bench::kSeed);
+  std::mt19937_64 random(bench::kSeed);
   std::vector<char> touches(count);
   std::fill_n(touches.begin(), count * static_cast<std::size_t>(touching) / 100, 1);
-  draw.shuffle(touches);
+  for (std::size_t i = count; i-- > 1;) std::swap(touches[i], touches[random() % (i + 1)]);
 
-  ListedPairs p{family, touching, {}, {}, {}, {}, {}};
+  auto pairs = std::make_unique<Pairs>();
+  pairs->name = family;
   for (std::uint32_t i = 0; i < count; ++i) {
     verify::ManufacturedContact c = contacts.next();
     while (c.gap >= 0) c = contacts.next();
@@ -162,26 +123,21 @@ ListedPairs listed_pairs(const std::string& family, int touching, std::size_t co
     Ellipsoid b = verify::to_ellipsoid(c.b);
     double gap = c.gap;
     if (!touches[i]) {
-      gap = draw.real(kNearest, kFurthest) * mean_radius(a, b);
+      const auto part = static_cast<double>(verify::uniform(random, kNearest, kFurthest));
+      gap = part * mean_radius(a, b);
       b = b.moved_to(b.centre() + (gap - c.gap) * Vec3(c.normal.data()));
     }
-    p.bodies.push_back(a);
-    p.bodies.push_back(b);
-    p.list.push_back({2 * i, 2 * i + 1});
-    p.gap.push_back(gap);
-    p.unit.push_back(c.smallest_semi_axis);
-    p.previous_normal.push_back(
-        signed_gap(a, bench::moment_ago(b, c.smallest_semi_axis, i)).normal);
+    pairs->add(a, b);
+    pairs->truth.push_back({.gap = {gap, 0}, .unit = c.smallest_semi_axis});
   }
-  return p;
+  pairs->array.emplace(pairs->bodies);
+  return pairs;
 }
 
-std::vector<Ahead> ways_to_contacts(const ListedPairs& pairs, const BodyArray& array,
-                                    std::span<const std::int64_t> levels) {
+std::vector<Ahead> ways_to_contacts(const Pairs& pairs, std::span<const std::int64_t> levels) {
   std::vector<Ahead> ways = {single_way(pairs)};
   for (const std::int64_t level : levels) {
-    for (const bool following : {false, true})
-      ways.push_back(batch_way(pairs, array, following, level));
+    for (const bool following : {false, true}) ways.push_back(batch_way(pairs, following, level));
   }
   return ways;
 }

@@ -12,27 +12,19 @@
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/gap_batch.hpp>
+#include <tangency/bench/pairs.hpp>
 
 namespace tangency::speed_accuracy {
 
+/// The shares of touching pairs that are tried, in percent.
+inline constexpr int kTouchingShares[] = {0, 10, 25, 50, 75, 90, 100};
+
 /// Listed pairs in random order: contacts of a class that overlap, and the same shapes at gaps of
 /// up to 20 % of the mean radius of the two bodies (the geometric mean of semi-axes, averaged).
-struct ListedPairs {
-  std::string family;
-  int touching;                   ///< percent
-  std::vector<Ellipsoid> bodies;  ///< A and B of every pair in turn
-  std::vector<IndexedPair> list;
-  std::vector<double> gap;   ///< true
-  std::vector<double> unit;  ///< smallest semi-axis
-  std::vector<Vec3> previous_normal;
-};
-
-/// The shares of touching pairs that are tried, in percent.
-std::span<const int> touching_shares();
-
 /// @param family  a name of verify::contact_classes()
-ListedPairs listed_pairs(const std::string& family, int touching, std::size_t count);
+/// @param touching  percent
+std::unique_ptr<bench::Pairs> listed_pairs(const std::string& family, int touching,
+                                           std::size_t count);
 
 /// The contacts of all touching pairs, in two ways.
 struct Ahead {
@@ -44,8 +36,8 @@ struct Ahead {
   std::function<bool()> right;
 };
 
-/// @param pairs, array  must outlive the result; `array` is of the pairs' bodies
-std::vector<Ahead> ways_to_contacts(const ListedPairs& pairs, const BodyArray& array,
+/// @param pairs  must outlive the result
+std::vector<Ahead> ways_to_contacts(const bench::Pairs& pairs,
                                     std::span<const std::int64_t> levels);
 
 }  // namespace tangency::speed_accuracy

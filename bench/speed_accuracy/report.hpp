@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What was measured, as CSV, JSON, Markdown and a picture.
+/// What was measured, as CSV and JSON, and what the scripts beside this make of it.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <tangency/bench/speed_accuracy/score.hpp>
+#include <tangency/verify/grade/calls.hpp>
 
 namespace tangency::speed_accuracy {
 
@@ -18,7 +17,7 @@ struct Row {
   std::optional<int> steps;
   std::string level;       ///< "single": one pair at a time; else the instruction set of a batch
   std::string definition;  ///< of the gap
-  Score score;
+  verify::CallGrade grade;
   double ns = 0;       ///< per pair
   double inverse = 0;  ///< ns of Eigen's 3x3 inverse, the yardstick, in the same run
   std::optional<double> instructions{};  ///< per pair
@@ -26,9 +25,6 @@ struct Row {
   /// The same for no other row.
   std::string key() const;
 };
-
-/// Levels of the batch calls in these rows, in order: the best first.
-std::vector<std::string> levels_of(const std::vector<Row>& rows);
 
 /// Contacts of the touching pairs of a list: one share, one way to call.
 struct AheadRow {
@@ -46,6 +42,12 @@ std::string to_json(const std::vector<Row>& rows);
 std::string to_csv(const std::vector<AheadRow>& rows);
 
 /// The short tables of docs/speed-accuracy.md.
-std::string to_markdown(const std::vector<Row>& rows, const std::vector<AheadRow>& ahead);
+/// @param methods, ahead  what to_csv() wrote
+/// @throws std::runtime_error  awk cannot be started, or failed
+std::string to_markdown(const std::string& methods, const std::string& ahead);
+
+/// Error against time, an SVG drawn by gnuplot.
+/// @throws std::runtime_error  gnuplot cannot be started, or failed; no family of the picture
+std::string to_picture(const std::string& methods);
 
 }  // namespace tangency::speed_accuracy

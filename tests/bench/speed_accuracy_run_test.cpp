@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/bench/instruction_set.hpp>
 #include <tangency/bench/speed_accuracy/count.hpp>
+#include <tangency/bench/timing.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 

@@ -7,14 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <tangency/bench/instruction_set.hpp>
-
 namespace {
 
 const bool kForced = [] {
   for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
     if (level != HWY_SSSE3) continue;
-    tangency::bench::force_level(level);
+    hwy::SetSupportedTargetsForTest(level);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     return true;
   }
   std::fputs("this build or this machine has no SSSE3\n", stderr);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scores, isolation and tables, on made-up peers.
+// Isolation and tables, on made-up peers.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,43 +15,6 @@ namespace tangency::peers {
 namespace {
 
 std::optional<PeerContact> answer(double gap) { return PeerContact{gap < 0, gap, {}, {}}; }
-
-TEST(Score, CountsWrongMissingAndGapsAndRanksErrorsInTheUnit) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::optional<PeerContact>> answers;
-  std::vector<Truth> truth;
-  for (int i = 1; i <= 100; ++i) {  // errors of 1 ... 100 in units of 2
-    answers.push_back(answer(1000.0 + 2 * i));
-    truth.push_back({1000.0, 2.0});
-  }
-  Score s = score(answers, truth);
-  EXPECT_EQ(s.pairs, 100u);
-  EXPECT_EQ(s.gaps, 100u);
-  EXPECT_EQ(s.wrong + s.unanswered, 0u);
-  EXPECT_EQ(s.median, 50.0);
-  EXPECT_EQ(s.percentile_99, 99.0);
-  EXPECT_EQ(s.largest, 100.0);
-
-  answers[0] = std::nullopt;
-  answers[1] = PeerContact{true, {}, {}, {}};  // wrong, and no gap
-  answers[2] = answer(-1);                     // wrong
-  s = score(answers, truth);
-  EXPECT_EQ(s.unanswered, 1u);
-  EXPECT_EQ(s.wrong, 2u);
-  EXPECT_EQ(s.gaps, 98u);
-  EXPECT_EQ(s.largest, 500.5);
-
-  answers[3] = PeerContact{false, nan, {}, {}};
-  EXPECT_EQ(score(answers, truth).largest, std::numeric_limits<double>::infinity());
-}
-
-TEST(Score, OfNoGapsIsZeroErrors) {
-  const std::vector<std::optional<PeerContact>> answers = {PeerContact{true, {}, {}, {}}};
-  const Score s = score(answers, std::vector<Truth>{{-1, 1}});
-  EXPECT_EQ(s.gaps, 0u);
-  EXPECT_EQ(s.wrong, 0u);
-  EXPECT_EQ(s.largest, 0.0);
-}
 
 class Scripted final : public PeerPair {
  public:
@@ -97,9 +59,9 @@ Row row(const char* call, GapOf gap_of, Definition definition) {
   Row r;
   r.family = "family";
   r.peer = {"Code", "1.2", call, "options", definition, gap_of};
-  r.score.pairs = 10;
-  r.score.wrong = 3;
-  r.score.largest = 4e-15;
+  r.grade.pairs = 10;
+  r.grade.wrong = 3;
+  r.grade.gap.largest = 4e-15;
   r.ours_there = 2e-15;
   r.time = 6000;
   r.signed_gap = 400;

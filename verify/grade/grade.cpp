@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <tangency/geometry/tables/csv.hpp>
-#include <tangency/verify/grade/normal.hpp>
+#include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -24,13 +24,6 @@ struct Verdict {
        reversed = false;
   double gap = kNone, normal = kNone, area = kNone;
 };
-
-// gap - truth, rounded once but for a share of 2^-53 of itself.
-double excess(double gap, const TwoDoubles& truth) {
-  const double first = gap - truth.high;
-  // Both are near each other where it matters, and then the first difference is exact.
-  return first - truth.low;
-}
 
 // The answers' columns, of one header.
 struct Columns {
@@ -226,7 +219,7 @@ class Grader {
         if (columns.gap_error && !line.text(*columns.gap_error).empty()) {
           const auto bound = number(line, *columns.gap_error, verdict);
           const bool local = columns.status && line.text(*columns.status) == "local";
-          verdict.broken = bound && !((local ? off : std::abs(off)) <= *bound);
+          verdict.broken = bound && breaks_bound(off, *bound, local);
         }
       }
     }
@@ -289,25 +282,10 @@ class Grader {
   }
 
   ErrorSummary errors(const std::vector<std::size_t>& rows, double Verdict::*which) const {
-    ErrorSummary s;
     std::vector<double> all;
-    for (const std::size_t i : rows) {
-      const double error = verdicts_[i].*which;
-      if (std::isnan(error)) continue;
-      all.push_back(error);
-      if (s.worst_row == kNoRow || error > s.largest) s.worst_row = i, s.largest = error;
-    }
-    s.count = all.size();
-    if (all.empty()) return s;
-    // The least value that at least this share of all do not exceed.
-    const auto ranked = [&](std::size_t percent) {
-      const std::size_t rank = (all.size() * percent + 99) / 100;
-      const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-      std::nth_element(all.begin(), at, all.end());
-      return *at;
-    };
-    s.median = ranked(50);
-    s.percentile_99 = ranked(99);
+    for (const std::size_t i : rows) all.push_back(verdicts_[i].*which);
+    ErrorSummary s = summary_of(all);
+    if (s.count > 0) s.worst_row = rows[s.worst_row];
     return s;
   }
 

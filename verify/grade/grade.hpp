@@ -30,18 +30,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/answers/truth_table.hpp>
+#include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::verify {
-
-inline constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
-
-/// Of the answers that there are; nearest rank.
-struct ErrorSummary {
-  std::size_t count = 0;
-  double median = 0, percentile_99 = 0, largest = 0;
-  std::size_t worst_row = kNoRow;
-};
 
 struct FamilyGrade {
   std::string name;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tangency/verify/grade/normal.hpp>
+#include <tangency/verify/grade/judge.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace tangency::verify {
 namespace {
@@ -33,6 +34,37 @@ double cosine_to_circle(const Vector& n, const Vector& normal, const Vector& axi
 }
 
 }  // namespace
+
+ErrorSummary summary_of(std::span<const double> errors) {
+  ErrorSummary s;
+  std::vector<double> all;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (std::isnan(errors[i])) continue;
+    all.push_back(errors[i]);
+    if (s.worst_row == kNoRow || errors[i] > s.largest) s.worst_row = i, s.largest = errors[i];
+  }
+  s.count = all.size();
+  if (all.empty()) return s;
+  const auto ranked = [&](std::size_t percent) {
+    const std::size_t rank = (all.size() * percent + 99) / 100;
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+    std::nth_element(all.begin(), at, all.end());
+    return *at;
+  };
+  s.median = ranked(50);
+  s.percentile_99 = ranked(99);
+  return s;
+}
+
+double excess(double gap, const TwoDoubles& truth) {
+  const double first = gap - truth.high;
+  // Both are near each other where it matters, and then the first difference is exact.
+  return first - truth.low;
+}
+
+bool breaks_bound(double excess, double bound, bool is_local, double unproven) {
+  return !(excess <= bound + unproven) || (!is_local && !(-excess <= bound));
+}
 
 NormalVerdict judge_normal(const TruthTable& truth, const TruthRow& row, const Vector& n) {
   if (row.every_normal) return {std::abs(std::hypot(n[0], n[1], n[2]) - 1), false};

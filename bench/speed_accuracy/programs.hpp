@@ -5,7 +5,7 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace tangency::speed_accuracy {
 
@@ -18,14 +18,18 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
+  /// The path of a new file with this text.
+  std::string add(const std::string& name, std::string_view text) const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// Runs a program of the PATH to its end, its outputs being ours.
-/// @param words  its name and its arguments
+/// As one word of the shell.
+std::string shell_word(std::string_view word);
+
+/// What a command of the shell wrote to its standard output.
 /// @throws std::runtime_error  it cannot be started, or its status is not 0
-void run_program(std::vector<std::string> words);
+std::string output_of(const std::string& command);
 
 }  // namespace tangency::speed_accuracy

@@ -52,7 +52,7 @@ std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
   return text.data();
 }
 
-/// 0.03 along the normal and 0.3 else: bench/profiles.cpp.
+/// 0.03 along the normal and 0.3 else: bench/demo/profiles.cpp.
 double displacement_of(verify::Motion motion, int step) {
   return (motion == verify::Motion::normal ? 0.03 : 0.3) * step / kSteps;
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Run by draw in a folder with profile-MOTION-CONTACT.csv (rows of tangency_profiles) and
+# Run by draw_profiles in a folder with profile-MOTION-CONTACT.csv (rows of tangency_profiles) and
 # FAMILY-published.txt and FAMILY-cut.txt (depth / rho and median difference, of bench_trace).
 set encoding utf8
 set minussign
