@@ -94,7 +94,7 @@ double rounded(double value) { return std::strtod(format("%.3e", value).c_str(),
 /// JSON has no infinity, and readers of CSV expect none.
 std::string infinite_as_text(double value) { return std::isnan(value) ? "nan" : "inf"; }
 
-void write(const Cell& cell, csv::RowText& to) {
+void write(const Cell& cell, tables::RowText& to) {
   if (std::holds_alternative<std::monostate>(cell)) return to.empty();
   if (const auto* s = std::get_if<std::string>(&cell)) return to.text(*s);
   if (const auto* n = std::get_if<std::uint64_t>(&cell)) return to.integer(*n);
@@ -136,7 +136,7 @@ std::string describe_columns() {
 }
 
 std::string to_csv(const std::vector<Row>& rows) {
-  csv::RowText table;
+  tables::RowText table;
   std::vector<std::string_view> names;
   for (const Column& column : columns()) names.push_back(column.name);
   table.header(names);
@@ -158,7 +158,7 @@ std::string to_json(const std::vector<Row>& rows) {
 }
 
 std::string to_csv(const std::vector<AheadRow>& rows) {
-  csv::RowText table;
+  tables::RowText table;
   constexpr std::string_view kNames[] = {"family", "method",   "level", "touching_percent",
                                          "ns_all", "ns_ahead", "ratio"};
   table.header(kNames);

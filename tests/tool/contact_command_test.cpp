@@ -187,7 +187,7 @@ void PrintTo(const BadRow& bad, std::ostream* out) { *out << bad.name; }
 
 const std::string kGoodRow = "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4\n";
 
-class BadRows : public testing::TestWithParam<BadRow> {};
+class BadRows : public ::testing::TestWithParam<BadRow> {};
 
 TEST_P(BadRows, EndTheRunWithOneLineAndLeaveTheOutputFile) {
   const TemporaryFolder folder;
@@ -229,7 +229,7 @@ const std::string kTurnRule = ": an orientation must be finite and not all 0";
 
 INSTANTIATE_TEST_SUITE_P(
     ContactCommand, BadRows,
-    testing::ValuesIn(std::vector<BadRow>{
+    ::testing::ValuesIn(std::vector<BadRow>{
         {"NegativeAxis", "0,0,0,1,-1,3,1,0,0,0,9,0,0,3,2,1,1,2,3,4", "a.r2 = -1" + kAxisRule},
         {"ZeroAxis", "0,0,0,1,2,3,1,0,0,0,9,0,0,3,2,0x0p0,1,2,3,4", "b.r3 = 0x0p0" + kAxisRule},
         {"ZeroOrientation", "0,0,0,1,2,3,0,0,-0,0,9,0,0,3,2,1,1,2,3,4", "a.qw = 0" + kTurnRule},

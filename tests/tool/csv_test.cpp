@@ -20,7 +20,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::csv {
+namespace tangency::tables {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -58,10 +58,10 @@ struct Sample {
 
 void PrintTo(const Sample& sample, std::ostream* out) { *out << sample.name; }
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) { return info.param.name; }
+std::string name_of(const ::testing::TestParamInfo<Sample>& info) { return info.param.name; }
 
-class AcceptedText : public testing::TestWithParam<Sample> {};
-class RefusedText : public testing::TestWithParam<Sample> {};
+class AcceptedText : public ::testing::TestWithParam<Sample> {};
+class RefusedText : public ::testing::TestWithParam<Sample> {};
 
 TEST_P(AcceptedText, MeansTheSameTable) {
   EXPECT_EQ(read_x_y(GetParam().text), (Rows{{1, -2.5}, {3, 4}}));
@@ -69,7 +69,7 @@ TEST_P(AcceptedText, MeansTheSameTable) {
 
 INSTANTIATE_TEST_SUITE_P(
     Csv, AcceptedText,
-    testing::ValuesIn(std::vector<Sample>{
+    ::testing::ValuesIn(std::vector<Sample>{
         {"Plain", "x,y\n1,-2.5\n3,4\n", ""},
         {"LastLineWithoutEnd", "x,y\n1,-2.5\n3,4", ""},
         {"Crlf", "x,y\r\n1,-2.5\r\n3,4\r\n", ""},
@@ -108,7 +108,7 @@ const std::string kCommas = "; they must be by commas, and numbers have a decima
 
 INSTANTIATE_TEST_SUITE_P(
     Csv, RefusedText,
-    testing::ValuesIn(std::vector<Sample>{
+    ::testing::ValuesIn(std::vector<Sample>{
         {"EmptyCell", "x,y\n1,\n", "t.csv:2: y = (empty)" + kNotANumber},
         {"BlankCell", "x,y\n , 1\n", "t.csv:2: x = (empty)" + kNotANumber},
         {"Word", "x,y\n1,2\n1,two\n", "t.csv:3: y = two" + kNotANumber},
@@ -515,4 +515,4 @@ TEST(CsvRowText, WritesCellsInOrder) {
 }
 
 }  // namespace
-}  // namespace tangency::csv
+}  // namespace tangency::tables
