@@ -8,12 +8,13 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <exception>
 #include <iostream>
 #include <string>
 
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace {
 
@@ -23,21 +24,16 @@ const std::string head =
     "# SPDX-License-Identifier: GPL-3.0-or-later\n"
     "# Made by: make_plane_samples dem/scenes/plane-1000.toml tests/data/plane_samples\n";
 
-/// Reads back to the same double, the shortest.
-std::string text_of(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 std::string bodies(const dem::State& state) {
   std::string text = head + "x,y,a,b,ux,uy\n";
   const dem::Particles& p = state.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vec3 x = p.position[i] - state.cell.translation(state.cell.image_of(p.position[i]));
     const Eigen::Quaterniond& q = p.orientation[i];
-    text += text_of(x[0]) + "," + text_of(x[1]) + "," + text_of(p.semi_axes[i][0]) + "," +
-            text_of(p.semi_axes[i][1]) + "," + text_of(q.w() * q.w() - q.z() * q.z()) + "," +
-            text_of(2.0 * q.w() * q.z()) + "\n";
+    text += tables::to_text(x[0]) + "," + tables::to_text(x[1]) + "," +
+            tables::to_text(p.semi_axes[i][0]) + "," + tables::to_text(p.semi_axes[i][1]) + "," +
+            tables::to_text(q.w() * q.w() - q.z() * q.z()) + "," +
+            tables::to_text(2.0 * q.w() * q.z()) + "\n";
   }
   return text;
 }
@@ -47,9 +43,9 @@ std::string index_row(const dem::Simulation& simulation) {
   const dem::State& state = simulation.state();
   const dem::Observation seen = simulation.observe();
   const double radius = simulation.scene().smallest_mean_radius();
-  return simulation.stage().name + "," + text_of(state.cell.edges(0, 0)) + "," +
-         text_of(state.cell.edges(1, 1)) + "," + std::to_string(seen.contacts) + "," +
-         text_of(seen.mean_overlap / radius) + "\n";
+  return simulation.stage().name + "," + tables::to_text(state.cell.edges(0, 0)) + "," +
+         tables::to_text(state.cell.edges(1, 1)) + "," + std::to_string(seen.contacts) + "," +
+         tables::to_text(seen.mean_overlap / radius) + "\n";
 }
 
 int make(const std::string& scene, const std::string& directory) {
@@ -79,14 +75,11 @@ int make(const std::string& scene, const std::string& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: make_plane_samples SCENE.toml DIR\n";
-    return 2;
-  }
-  try {
-    return make(argv[1], argv[2]);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 2;
-  }
+  tangency::tables::Program program("make_plane_samples",
+                                    "Makes tests/data/plane_samples again, from a scene of disks");
+  std::string scene, directory;
+  program.option("SCENE", scene, "Scene in TOML").required();
+  program.option("DIR", directory, "Directory to write to").required();
+  program.runs([&] { return make(scene, directory); });
+  return program.run(argc, argv);
 }

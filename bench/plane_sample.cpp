@@ -14,14 +14,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/trace/scheme.hpp>
 #include <tangency/geometry/trace_contact.hpp>
@@ -41,12 +40,12 @@ struct Sample {
 };
 
 std::vector<Ellipse> read_bodies(const std::string& file) {
-  csv::Reader reader(file);
-  const csv::Header& header = reader.header();
-  std::vector<csv::Column> columns;
+  tables::Reader reader(file);
+  const tables::Header& header = reader.header();
+  std::vector<tables::Column> columns;
   for (const char* name : {"x", "y", "a", "b", "ux", "uy"}) columns.push_back(header.require(name));
   std::vector<Ellipse> bodies;
-  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     const auto pair = [&](std::size_t k) {
       return Vec2(row.number(columns[k]), row.number(columns[k + 1]));
     };
@@ -56,13 +55,13 @@ std::vector<Ellipse> read_bodies(const std::string& file) {
 }
 
 std::vector<Sample> read_samples(const std::string& directory) {
-  csv::Reader reader(directory + "/samples.csv");
-  const csv::Header& header = reader.header();
+  tables::Reader reader(directory + "/samples.csv");
+  const tables::Header& header = reader.header();
   const auto name = header.require("sample"), x = header.require("cell_x"),
              y = header.require("cell_y"), contacts = header.require("contacts"),
              depth = header.require("mean_depth");
   std::vector<Sample> samples;
-  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     const std::string stem(row.text(name));
     samples.push_back({stem, Vec2(row.number(x), row.number(y)),
                        static_cast<std::size_t>(row.number(contacts)), row.number(depth),
@@ -291,27 +290,28 @@ void print_exponents(const std::vector<Sample>& samples,
   }
 }
 
+void print_all(const std::string& directory) {
+  const std::vector<Sample> samples = read_samples(directory);
+  std::vector<std::vector<Contact>> contacts;
+  for (const Sample& sample : samples) {
+    contacts.push_back(contacts_of(sample));
+    check(sample, contacts.back());
+    print_sample(sample, contacts.back());
+    print_worst(contacts.back());
+    print_cluster(sample, contacts.back());
+  }
+  print_exponents(samples, contacts);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: plane_sample DIR, with samples.csv in it\n";
-    return 2;
-  }
-  try {
-    const std::vector<Sample> samples = read_samples(argv[1]);
-    std::vector<std::vector<Contact>> contacts;
-    for (const Sample& sample : samples) {
-      contacts.push_back(contacts_of(sample));
-      check(sample, contacts.back());
-      print_sample(sample, contacts.back());
-      print_worst(contacts.back());
-      print_cluster(sample, contacts.back());
-    }
-    print_exponents(samples, contacts);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+  tangency::tables::Program program("plane_sample", "Overlaps of a plane sample by definition");
+  std::string directory;
+  program.option("DIR", directory, "Directory with samples.csv in it").required();
+  program.runs([&] {
+    print_all(directory);
+    return 0;
+  });
+  return program.run(argc, argv);
 }

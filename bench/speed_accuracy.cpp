@@ -3,13 +3,10 @@
 // truth the 100-digit oracle knows. Answers are checked before anything is timed; where a method
 // that promises no wrong answer has one, the program names the pair and ends with status 1.
 // docs/speed-accuracy.md says how it was run and what came out.
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <string>
@@ -23,6 +20,7 @@
 #include <tangency/bench/speed_accuracy/overlaps_first.hpp>
 #include <tangency/bench/speed_accuracy/report.hpp>
 #include <tangency/bench/timing.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
 namespace {
@@ -197,7 +195,7 @@ bool run_ahead(const Options& options, std::vector<AheadRow>& rows) {
 
 void write(const std::string& path, const std::string& text) {
   if (path.empty()) return;
-  tangency::csv::OutputFile file(path);
+  tangency::tables::OutputFile file(path);
   file.write(text);
   file.commit();
 }
@@ -251,45 +249,34 @@ std::string footer() {
 int main(int argc, char** argv) {
   Options options;
   std::vector<std::string> texts;
-  CLI::App app{"Error against time of every way to the gap of two ellipsoids"};
-  app.add_option("--families", texts, "families whose name contains one of these; else all");
-  app.add_option("--pairs", options.pairs, "of each family")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}))
-      ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "in each of which everything is timed once")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_flag("--quick", options.quick, "40 pairs of each, a few short rounds: a try, no figures");
-  app.add_flag("--count", options.count, "count instructions, by valgrind");
-  app.add_flag("--counted", options.counted)->group("");
-  app.add_option("--csv", options.csv, "write the table here");
-  app.add_option("--json", options.json, "the same as an array of objects");
-  app.add_option("--ahead", options.ahead, "CSV of the yes/no question ahead of the contact");
-  app.add_option("--markdown", options.markdown, "short tables; to standard output by default");
-  app.add_option("--picture", options.picture, "SVG of error against time, drawn by gnuplot");
-  app.footer(footer());
-  app.failure_message(
-      [](const CLI::App*, const CLI::Error& e) { return e.what() + std::string("\n"); });
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    const int status = app.exit(e);
-    return status == 0 ? 0 : 2;
-  }
-  if (options.quick) options.pairs = 40;
-  options.families = chosen_families(texts);
-  if (options.families.empty()) {
-    std::fprintf(stderr, "--families: no family has such a name; --help lists them\n");
-    return 2;
-  }
-  if (options.count && !can_count()) {
-    std::fprintf(stderr, "--count: not built with <valgrind/callgrind.h>\n");
-    return 2;
-  }
-  try {
+  tangency::tables::Program program("bench_speed_accuracy",
+                                    "Error against time of every way to the gap of two ellipsoids");
+  program.option("--families", texts, "families whose name contains one of these; else all");
+  program.option("--pairs", options.pairs, "of each family")
+      .between(std::size_t{1}, std::size_t{1000000})
+      .shows_default();
+  program.option("--rounds", options.rounds, "in each of which everything is timed once")
+      .between(1, 1000)
+      .shows_default();
+  program.flag("--quick", options.quick, "40 pairs of each, a few short rounds: a try, no figures");
+  program.flag("--count", options.count, "count instructions, by valgrind");
+  program.flag("--counted", options.counted).hidden();
+  program.option("--csv", options.csv, "write the table here");
+  program.option("--json", options.json, "the same as an array of objects");
+  program.option("--ahead", options.ahead, "CSV of the yes/no question ahead of the contact");
+  program.option("--markdown", options.markdown, "short tables; to standard output by default");
+  program.option("--picture", options.picture, "SVG of error against time, drawn by gnuplot");
+  program.footer(footer());
+  program.runs([&] {
+    if (options.quick) options.pairs = 40;
+    options.families = chosen_families(texts);
+    if (options.families.empty()) {
+      throw tangency::tables::UsageError("--families: no family has such a name");
+    }
+    if (options.count && !can_count()) {
+      throw tangency::tables::UsageError("--count: not built with <valgrind/callgrind.h>");
+    }
     return options.counted ? count_all(options) : run(options);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 2;
-  }
+  });
+  return program.run(argc, argv);
 }

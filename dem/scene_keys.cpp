@@ -9,6 +9,8 @@
 #include <sstream>
 #include <vector>
 
+#include <tangency/geometry/tables/number_text.hpp>
+
 namespace tangency::dem {
 namespace {
 
@@ -186,12 +188,8 @@ constexpr std::array kTable{
 
 /// Whole numbers in full, as one writes them for an integer.
 std::string number(double x) {
-  std::array<char, 32> buffer;
-  char* const end = buffer.data() + buffer.size();
   const bool whole = x == std::floor(x) && std::abs(x) < 1e16;
-  const auto written = whole ? std::to_chars(buffer.data(), end, x, std::chars_format::fixed)
-                             : std::to_chars(buffer.data(), end, x);
-  return {buffer.data(), written.ptr};
+  return whole ? tables::to_text(x, std::chars_format::fixed) : tables::to_text(x);
 }
 
 std::string range_text(const Range& range) {

@@ -2,22 +2,19 @@
 #include <tangency/dem/scene_section.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
 #include <sstream>
 #include <utility>
+
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
 
 /// The shortest text that reads back to x: toml++ writes 0.05 with 17 digits.
 std::string text_of(double x) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
-  const std::string text(buffer.data(), end.ptr);
+  const std::string text = tables::to_text(x);
   return text.find_first_not_of("-0123456789") == text.npos ? text + ".0" : text;
 }
 
@@ -67,11 +64,7 @@ bool fits(const Key& key, const toml::node& node) {
   return false;
 }
 
-std::string short_text(double x) {
-  std::ostringstream text;
-  text << std::setprecision(3) << x;
-  return text.str();
-}
+std::string short_text(double x) { return tables::rounded_text(x, 3); }
 
 bool is_name(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {

@@ -5,12 +5,12 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -43,10 +43,8 @@ constexpr double kSettlingStrain = 0.01;
 
 void require_equal(const std::string& key, double in_state, double in_scene) {
   if (std::abs(in_state - in_scene) <= kSameParticle * in_scene) return;
-  std::ostringstream text;
-  text << std::setprecision(10) << "a state with " << key << " = " << in_state << "; the scene has "
-       << in_scene;
-  throw std::invalid_argument(text.str());
+  throw std::invalid_argument("a state with " + key + " = " + tables::rounded_text(in_state, 10) +
+                              "; the scene has " + tables::rounded_text(in_scene, 10));
 }
 
 /// @throws std::invalid_argument  naming the first key of the scene that the particles are not of
@@ -84,11 +82,7 @@ void require_same_particles(const State& state, const Scene& scene) {
   }
 }
 
-std::string short_text(double x) {
-  std::ostringstream text;
-  text << std::setprecision(6) << x;
-  return text.str();
-}
+std::string short_text(double x) { return tables::rounded_text(x, 6); }
 
 /// "contact.a-b.normal_stiffness = 2, and here 3" of each key that differs, of the first pair that
 /// it does for. Of one pair of types where there is but one law.

@@ -2,10 +2,12 @@
 #include <tangency/dem/thin_cell.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
-#include <sstream>
+#include <string>
+
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -18,11 +20,7 @@ void keep(std::array<double, 2>& two, double value) {
     two[1] = std::max(two[1], value);
 }
 
-std::string length_text(double x) {
-  std::ostringstream text;
-  text << std::setprecision(5) << x << " m";
-  return text.str();
-}
+std::string length_text(double x) { return tables::rounded_text(x, 5) + " m"; }
 
 /// "along z", or along how many of each edge.
 std::string direction_text(const Image& image, const Cell& cell) {

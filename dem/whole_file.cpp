@@ -8,28 +8,15 @@
 #include <cerrno>
 #include <cstddef>
 #include <system_error>
-#include <utility>
+
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::dem {
 namespace {
 
-/// Closed at the latest with its scope.
-class OpenFile {
- public:
-  OpenFile(const std::filesystem::path& file, int how) noexcept
-      : file_(::open(file.c_str(), how | O_CLOEXEC, 0666)) {}
-  ~OpenFile() { close(); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  bool is_open() const noexcept { return file_ >= 0; }
-  int get() const noexcept { return file_; }
-  /// False where the last bytes could not be stored.
-  bool close() noexcept { return file_ < 0 || ::close(std::exchange(file_, -1)) == 0; }
-
- private:
-  int file_;
-};
+tables::Descriptor opened(const std::filesystem::path& file, int how) noexcept {
+  return tables::Descriptor(::open(file.c_str(), how | O_CLOEXEC, 0666));
+}
 
 }  // namespace
 
@@ -39,7 +26,7 @@ FileError::FileError(const std::filesystem::path& file, const char* done, int pr
       problem_(problem) {}
 
 std::string bytes_of_file(const std::filesystem::path& file) {
-  const OpenFile in(file, O_RDONLY);
+  const tables::Descriptor in = opened(file, O_RDONLY);
   if (!in.is_open()) throw ReadError(file, errno);
   std::string bytes;
   std::array<char, 1 << 16> some;
@@ -60,18 +47,14 @@ std::optional<std::string> read_whole(const std::filesystem::path& file) {
 }
 
 void write_all(int file, std::string_view bytes, const std::filesystem::path& name) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) throw WriteError(name, errno);
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!tables::write_all(file, bytes)) throw WriteError(name, errno);
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::path part = file;
   part += ".part";
   try {
-    OpenFile out(part, O_WRONLY | O_CREAT | O_TRUNC);
+    tables::Descriptor out = opened(part, O_WRONLY | O_CREAT | O_TRUNC);
     if (!out.is_open()) throw WriteError(file, errno);
     write_all(out.get(), bytes, file);
     if (!out.close() || ::rename(part.c_str(), file.c_str()) != 0) throw WriteError(file, errno);

@@ -18,6 +18,7 @@
 
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 #include <tangency/verify/families/displacement.hpp>
 
@@ -113,12 +114,6 @@ std::vector<Sample> profile(const verify::DisplacementContact& contact, Motion m
 
 std::string_view name_of(GapStatus status) { return status == GapStatus::ok ? "ok" : "local"; }
 
-/// Reads back to the same double.
-std::string text_of(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 }  // namespace
 
 int main() {
@@ -132,14 +127,14 @@ int main() {
         const double s = sample.displacement;
         const double expected =
             contact.overlap + s * (expansion.slope + 0.5 * expansion.curvature * s);
-        std::cout << contact.name << ',' << to_string(motion) << ',' << text_of(s) << ','
-                  << text_of(sample.overlap) << ',' << text_of(expected) << ','
-                  << text_of(published_overlap(contact, motion, s)) << ','
+        std::cout << contact.name << ',' << to_string(motion) << ',' << tables::to_text(s) << ','
+                  << tables::to_text(sample.overlap) << ',' << tables::to_text(expected) << ','
+                  << tables::to_text(published_overlap(contact, motion, s)) << ','
                   << name_of(sample.status);
         const Ellipsoid b = displaced(contact, motion, s);
         for (const Scheme& scheme : kSchemes) {
           const std::optional<double> overlap = scheme.overlap(contact.a, b);
-          std::cout << ',' << (overlap ? text_of(*overlap) : "");
+          std::cout << ',' << (overlap ? tables::to_text(*overlap) : "");
         }
         std::cout << '\n';
       }

@@ -15,6 +15,7 @@
 #include <string>
 
 #include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/trace/scheme.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/displacement.hpp>
@@ -27,18 +28,12 @@ using namespace tangency;
 constexpr int kSteps = 8;  // either way
 constexpr double kOverlap = 0.02, kShortOverLong = 0.7;
 
-/// Reads back to the same double.
-std::string text_of(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 void write_body(const Ellipsoid& e) {
   const Eigen::Quaterniond q = e.orientation();
   for (const Vec3& v : {e.centre(), e.semi_axes()}) {
-    for (const double c : v) std::cout << text_of(c) << ',';
+    for (const double c : v) std::cout << tables::to_text(c) << ',';
   }
-  for (const double c : {q.w(), q.x(), q.y(), q.z()}) std::cout << text_of(c) << ',';
+  for (const double c : {q.w(), q.x(), q.y(), q.z()}) std::cout << tables::to_text(c) << ',';
 }
 
 std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
@@ -47,9 +42,7 @@ std::string trace_of(const Ellipsoid& a, const Ellipsoid& b) {
   const auto found = detail::trace_scheme<Real>(
       detail::trace_body<Real>(a), detail::trace_body<Real>(b), b.centre().cast<Real>(), {});
   if (found.status != TraceStatus::ok) return {};
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.11Le", -found.gap);
-  return text.data();
+  return tables::formatted("%.11Le", -found.gap);
 }
 
 /// 0.03 along the normal and 0.3 else: bench/demo/profiles.cpp.
@@ -80,9 +73,9 @@ int main() {
         }
         write_body(contact.a);
         write_body(b);
-        std::cout << contact.name << ',' << to_string(motion) << ',' << text_of(s) << ','
-                  << text_of(-static_cast<double>(truth.gap)) << ',' << trace_of(contact.a, b)
-                  << '\n';
+        std::cout << contact.name << ',' << to_string(motion) << ',' << tables::to_text(s) << ','
+                  << tables::to_text(-static_cast<double>(truth.gap)) << ','
+                  << trace_of(contact.a, b) << '\n';
       }
     }
   }

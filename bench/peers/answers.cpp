@@ -26,7 +26,7 @@
 namespace {
 
 using namespace tangency::peers;
-namespace csv = tangency::csv;
+namespace tables = tangency::tables;
 
 /// Of processor time. Measured: on a busy machine FCL's signed distance takes up to 0.25 s for one
 /// pair of the corpora that it answers; what takes longer does not come back.
@@ -92,25 +92,25 @@ class LatePair final : public PeerPair {
   RawEllipsoid a_, b_;
 };
 
-std::array<csv::Column, 10> body_columns(const csv::Header& header, const std::string& who) {
-  std::array<csv::Column, 10> columns{};
+std::array<tables::Column, 10> body_columns(const tables::Header& header, const std::string& who) {
+  std::array<tables::Column, 10> columns{};
   std::ranges::transform(
       std::array{".x", ".y", ".z", ".r1", ".r2", ".r3", ".qw", ".qx", ".qy", ".qz"},
       columns.begin(), [&](const char* field) { return header.require(who + field); });
   return columns;
 }
 
-RawEllipsoid body(const csv::RowCursor& row, const std::array<csv::Column, 10>& columns) {
+RawEllipsoid body(const tables::RowCursor& row, const std::array<tables::Column, 10>& columns) {
   std::array<double, 10> v{};
-  std::ranges::transform(columns, v.begin(), [&](csv::Column c) { return row.number(c); });
+  std::ranges::transform(columns, v.begin(), [&](tables::Column c) { return row.number(c); });
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8], v[9]}};
 }
 
 std::vector<std::unique_ptr<PeerPair>> pairs_of(const Peer& peer) {
-  csv::Reader reader("-");
+  tables::Reader reader("-");
   const auto a = body_columns(reader.header(), "a"), b = body_columns(reader.header(), "b");
   std::vector<std::unique_ptr<PeerPair>> pairs;
-  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     pairs.push_back(std::make_unique<LatePair>(peer, body(row, a), body(row, b)));
   });
   return pairs;

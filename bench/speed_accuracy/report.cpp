@@ -106,7 +106,7 @@ std::vector<Column<AheadRow>> ahead_columns() {
           {"ratio", "", [](const AheadRow& r) { return number(r.ns_ahead / r.ns_all); }}};
 }
 
-void write(const Json& cell, csv::RowText& to) {
+void write(const Json& cell, tables::RowText& to) {
   if (cell.is_null()) return to.empty();
   if (cell.is_string()) return to.text(cell.get_ref<const std::string&>());
   if (cell.is_number_unsigned()) return to.integer(cell.get<std::uint64_t>());
@@ -115,7 +115,7 @@ void write(const Json& cell, csv::RowText& to) {
 
 template <class RowType>
 std::string csv_of(const std::vector<Column<RowType>>& columns, const std::vector<RowType>& rows) {
-  csv::RowText table;
+  tables::RowText table;
   std::vector<std::string_view> names;
   for (const auto& column : columns) names.push_back(column.name);
   table.header(names);

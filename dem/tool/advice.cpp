@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <vector>
+
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -16,16 +16,11 @@ double two_digits(double x, double (*round)(double)) {
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1.0);
   return std::copysign(round(std::abs(x) / unit * (1.0 - 1e-12)) * unit, x);
 }
-std::string text_of(double x, int digits) {
-  std::ostringstream text;
-  text << std::setprecision(digits) << x;
-  return text.str();
-}
-std::string rounded_down(double x) { return text_of(two_digits(x, std::floor), 2); }
-std::string rounded_up(double x) { return text_of(two_digits(x, std::ceil), 2); }
+std::string rounded_down(double x) { return tables::rounded_text(two_digits(x, std::floor), 2); }
+std::string rounded_up(double x) { return tables::rounded_text(two_digits(x, std::ceil), 2); }
 /// An integer's text, without an exponent.
 std::string whole_up(double x) {
-  return text_of(std::round(two_digits(std::ceil(x), std::ceil)), 17);
+  return tables::rounded_text(std::round(two_digits(std::ceil(x), std::ceil)), 17);
 }
 
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {
@@ -149,7 +144,8 @@ std::string advice_on_servo(const Simulation& simulation) {
   for (const Target& target : stage.loading.targets) largest = std::max(largest, target.wanted);
   const double fast = scene.servo_strain_rate(largest);
   const auto raised = [](const char* key, double from, double to) {
-    return std::string("raise ") + key + " from " + text_of(from, 3) + " to " + text_of(to, 3);
+    return std::string("raise ") + key + " from " + tables::rounded_text(from, 3) + " to " +
+           tables::rounded_text(to, 3);
   };
   if (servo.max_strain_rate < 0.5 * fast)
     return raised("max_strain_rate", servo.max_strain_rate, fast);

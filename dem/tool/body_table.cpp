@@ -15,10 +15,10 @@
 namespace tangency::dem {
 namespace {
 
-using Columns = std::vector<csv::Column>;
+using Columns = std::vector<tables::Column>;
 
 /// Columns of which a table has all or none; empty where it has none.
-Columns group(const csv::Header& header, const std::vector<std::string>& names) {
+Columns group(const tables::Header& header, const std::vector<std::string>& names) {
   Columns columns;
   for (const std::string& name : names)
     if (const auto column = header.find(name)) columns.push_back(*column);
@@ -34,12 +34,12 @@ const Key& body_key(std::string_view name) {
 }
 
 template <class Vector>
-Vector numbers(const csv::RowCursor& row, const Columns& columns, const Key& key,
+Vector numbers(const tables::RowCursor& row, const Columns& columns, const Key& key,
                const Vector& otherwise) {
   if (columns.empty()) return otherwise;
   Vector v = otherwise;
   for (Eigen::Index k = 0; k < v.size(); ++k) {
-    const csv::Column column = columns[static_cast<std::size_t>(k)];
+    const tables::Column column = columns[static_cast<std::size_t>(k)];
     v[k] = row.number(column);
     if (!key.range.holds(v[k])) throw row.error(column, "one of " + allowed_values(key));
   }
@@ -48,7 +48,7 @@ Vector numbers(const csv::RowCursor& row, const Columns& columns, const Key& key
 
 class BodyTable {
  public:
-  BodyTable(const csv::Header& header, const Scene& scene)
+  BodyTable(const tables::Header& header, const Scene& scene)
       : scene_(scene),
         type_(header.require("type")),
         position_{header.require("x"), header.require("y"), header.require("z")},
@@ -56,7 +56,7 @@ class BodyTable {
         velocity_(group(header, {"vx", "vy", "vz"})),
         angular_velocity_(group(header, {"wx", "wy", "wz"})) {}
 
-  Body read(const csv::RowCursor& row) const {
+  Body read(const tables::RowCursor& row) const {
     const Vec3 none = Vec3::Zero();
     const Eigen::Vector4d q =
         numbers(row, orientation_, orientation_key_, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
@@ -76,7 +76,7 @@ class BodyTable {
   }
 
  private:
-  static void require_zero(const csv::RowCursor& row, const Columns& columns,
+  static void require_zero(const tables::RowCursor& row, const Columns& columns,
                            std::initializer_list<std::size_t> which) {
     if (columns.empty()) return;
     for (const std::size_t k : which)
@@ -84,7 +84,7 @@ class BodyTable {
         throw row.error(columns[k], "0: with dimensions = 2 a body lies, moves and turns in z = 0");
   }
 
-  std::size_t type_of(const csv::RowCursor& row) const {
+  std::size_t type_of(const tables::RowCursor& row) const {
     const auto& types = scene_.particle_types;
     for (std::size_t k = 0; k < types.size(); ++k)
       if (types[k].name == row.text(type_)) return k;
@@ -96,7 +96,7 @@ class BodyTable {
   const Key& orientation_key_ = body_key("orientation");
   const Key& velocity_key_ = body_key("velocity");
   const Key& angular_velocity_key_ = body_key("angular_velocity");
-  csv::Column type_;
+  tables::Column type_;
   Columns position_, orientation_, velocity_, angular_velocity_;
 };
 
@@ -108,11 +108,11 @@ void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
   const std::string file = (scene_file.parent_path() / name).string();
   std::vector<Body> bodies;
   try {
-    csv::Reader reader(file);
+    tables::Reader reader(file);
     const BodyTable table(reader.header(), scene);
-    csv::for_each_row(reader,
-                      [&](const csv::RowCursor& row) { bodies.push_back(table.read(row)); });
-  } catch (const csv::Error& error) {
+    tables::for_each_row(reader,
+                         [&](const tables::RowCursor& row) { bodies.push_back(table.read(row)); });
+  } catch (const tables::Error& error) {
     throw SceneError(error.what());
   }
   set_bodies(scene, std::move(bodies), file);

@@ -5,8 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
+
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -22,12 +23,7 @@ constexpr std::array<const char*, 9> kColours = {"#0072b2", "#d55e00", "#009e73"
                                                  "#cc79a7", "#8a6d00", "#56b4e9",
                                                  "#e69f00", "#555555", "#7b3fa0"};
 
-std::string text_of(double x, const char* format) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-std::string pixels(double x) { return text_of(x, "%.1f"); }
+std::string pixels(double x) { return tables::formatted("%.1f", x); }
 
 std::string label(double x, double y, const std::string& attributes, const std::string& text) {
   return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" " + attributes + ">" +
@@ -167,18 +163,19 @@ std::string frame_of(const Chart& chart, const Axes& axes) {
   for (const double value : axes.y.ticks()) {
     const double y = axes.y.at(value);
     svg += line(kLeft, y, kWidth - kRight, y, "#d8d8d8") +
-           label(kLeft - 6, y + 4, "text-anchor=\"end\"", text_of(value, "%.4g"));
+           label(kLeft - 6, y + 4, "text-anchor=\"end\"", tables::formatted("%.4g", value));
   }
   if (!chart.right_label.empty())
     for (const double value : axes.y_right.ticks()) {
       const double y = axes.y_right.at(value);
       svg += line(kWidth - kRight, y, kWidth - kRight + 4, y, "#555") +
-             label(kWidth - kRight + 7, y + 4, "", text_of(value, "%.4g"));
+             label(kWidth - kRight + 7, y + 4, "", tables::formatted("%.4g", value));
     }
   for (const double value : axes.x.ticks()) {
     const double x = axes.x.at(value);
     svg += line(x, kHeight - kBottom, x, kHeight - kBottom + 4, "#555") +
-           label(x, kHeight - kBottom + 17, "text-anchor=\"middle\"", text_of(value, "%.4g"));
+           label(x, kHeight - kBottom + 17, "text-anchor=\"middle\"",
+                 tables::formatted("%.4g", value));
   }
   svg += "<rect x=\"" + pixels(kLeft) + "\" y=\"" + pixels(kTop) + "\" width=\"" +
          pixels(kWidth - kLeft - kRight) + "\" height=\"" + pixels(kHeight - kTop - kBottom) +

@@ -11,11 +11,13 @@
 #include <sstream>
 #include <string>
 
-#include <tangency/dem/tool/numbers.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
+
+using tables::to_text;
 
 template <class Vector>
 std::string row(const Vector& v) {
@@ -154,7 +156,7 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
   }
   in.close();
   write_whole(part, kept);
-  xyz_ = csv::Descriptor(::open(part.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  xyz_ = tables::Descriptor(::open(part.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (!xyz_.is_open()) throw WriteError(part, errno);
   std::filesystem::remove(whole);
 }

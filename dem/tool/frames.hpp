@@ -43,7 +43,7 @@ class Frames {
   void write_index() const;
 
   std::filesystem::path directory_;
-  csv::Descriptor xyz_;  // frames.xyz.part
+  tables::Descriptor xyz_;  // frames.xyz.part
   std::vector<Entry> entries_;
 };
 

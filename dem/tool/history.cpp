@@ -10,15 +10,15 @@
 
 namespace tangency::dem {
 History::History(const std::filesystem::path& file) {
-  csv::Reader reader(file.string());
-  const csv::Column stage = reader.header().require("stage");
-  std::vector<csv::Column> places;
+  tables::Reader reader(file.string());
+  const tables::Column stage = reader.header().require("stage");
+  std::vector<tables::Column> places;
   for (const Field& field : history_fields(0, 0.0, "", 0, Observation{})) {
     if (field.name == "stage") continue;
     places.push_back(reader.header().require(field.name));
     columns_.emplace_back(field.name, std::vector<double>());
   }
-  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     stage_.emplace_back(row.text(stage));
     for (std::size_t k = 0; k < places.size(); ++k)
       columns_[k].second.push_back(row.number(places[k]));

@@ -19,7 +19,7 @@ namespace tangency::dem {
 /// A history's columns, one entry a row; they are those of history_fields().
 class History {
  public:
-  /// @throws csv::Error  a file that cannot be read, lacks a column, or holds what is no number
+  /// @throws tables::Error  a file that cannot be read, lacks a column, or holds what is no number
   explicit History(const std::filesystem::path& file);
 
   std::size_t size() const { return stage_.size(); }

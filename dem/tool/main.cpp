@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -11,13 +11,13 @@
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
-#include <tangency/geometry/tables/not_empty.hpp>
-#include <tangency/geometry/tool/program.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 
+namespace tangency::dem {
 namespace {
 
-using namespace tangency::dem;
-using tangency::tool::exit_after;
+namespace fs = std::filesystem;
 
 constexpr const char* kProgramDescription =
     "tangency-dem: assemblies of ellipsoids by the discrete element method";
@@ -119,9 +119,7 @@ Exit status:
 )";
 
 /// DIR where none is given: the scene's name without its ending, in the working directory.
-std::filesystem::path default_directory(const std::filesystem::path& scene) {
-  return scene.stem().string() + "-out";
-}
+fs::path default_directory(const fs::path& scene) { return scene.stem().string() + "-out"; }
 
 /// Starts the program again with OpenMP's threads sleeping while they wait, unless the user chose:
 /// libgomp reads the choice when it is loaded. A cycle is so short that threads which wait busily
@@ -132,63 +130,63 @@ void let_idle_threads_sleep(char** argv) {
   setenv("OMP_WAIT_POLICY", "passive", 1);
   std::error_code error;
   // Resolved: the process is called after the path that it was started by.
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto program = fs::read_symlink("/proc/self/exe", error);
   if (!error) execv(program.c_str(), argv);  // returns only where it failed: then go on, slower
 }
 
-int parse_and_run(int argc, char** argv) {
-  CLI::App app(kProgramDescription, "tangency-dem");
-  app.set_version_flag("--version", "tangency-dem " TANGENCY_VERSION);
-  app.footer(kProgramHelp);
-  app.require_subcommand(1);
+void add_run(tables::Program& program) {
+  struct Words {
+    RunOptions options;
+    std::string scene, out, resume;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command = program.subcommand("run", "Run a scene");
+  command.option("SCENE", words->scene, "Scene in TOML; its keys: tangency-dem schema").required();
+  command.option("--out", words->out, "Directory for the results [SCENE's name + -out]")
+      .not_empty();
+  command.option("--threads", words->options.threads, "Number of threads [all]").between(1, 1024);
+  command.option("--resume", words->resume, "Continue from a final.state or checkpoint.state")
+      .not_empty();
+  command.flag("--replace", words->options.replace,
+               "Take away the results of another run in the directory");
+  command.footer(kRunHelp);
+  command.flag("--quiet", words->options.quiet, "No progress");
+  command.runs([words] {
+    RunOptions& options = words->options;
+    options.scene = words->scene;
+    options.out = words->out.empty() ? default_directory(words->scene) : fs::path(words->out);
+    if (!words->resume.empty()) options.resume = words->resume;
+    return run(options);
+  });
+}
 
-  RunOptions options;
-  std::string scene, out, resume;
-  CLI::App* run_command = app.add_subcommand("run", "Run a scene");
-  run_command->add_option("SCENE", scene, "Scene in TOML; its keys: tangency-dem schema")
-      ->required();
-  run_command->add_option("--out", out, "Directory for the results [SCENE's name + -out]")
-      ->check(tangency::tool::not_empty());
-  run_command->add_option("--threads", options.threads, "Number of threads [all]")
-      ->check(CLI::Range(1, 1024));
-  run_command->add_option("--resume", resume, "Continue from a final.state or checkpoint.state")
-      ->check(tangency::tool::not_empty());
-  run_command->add_flag("--replace", options.replace,
-                        "Take away the results of another run in the directory");
-  run_command->footer(kRunHelp);
-  run_command->add_flag("--quiet", options.quiet, "No progress");
-  CLI::App* report_command = app.add_subcommand("report", "Tables and charts of a run");
-  report_command->add_option("DIR", out, "Directory of a run's results")->required();
-  report_command->footer(kReportHelp);
-  CLI::App* schema_command = app.add_subcommand("schema", "Print every key of a scene");
+void add_report(tables::Program& program) {
+  const auto directory = std::make_shared<std::string>();
+  tables::Command& command = program.subcommand("report", "Tables and charts of a run");
+  command.option("DIR", *directory, "Directory of a run's results").required();
+  command.footer(kReportHelp);
+  command.runs([directory] { return report(*directory); });
+}
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& stop) {
-    return exit_after(app, stop, argc, argv);
-  }
-
-  if (schema_command->parsed()) {
+void add_schema(tables::Program& program) {
+  program.subcommand("schema", "Print every key of a scene").runs([] {
     std::ostringstream text;
     print_schema(text);
-    tangency::csv::OutputFile("-").write(text.str());
+    tables::OutputFile("-").write(text.str());
     return success;
-  }
-  options.scene = scene;
-  options.out = out.empty() ? default_directory(scene) : std::filesystem::path(out);
-  if (!resume.empty()) options.resume = resume;
-  return report_command->parsed() ? report(out) : run(options);
+  });
 }
 
 }  // namespace
+}  // namespace tangency::dem
 
 int main(int argc, char** argv) {
+  using namespace tangency::dem;
   let_idle_threads_sleep(argv);
-  return tangency::tool::guarded("tangency-dem", [&]() -> int {
-    try {
-      return parse_and_run(argc, argv);
-    } catch (const std::filesystem::filesystem_error& error) {
-      return tangency::tool::complain(std::string("tangency-dem: ") + error.what());
-    }
-  });
+  tangency::tables::Program program("tangency-dem", kProgramDescription, TANGENCY_VERSION);
+  program.footer(kProgramHelp);
+  add_run(program);
+  add_report(program);
+  add_schema(program);
+  return program.run(argc, argv);
 }

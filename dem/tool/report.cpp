@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/report.hpp>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,7 +15,9 @@
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/summary.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
 namespace tangency::dem {
@@ -44,11 +45,7 @@ svg text.stage { fill: #667; font-size: 11px; }
 /// Chosen: rounding leaves 1e-12, a shear test starts where stresses differ at some 1e-3.
 constexpr double kLeastDistortion = 1e-3;
 
-std::string shown(double x, const char* format = "%.4g") {
-  char text[32];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
+std::string shown(double x, const char* format = "%.4g") { return tables::formatted(format, x); }
 
 struct Headed {
   std::string name, unit;
@@ -70,16 +67,16 @@ using Line = std::array<std::string, heads.size()>;
 class Run {
  public:
   explicit Run(const fs::path& directory)
-      : history_(directory / "history.csv"), stages_(stages_of(history_)) {
+      : history_(directory / "history.csv"),
+        stages_(stages_of(history_)),
+        summary_(read_summary(directory)) {
     if (stages_.empty())
       throw OutputError((directory / "history.csv").string() +
                         ": no row; a run writes it at its first checkpoint and at its end");
-    if (const auto text = read_whole(directory / "summary.json"))
-      summary_ = nlohmann::ordered_json::parse(*text, nullptr, false);
   }
 
-  bool is_complete() const { return summary_.is_object(); }
-  const nlohmann::ordered_json& summary() const { return summary_; }
+  /// Nothing of a run that is not complete.
+  const std::optional<SummaryLines>& summary() const { return summary_; }
   const std::vector<StageRows>& stages() const { return stages_; }
 
   double value(std::string_view name, std::size_t row) const { return history_.column(name)[row]; }
@@ -150,7 +147,7 @@ class Run {
 
   History history_;
   std::vector<StageRows> stages_;
-  nlohmann::ordered_json summary_;
+  std::optional<SummaryLines> summary_;
 };
 
 std::string text_of(const std::vector<Line>& lines) {
@@ -185,14 +182,10 @@ std::string table_of(const std::vector<Line>& lines) {
   return text + "</tr></table>\n";
 }
 
-std::string summary_table(const nlohmann::ordered_json& summary) {
+std::string summary_table(const SummaryLines& summary) {
   std::string text = "<table>";
-  for (const auto& [name, value] : summary.items()) {
-    const std::string cell = value.is_number_float() ? shown(value.get<double>(), "%.6g")
-                             : value.is_string()     ? value.get<std::string>()
-                                                     : value.dump();
-    text += "<tr><td>" + escaped(name) + "</td><td>" + escaped(cell) + "</td></tr>\n";
-  }
+  for (const auto& [name, value] : summary)
+    text += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
   return text + "</table>\n";
 }
 
@@ -255,14 +248,13 @@ std::string time_charts(const Run& run) {
 std::string page_of(const Run& run, const fs::path& directory) {
   std::string page = kPageHead;
   page += "<h1>" + escaped(directory.string()) + "</h1>\n<p>";
-  page += run.is_complete() ? "A complete run." : "A run that is not complete.";
+  page += run.summary() ? "A complete run." : "A run that is not complete.";
   page += " Compression is positive in stress and axial strain.</p>\n" + table_of(run.lines());
   page += "<div class=\"parts\"><div class=\"charts\">\n";
   for (const StageRows& stage : run.stages())
     if (run.shears(stage)) page += shear_charts(run, stage);
   page += time_charts(run) + "</div>\n";
-  if (run.is_complete())
-    page += "<div><h2>Summary</h2>\n" + summary_table(run.summary()) + "</div>";
+  if (run.summary()) page += "<div><h2>Summary</h2>\n" + summary_table(*run.summary()) + "</div>";
   return page + "</div></body></html>\n";
 }
 
@@ -271,8 +263,8 @@ std::string page_of(const Run& run, const fs::path& directory) {
 int report(const fs::path& directory) {
   const Run run(directory);
   write_whole(directory / "report.html", page_of(run, directory));
-  csv::OutputFile("-").write(text_of(run.lines()) +
-                             "Charts: " + (directory / "report.html").string() + '\n');
+  tables::OutputFile("-").write(text_of(run.lines()) +
+                                "Charts: " + (directory / "report.html").string() + '\n');
   return success;
 }
 

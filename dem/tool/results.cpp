@@ -2,7 +2,6 @@
 #include <tangency/dem/tool/results.hpp>
 
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -20,10 +19,11 @@
 #include <variant>
 #include <vector>
 
+#include <tangency/dem/observe.hpp>
 #include <tangency/dem/state_file.hpp>
-#include <tangency/dem/tool/history.hpp>
-#include <tangency/dem/tool/numbers.hpp>
+#include <tangency/dem/tool/summary.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -50,8 +50,8 @@ fs::path usable(const fs::path& directory) {
 }
 
 /// Held until it is closed, and by no second run meanwhile. No file is made for it.
-csv::Descriptor locked(const fs::path& directory) {
-  csv::Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+tables::Descriptor locked(const fs::path& directory) {
+  tables::Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock.is_open() && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw OutputError("--out " + directory.string() +
                       ": another run is writing there: another directory, or wait for its end");
@@ -74,7 +74,7 @@ std::string csv_line(const std::vector<Field>& fields) {
           if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
             line += value;
           else
-            line += to_text(value);
+            line += tables::to_text(value);
         },
         field.value);
   }
@@ -123,7 +123,7 @@ bool is_of(const std::string& row, const Simulation& simulation) {
     std::getline(cells, cell, ',');
     const bool is_kept =
         field.name == "time" || field.name.ends_with("_work") || field.name.ends_with("_loss");
-    if (is_kept && cell != to_text(std::get<double>(field.value))) return false;
+    if (is_kept && cell != tables::to_text(std::get<double>(field.value))) return false;
   }
   return true;
 }
@@ -153,31 +153,6 @@ bool carries_on(const fs::path& directory, const RunOptions& options,
   throw OutputError("--out " + directory.string() + ": holds results " + of_another + ", " +
                     *found + ": --replace takes them away; or " +
                     (options.resume ? "" : "--resume one of its states, or ") + "another --out");
-}
-
-void put_fields(nlohmann::ordered_json& summary, const History& history) {
-  const std::size_t last = history.size() - 1;
-  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{})) {
-    if (field.name == "stage")
-      summary[field.name] = history.stage(last);
-    else if (std::holds_alternative<std::int64_t>(field.value))
-      summary[field.name] = static_cast<std::int64_t>(history.column(field.name)[last]);
-    else
-      summary[field.name] = history.column(field.name)[last];
-  }
-}
-
-/// The peaks of the scene's last stage of kind shear, if the history has it.
-void add_peaks(nlohmann::ordered_json& summary, const History& history, const Scene& scene) {
-  const auto shears = [](const Stage& stage) { return stage.drive && stage.drive->axial_strain; };
-  const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(), shears);
-  if (last == scene.stages.rend()) return;
-  const auto peaks = peaks_of_stage(history, last->name);
-  if (!peaks) return;
-  summary["peak_friction_angle_deg"] = peaks->friction_angle_deg;
-  summary["strain_at_peak_friction"] = peaks->strain_at_friction;
-  summary["peak_dilation_rate"] = peaks->dilation_rate;
-  summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
 }  // namespace
@@ -267,28 +242,7 @@ void Results::finish(const Simulation& simulation, const RunCost& cost) {
   frames_.add(simulation);
   finish_incomplete(simulation);
   save_state(simulation.state(), directory_ / "final.state");
-  write_summary(simulation, cost);
-}
-
-void Results::write_summary(const Simulation& simulation, const RunCost& cost) const {
-  const State& state = simulation.state();
-  const Balance balance = simulation.observe().balance;
-  const History history(directory_ / "history.csv");
-  nlohmann::ordered_json summary;
-  put_fields(summary, history);
-  add_peaks(summary, history, simulation.scene());
-  summary["particles"] = state.particles.size();
-  summary["cycles"] = state.cycle;
-  summary["wall_seconds"] = cost.wall_seconds;
-  summary["ns_per_listed_pair_per_cycle"] =
-      cost.listed_pair_cycles > 0.0 ? 1e9 * cost.cycle_seconds / cost.listed_pair_cycles : 0.0;
-  summary["listed_pairs"] = state.list.pairs().size();
-  summary["threads"] = cost.threads;
-  summary["state_hash"] = state_hash(state);
-  summary["rattlers"] = balance.rattlers;
-  summary["largest_unbalanced_ratio"] = balance.largest_unbalanced_ratio;
-  summary["largest_unbalanced_moment_ratio"] = balance.largest_unbalanced_moment_ratio;
-  write_whole(directory_ / "summary.json", summary.dump(2) + "\n");
+  write_summary(directory_, simulation, cost);
 }
 
 }  // namespace tangency::dem

@@ -16,19 +16,10 @@
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/frames.hpp>
 #include <tangency/dem/tool/run_options.hpp>
+#include <tangency/dem/tool/summary.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::dem {
-
-/// What it took.
-struct RunCost {
-  /// Of this process, output included: what ran before a resumption is not in it.
-  double wall_seconds = 0.0;
-  double cycle_seconds = 0.0;       ///< of the cycles alone
-  std::int64_t cycles = 0;          ///< of this process
-  double listed_pair_cycles = 0.0;  ///< sum over this run's cycles of the pairs listed
-  int threads = 1;
-};
 
 /// --out DIR that cannot be used, or is being written to; what() is one line.
 class OutputError : public std::runtime_error {
@@ -76,10 +67,9 @@ class Results {
   void carry_on(const Simulation& simulation);
   void add_row(const Simulation& simulation, const Moment& moment);
   void write_history() const;
-  void write_summary(const Simulation& simulation, const RunCost& cost) const;
 
   std::filesystem::path directory_;
-  csv::Descriptor lock_;
+  tables::Descriptor lock_;
   bool carries_on_;
   std::string history_;             ///< rows after the header
   std::optional<Moment> last_row_;  ///< nothing where it is of no moment that this run may come to

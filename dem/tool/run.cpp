@@ -9,9 +9,7 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,9 +18,10 @@
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
-#include <tangency/dem/tool/progress.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
+#include <tangency/geometry/tables/progress.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -82,11 +81,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string short_text(double x) {
-  std::ostringstream text;
-  text << std::setprecision(3) << x;
-  return text.str();
-}
+std::string short_text(double x) { return tables::rounded_text(x, 3); }
 
 class Run {
  public:
@@ -94,7 +89,8 @@ class Run {
       : simulation_(std::move(simulation)),
         out_(options.out),
         results_(options, simulation_),
-        progress_(options.quiet) {
+        progress_(options.quiet ? tables::Progress::Shown::nothing
+                                : tables::Progress::Shown::everywhere) {
     cost_.threads = omp_get_max_threads();
   }
 
@@ -184,12 +180,10 @@ class Run {
     const auto [cycles, key] = simulation_.cycles_needed();
     if (!(cycles > cycles_allowed())) return;
     const Stage& stage = simulation_.stage();
-    std::ostringstream text;
-    text << "stage " << stage.name << " cannot end within max_cycles = " << stage.drive->max_cycles
-         << ": it needs " << std::fixed << std::setprecision(0) << cycles
-         << (simulation_.state().stage_cycle > 0 ? " more" : "") << " cycles for its " << key
-         << "; " << advice_on_cycles(simulation_, cycles);
-    warn(text.str());
+    warn("stage " + stage.name + " cannot end within max_cycles = " +
+         std::to_string(stage.drive->max_cycles) + ": it needs " +
+         tables::formatted("%.0f", cycles) + (simulation_.state().stage_cycle > 0 ? " more" : "") +
+         " cycles for its " + key + "; " + advice_on_cycles(simulation_, cycles));
   }
 
   std::string where() const {
@@ -340,7 +334,7 @@ class Run {
   Simulation simulation_;
   std::filesystem::path out_;
   Results results_;
-  Progress progress_;
+  tables::Progress progress_;
   RunCost cost_;
 };
 

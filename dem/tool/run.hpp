@@ -7,11 +7,12 @@
 
 namespace tangency::dem {
 
-/// What the program returns. A run that a signal ended returns 128 + the signal, as shells do.
+/// What the program returns beside tables::kRefused, which is that of a bad scene, state or command
+/// line, where nothing was written, and of a failed write. A run that a signal ended returns 128 +
+/// the signal, as shells do.
 enum ExitStatus : int {
   success = 0,
   not_reached = 1,  ///< a stage did not end, the cell became too thin, or the run blew up
-  refused = 2,      ///< bad scene, state or command line: nothing was written; or a failed write
 };
 
 /// Runs a scene; messages go to standard error.

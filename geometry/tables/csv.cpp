@@ -17,8 +17,9 @@
 #include <utility>
 
 #include <tangency/geometry/tables/csv_cells.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::csv {
+namespace tangency::tables {
 namespace {
 
 // Chosen: large enough that a read costs nothing beside its parsing, small enough for a cache.
@@ -390,17 +391,13 @@ void RowText::cells(std::string_view written) {
 
 void RowText::number(double value) {
   assert(std::isfinite(value));
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   separate();
-  buffer_.append(digits.data(), end);
+  append_text(buffer_, value);
 }
 
 void RowText::integer(std::uint64_t value) {
-  std::array<char, 20> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   separate();
-  buffer_.append(digits.data(), end);
+  append_text(buffer_, value);
 }
 
 void RowText::empty(std::size_t count) {
@@ -417,4 +414,4 @@ void RowText::truncate(std::size_t size) noexcept {
   at_row_start_ = true;
 }
 
-}  // namespace tangency::csv
+}  // namespace tangency::tables

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A POSIX file descriptor that closes itself; the three standard ones stay open.
+/// A POSIX file descriptor that closes itself, and the loop that writes to one. All of it is here,
+/// so that a library which links no table uses it too.
 #pragma once
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
-namespace tangency::csv {
+namespace tangency::tables {
 
+/// Closed at the latest with its scope; the three standard ones stay open.
 class Descriptor {
  public:
   explicit Descriptor(int value = -1) noexcept : value_(value) {}
@@ -31,4 +36,14 @@ class Descriptor {
   int value_;
 };
 
-}  // namespace tangency::csv
+/// Writes all of the text. False where the rest cannot be written; errno says why.
+inline bool write_all(int file, std::string_view text) noexcept {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace tangency::tables

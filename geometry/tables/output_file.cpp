@@ -12,11 +12,13 @@
 #include <cerrno>
 #include <climits>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <mutex>
+#include <string>
 #include <system_error>
 
-namespace tangency::csv {
+namespace tangency::tables {
 namespace {
 
 /// A file that a signal must remove. Fixed storage, because a signal handler may neither allocate
@@ -63,6 +65,13 @@ class SignalsHeld {
  private:
   sigset_t before_;
 };
+
+[[noreturn]] void fail_to_write(const std::string& name, int problem, bool is_standard_output) {
+  const Fault fault{.file = name,
+                    .rule = "cannot be written: " + std::generic_category().message(problem)};
+  if (problem == EPIPE && is_standard_output) throw ReaderHasGone(fault);
+  throw Error(fault);
+}
 
 }  // namespace
 
@@ -129,6 +138,12 @@ void end_by_broken_pipe() noexcept {
   ::_exit(128 + SIGPIPE);
 }
 
+void flush_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  fail_to_write(std::string(kStandardOutputName), errno != 0 ? errno : EIO, true);
+}
+
 OutputFile::OutputFile(const std::string& path) {
   if (path.empty() || path == "-") {
     name_ = kStandardOutputName;
@@ -155,18 +170,11 @@ OutputFile::OutputFile(const std::string& path) {
 OutputFile::~OutputFile() = default;
 
 void OutputFile::fail(int problem) const {
-  const Fault fault{.file = name_,
-                    .rule = "cannot be written: " + std::generic_category().message(problem)};
-  if (problem == EPIPE && output_.get() == STDOUT_FILENO) throw ReaderHasGone(fault);
-  throw Error(fault);
+  fail_to_write(name_, problem, output_.get() == STDOUT_FILENO);
 }
 
 void OutputFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(output_.get(), text.data(), text.size());
-    if (written < 0 && errno != EINTR) fail(errno);
-    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!write_all(output_.get(), text)) fail(errno);
 }
 
 void OutputFile::commit() {
@@ -177,4 +185,4 @@ void OutputFile::commit() {
 
 bool OutputFile::is_terminal() const noexcept { return ::isatty(output_.get()) == 1; }
 
-}  // namespace tangency::csv
+}  // namespace tangency::tables

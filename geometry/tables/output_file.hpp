@@ -10,7 +10,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::csv {
+namespace tangency::tables {
 
 /// What standard output is called in messages.
 inline constexpr std::string_view kStandardOutputName = "<stdout>";
@@ -24,6 +24,10 @@ class ReaderHasGone : public Error {
 /// Ends the process as if it had never ignored SIGPIPE, without a word and with what shells call
 /// status 141. main() calls it for ReaderHasGone, once nothing is left to clean up.
 [[noreturn]] void end_by_broken_pipe() noexcept;
+
+/// Writes out what std::printf and std::cout still hold.
+/// @throws Error, ReaderHasGone  for this or for what they could not write before
+void flush_standard_output();
 
 /// Written beside its final place under a name of its own and renamed by commit(), so that a file
 /// that was there before stays as it was until then. The unfinished file is removed by the
@@ -64,4 +68,4 @@ class OutputFile {
   std::unique_ptr<Placeholder> placeholder_;  // empty when written to directly
 };
 
-}  // namespace tangency::csv
+}  // namespace tangency::tables

@@ -1,40 +1,52 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A line on the terminal that says how far a long run is.
+/// What a person who waits for a long run sees, on standard error.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
-namespace tangency::tool {
+namespace tangency::tables {
 
-/// Shows "pairs.csv: 45 %, 12 s left" on standard error and takes it away at the end. Shows nothing
-/// unless standard error is a terminal and the input is a file of more than 4 MB.
+/// On a terminal a bar that is drawn over itself; elsewhere a plain line now and then; or nothing.
+/// The time left is what the fraction done took so far, carried on, and at most what the run has:
+/// a guess.
 class Progress {
  public:
-  /// @param total_bytes  of the input, if known
-  /// @param welcome      false where the line would disturb other output
-  Progress(std::string input, std::optional<std::uint64_t> total_bytes, bool welcome);
-  ~Progress();
+  enum class Shown { nothing, on_terminal, everywhere };
+
+  /// @param start  the fraction that is done now; that of the first show() where it is not known
+  explicit Progress(Shown shown, std::optional<double> start = std::nullopt);
+  /// Takes the bar away.
+  ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param bytes  of the input that are done with
-  void update(std::uint64_t bytes);
-  /// Takes the line away, until the next update, so that a message can be written.
+  /// Is it time to show something: the first time at once? Cheap: asked every cycle.
+  bool is_due() const;
+
+  /// @param fraction   of the whole run, in [0, 1]
+  /// @param note       one short line: what is done
+  /// @param most_left  seconds after which the run ends in any case
+  void show(double fraction, const std::string& note,
+            double most_left = std::numeric_limits<double>::infinity());
+
+  /// Takes the bar away until the next show(), so that a message can be written.
   void clear() noexcept;
+  /// Ends the bar's line, which stays above a message.
+  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string input_;
-  double total_bytes_;
+  bool on_terminal_;
   bool enabled_;
-  bool shown_ = false;
+  bool bar_is_open_ = false;
+  std::optional<double> first_fraction_;
   Clock::time_point start_ = Clock::now();
-  std::optional<Clock::time_point> last_shown_;
+  std::optional<Clock::time_point> last_;
 };
 
-}  // namespace tangency::tool
+}  // namespace tangency::tables

@@ -11,14 +11,18 @@
 #include <thread>
 #include <utility>
 
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
 
-namespace tangency::tool {
+namespace tangency::tables {
 namespace {
 
 // Chosen: enough to see what is wrong with a file, and not a second file.
 constexpr std::size_t kMostComplaints = 10;
+
+// Chosen: smaller files are done before anyone has read the line.
+constexpr std::uint64_t kSmallestFileWithProgress = 4'000'000;
 
 // Of the input, below which another thread is not worth starting; chosen: about 100 us of work.
 constexpr std::uint64_t kBytesPerThread = 1 << 16;
@@ -30,7 +34,7 @@ constexpr std::size_t kRowsAtOnce = 256;
 class RowByRow : public Rows {
  public:
   explicit RowByRow(RowFunction function) : function_(std::move(function)) {}
-  void read(const csv::RowCursor& row) override {
+  void read(const RowCursor& row) override {
     const std::size_t begin = text_.size();
     try {
       const RowOutcome outcome = function_(row, text_);
@@ -42,7 +46,7 @@ class RowByRow : public Rows {
     }
   }
   void answer() override {}
-  RowOutcome write(std::size_t i, csv::RowText& out) const override {
+  RowOutcome write(std::size_t i, RowText& out) const override {
     const Answer& answer = answers_[i];
     out.cells(text_.view().substr(answer.begin, answer.end - answer.begin));
     return answer.outcome;
@@ -59,7 +63,7 @@ class RowByRow : public Rows {
   };
 
   RowFunction function_;
-  csv::RowText text_;
+  RowText text_;
   std::vector<Answer> answers_;
 };
 
@@ -68,8 +72,8 @@ struct Job {
   std::unique_ptr<Rows> rows;
   std::vector<std::pair<std::uint64_t, bool>> taken;  ///< number of a row, and is it valid?
   std::uint64_t turn = 0;
-  csv::Block block;
-  csv::RowText text;
+  Block block;
+  RowText text;
   bool all_answered = true;
   std::size_t invalid_rows = 0;
   std::vector<std::string> complaints;
@@ -84,21 +88,23 @@ class RowStream {
   ExitStatus run();
 
  private:
+  Progress::Shown shown_progress() const;
+  void show_progress(std::uint64_t bytes);
   unsigned useful_threads() const;
   void work();
   bool take(Job& job);
   void answer(Job& job) const;
-  void complain(const csv::Error& error, std::uint64_t row, Job& job) const;
+  void complain(const Error& error, std::uint64_t row, Job& job) const;
   void write_taken(Job& job) const;
-  void write_invalid(csv::RowText& text) const;
+  void write_invalid(RowText& text) const;
   void deliver(Job& job);
   void tally(const Job& job);
 
   const RowTask& task_;
   const RowStreamOptions& options_;
-  csv::Reader reader_;
+  Reader reader_;
   MakeRows make_rows_;
-  csv::OutputFile output_;
+  OutputFile output_;
   Progress progress_;
 
   std::mutex input_mutex_;
@@ -120,7 +126,20 @@ RowStream::RowStream(const RowTask& task, const RowStreamOptions& options)
       reader_(options.input),
       make_rows_(task.bind(reader_.header())),
       output_(options.output),
-      progress_(reader_.header().file(), reader_.total_bytes(), !output_.is_terminal()) {}
+      progress_(shown_progress(), 0.0) {}
+
+Progress::Shown RowStream::shown_progress() const {
+  const bool long_enough = reader_.total_bytes().value_or(0) > kSmallestFileWithProgress;
+  return long_enough && !output_.is_terminal() ? Progress::Shown::on_terminal
+                                               : Progress::Shown::nothing;
+}
+
+void RowStream::show_progress(std::uint64_t bytes) {
+  if (bytes == 0 || !progress_.is_due()) return;
+  const double done =
+      static_cast<double>(bytes) / static_cast<double>(reader_.total_bytes().value_or(bytes));
+  progress_.show(done, formatted("%s: %.0f %%", reader_.header().file().c_str(), 100 * done));
+}
 
 unsigned RowStream::useful_threads() const {
   const std::uint64_t wanted = reader_.total_bytes().value_or(UINT64_MAX) / kBytesPerThread + 1;
@@ -128,7 +147,7 @@ unsigned RowStream::useful_threads() const {
 }
 
 ExitStatus RowStream::run() {
-  csv::RowText header;
+  RowText header;
   header.header(task_.output_columns);
   output_.write(header.view());
   {
@@ -179,14 +198,14 @@ bool RowStream::take(Job& job) {
 }
 
 void RowStream::answer(Job& job) const {
-  csv::RowCursor row(reader_.header());
+  RowCursor row(reader_.header());
   row.enter(job.block);
   std::exception_ptr refusal;
   for (bool more = true; more && !refusal;) {
     try {
       more = row.next();
       if (more) job.rows->read(row), job.taken.emplace_back(row.index(), true);
-    } catch (const csv::Error& error) {
+    } catch (const Error& error) {
       if (!options_.keep_going) refusal = std::current_exception();
       if (options_.keep_going) complain(error, row.index(), job);
     } catch (...) {
@@ -199,7 +218,7 @@ void RowStream::answer(Job& job) const {
   job.refusal = refusal;
 }
 
-void RowStream::complain(const csv::Error& error, std::uint64_t row, Job& job) const {
+void RowStream::complain(const Error& error, std::uint64_t row, Job& job) const {
   job.taken.emplace_back(row, false);
   ++job.invalid_rows;
   if (job.complaints.size() < kMostComplaints) job.complaints.emplace_back(error.what());
@@ -228,7 +247,7 @@ void RowStream::write_taken(Job& job) const {
   job.rows->clear();
 }
 
-void RowStream::write_invalid(csv::RowText& text) const {
+void RowStream::write_invalid(RowText& text) const {
   for (std::size_t i = 1; i < task_.output_columns.size(); ++i) {
     text.text(task_.output_columns[i] == task_.verdict_column ? "invalid" : "");
   }
@@ -260,13 +279,13 @@ void RowStream::tally(const Job& job) {
     ++complaints_shown_;
   }
   invalid_rows_ += job.invalid_rows;
-  progress_.update(job.block.end_offset);
+  show_progress(job.block.end_offset);
 }
 
 }  // namespace
 
-BindRows row_by_row(std::function<RowFunction(const csv::Header&)> bind) {
-  return [bind = std::move(bind)](const csv::Header& header) -> MakeRows {
+BindRows row_by_row(std::function<RowFunction(const Header&)> bind) {
+  return [bind = std::move(bind)](const Header& header) -> MakeRows {
     return [function = bind(header)] { return std::make_unique<RowByRow>(function); };
   };
 }
@@ -275,4 +294,4 @@ ExitStatus run_row_stream(const RowTask& task, const RowStreamOptions& options) 
   return RowStream(task, options).run();
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::tables

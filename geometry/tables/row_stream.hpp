@@ -20,13 +20,12 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::tool {
+namespace tangency::tables {
 
-/// Exit statuses of every subcommand.
+/// Exit statuses of every subcommand beside kRefused.
 enum ExitStatus : int {
   every_row_answered = 0,
   some_row_unanswered = 1,  ///< some row is not_converged, not_applicable or invalid
-  refused = 2,
 };
 
 enum class RowOutcome { answered, unanswered };
@@ -35,25 +34,25 @@ enum class RowOutcome { answered, unanswered };
 class Rows {
  public:
   virtual ~Rows() = default;
-  /// Takes the question of a row. Throws csv::Error, and takes nothing, where it must be refused.
-  virtual void read(const csv::RowCursor& row) = 0;
+  /// Takes the question of a row. Throws Error, and takes nothing, where it must be refused.
+  virtual void read(const RowCursor& row) = 0;
   /// Answers all that was read since clear().
   virtual void answer() = 0;
   /// Writes the cells of the i-th of them, from the second output column on.
-  virtual RowOutcome write(std::size_t i, csv::RowText& out) const = 0;
+  virtual RowOutcome write(std::size_t i, RowText& out) const = 0;
   virtual void clear() = 0;
 };
 
-/// BindRows looks up the columns to read and throws csv::Error for a header that must be refused;
+/// BindRows looks up the columns to read and throws Error for a header that must be refused;
 /// MakeRows, called in each thread, does not.
 using MakeRows = std::function<std::unique_ptr<Rows>()>;
-using BindRows = std::function<MakeRows(const csv::Header&)>;
+using BindRows = std::function<MakeRows(const Header&)>;
 
 /// Answers one row, reading its cells and writing those of the answer. Called from several threads
-/// at once. Throws csv::Error for a row that must be refused.
-using RowFunction = std::function<RowOutcome(const csv::RowCursor&, csv::RowText&)>;
+/// at once. Throws Error for a row that must be refused.
+using RowFunction = std::function<RowOutcome(const RowCursor&, RowText&)>;
 /// For tasks that gain nothing from many rows at a time.
-BindRows row_by_row(std::function<RowFunction(const csv::Header&)> bind);
+BindRows row_by_row(std::function<RowFunction(const Header&)> bind);
 
 struct RowTask {
   /// The first is `row`, the number of the data row from 0.
@@ -70,7 +69,7 @@ struct RowStreamOptions {
   bool keep_going = false;  ///< write refused rows as `invalid`, name the first ten, and go on
 };
 
-/// @throws csv::Error  refused input, or a failed read or write
+/// @throws Error  refused input, or a failed read or write
 ExitStatus run_row_stream(const RowTask& task, const RowStreamOptions& options);
 
-}  // namespace tangency::tool
+}  // namespace tangency::tables

@@ -11,7 +11,7 @@
 #include <tangency/geometry/bodies/exact_quadric_type.hpp>
 #include <tangency/geometry/classify.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
-#include <tangency/geometry/tables/columns.hpp>
+#include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
 namespace tangency::tool {
@@ -78,14 +78,14 @@ Classification by_full_terms(const Coefficients& c) {
   return exact::classify_form(form);
 }
 
-RowFunction bind(const csv::Header& header, Classify classify_row) {
+tables::RowFunction bind(const tables::Header& header, Classify classify_row) {
   std::vector<std::string> missing;
   const auto columns = find_columns(header, "", kCoefficients, missing);
   if (!missing.empty()) {
     throw lacking(header, "quadric", missing,
                   "a quadric has the columns A, B, C, D, E, F, G, H, J and K");
   }
-  return [columns, classify_row](const csv::RowCursor& row, csv::RowText& out) {
+  return [columns, classify_row](const tables::RowCursor& row, tables::RowText& out) {
     Coefficients c{};
     for (std::size_t i = 0; i < c.size(); ++i) c[i] = row.number(columns[i]);
     const Classification answer = classify_row(c);
@@ -93,33 +93,33 @@ RowFunction bind(const csv::Header& header, Classify classify_row) {
     out.text(std::to_string(answer.rank4));
     out.text(std::to_string(answer.rank3));
     out.text(to_string(answer.tier));
-    return RowOutcome::answered;
+    return tables::RowOutcome::answered;
   };
 }
 
 }  // namespace
 
-Subcommand add_classify(CLI::App& program) {
-  struct Options : RowStreamOptions {
+void add_classify(tables::Program& program) {
+  struct Options : tables::RowStreamOptions {
     std::string mixed_terms = "half";
   };
   const auto options = std::make_shared<Options>();
-  CLI::App& app = *program.add_subcommand("classify", "Exact types of quadrics");
-  app.add_option("--mixed-terms", options->mixed_terms,
-                 "What D, E, F, G, H and J are of the factors of their terms: half (default), or "
-                 "full")
-      ->check(CLI::IsMember({"half", "full"}).description(""))
-      ->type_name("half|full");
-  add_row_stream_options(app, *options);
-  app.footer(kHelp);
-  return {&app, [options] {
-            const Classify one = options->mixed_terms == "full" ? by_full_terms : by_half_terms;
-            const auto bind_rows = [one](const csv::Header& header) { return bind(header, one); };
-            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+  tables::Command& command = program.subcommand("classify", "Exact types of quadrics");
+  command
+      .option("--mixed-terms", options->mixed_terms,
+              "What D, E, F, G, H and J are of the factors of their terms: half (default), or full")
+      .one_of({"half", "full"})
+      .type_name("half|full");
+  add_row_stream_options(command, *options);
+  command.footer(kHelp);
+  command.runs([options] {
+    const Classify one = options->mixed_terms == "full" ? by_full_terms : by_half_terms;
+    const auto bind_rows = [one](const tables::Header& header) { return bind(header, one); };
+    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "type",
-                               .bind = row_by_row(bind_rows)};
-            return run_row_stream(task, *options);
-          }};
+                               .bind = tables::row_by_row(bind_rows)};
+    return tables::run_row_stream(task, *options);
+  });
 }
 
 }  // namespace tangency::tool

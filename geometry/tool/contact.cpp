@@ -12,7 +12,7 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tool/body_columns.hpp>
+#include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
@@ -141,7 +141,7 @@ Answer by_trace(const Ellipsoid& a, const Ellipsoid& b) {
   return with_numbers(a, b, found, "ok", std::nullopt);
 }
 
-RowOutcome write_answer(const Answer& answer, csv::RowText& out) {
+tables::RowOutcome write_answer(const Answer& answer, tables::RowText& out) {
   out.text(to_string(answer.relation.relation));
   if (answer.has_numbers) {
     out.number(answer.gap);
@@ -168,15 +168,15 @@ RowOutcome write_answer(const Answer& answer, csv::RowText& out) {
       out.text("b");
       break;
   }
-  return answer.has_numbers ? RowOutcome::answered : RowOutcome::unanswered;
+  return answer.has_numbers ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
 }
 
 /// The common normal, for all rows that are read in one call.
-class CommonNormalRows : public Rows {
+class CommonNormalRows : public tables::Rows {
  public:
   CommonNormalRows(const BodyColumns& a, const BodyColumns& b) : columns_a_(a), columns_b_(b) {}
 
-  void read(const csv::RowCursor& row) override {
+  void read(const tables::RowCursor& row) override {
     const Ellipsoid a = columns_a_.read(row), b = columns_b_.read(row);
     a_.push_back(a), b_.push_back(b);
   }
@@ -184,7 +184,7 @@ class CommonNormalRows : public Rows {
     gaps_.resize(a_.size());
     signed_gaps(a_, b_, gaps_, Accuracy::certified());
   }
-  RowOutcome write(std::size_t i, csv::RowText& out) const override {
+  tables::RowOutcome write(std::size_t i, tables::RowText& out) const override {
     const Gap& gap = gaps_[i];
     const std::string_view status = gap.status == GapStatus::ok ? "ok" : "local";
     return write_answer(with_numbers(a_[i], b_[i], gap, status, gap.gap_error), out);
@@ -197,17 +197,17 @@ class CommonNormalRows : public Rows {
   std::vector<Gap> gaps_;
 };
 
-MakeRows bind_common_normal(const csv::Header& header) {
+tables::MakeRows bind_common_normal(const tables::Header& header) {
   return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")] {
     return std::make_unique<CommonNormalRows>(a, b);
   };
 }
 
 /// @param answer  of one pair
-BindRows one_by_one(Answer (*answer)(const Ellipsoid&, const Ellipsoid&)) {
-  return row_by_row([answer](const csv::Header& header) -> RowFunction {
+tables::BindRows one_by_one(Answer (*answer)(const Ellipsoid&, const Ellipsoid&)) {
+  return tables::row_by_row([answer](const tables::Header& header) -> tables::RowFunction {
     return [answer, a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](
-               const csv::RowCursor& row, csv::RowText& out) {
+               const tables::RowCursor& row, tables::RowText& out) {
       return write_answer(answer(a.read(row), b.read(row)), out);
     };
   });
@@ -215,7 +215,7 @@ BindRows one_by_one(Answer (*answer)(const Ellipsoid&, const Ellipsoid&)) {
 
 struct Method {
   std::string_view name;
-  BindRows bind;
+  tables::BindRows bind;
 };
 
 const std::array<Method, 4>& methods() {
@@ -240,27 +240,28 @@ std::string check_method(const std::string& name) {
 
 }  // namespace
 
-Subcommand add_contact(CLI::App& program) {
+void add_contact(tables::Program& program) {
   struct Options {
     std::string method{methods().front().name};
-    RowStreamOptions rows;
+    tables::RowStreamOptions rows;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App& app = *program.add_subcommand(
-      "contact", "Signed gap, normal and witness points of pairs of ellipsoids");
-  app.add_option("--method", options->method,
-                 "How contact is defined: common-normal (default), perram-wertheim, "
-                 "midpoint-potential or trace")
-      ->check(CLI::Validator(check_method, ""))
-      ->type_name("M");
-  add_row_stream_options(app, options->rows);
-  app.footer(kHelp);
-  return {&app, [options] {
-            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+  tables::Command& command =
+      program.subcommand("contact", "Signed gap, normal and witness points of pairs of ellipsoids");
+  command
+      .option("--method", options->method,
+              "How contact is defined: common-normal (default), perram-wertheim, "
+              "midpoint-potential or trace")
+      .check(check_method)
+      .type_name("M");
+  add_row_stream_options(command, options->rows);
+  command.footer(kHelp);
+  command.runs([options] {
+    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",
                                .bind = method_named(options->method).bind};
-            return run_row_stream(task, options->rows);
-          }};
+    return tables::run_row_stream(task, options->rows);
+  });
 }
 
 }  // namespace tangency::tool

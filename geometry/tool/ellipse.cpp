@@ -8,8 +8,8 @@
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
-#include <tangency/geometry/tool/ellipse_columns.hpp>
 
 namespace tangency::tool {
 namespace {
@@ -69,7 +69,7 @@ Example, a unit circle and an ellipse of half its width:
   0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok
 )";
 
-void write_crossings(const EllipseRelation& exact, csv::RowText& out) {
+void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
   if (exact.crossings) {
     out.integer(static_cast<std::uint64_t>(*exact.crossings));
   } else {
@@ -77,7 +77,7 @@ void write_crossings(const EllipseRelation& exact, csv::RowText& out) {
   }
 }
 
-RowOutcome write(const Ellipse& a, const Ellipse& b, csv::RowText& out) {
+tables::RowOutcome write(const Ellipse& a, const Ellipse& b, tables::RowText& out) {
   const EllipseRelation exact = relation(a, b);
   const PlaneGap found = signed_gap(a, b);
   const double area = common_area(a, b);
@@ -89,7 +89,7 @@ RowOutcome write(const Ellipse& a, const Ellipse& b, csv::RowText& out) {
       (has_chord && !std::isfinite(chord.depth))) {
     out.empty(7);
     out.text("not_applicable");
-    return RowOutcome::unanswered;
+    return tables::RowOutcome::unanswered;
   }
   out.number(area);
   out.number(found.gap);
@@ -101,30 +101,30 @@ RowOutcome write(const Ellipse& a, const Ellipse& b, csv::RowText& out) {
     out.empty(3);
   }
   out.text(found.status == GapStatus::ok ? "ok" : "local");
-  return RowOutcome::answered;
+  return tables::RowOutcome::answered;
 }
 
-RowFunction bind(const csv::Header& header) {
+tables::RowFunction bind(const tables::Header& header) {
   return [a = EllipseColumns(header, "a"), b = EllipseColumns(header, "b")](
-             const csv::RowCursor& row, csv::RowText& out) {
+             const tables::RowCursor& row, tables::RowText& out) {
     return write(a.read(row), b.read(row), out);
   };
 }
 
 }  // namespace
 
-Subcommand add_ellipse(CLI::App& program) {
-  const auto options = std::make_shared<RowStreamOptions>();
-  CLI::App& app = *program.add_subcommand(
+void add_ellipse(tables::Program& program) {
+  const auto options = std::make_shared<tables::RowStreamOptions>();
+  tables::Command& command = program.subcommand(
       "ellipse", "Relation, crossings, common area and contact of pairs of ellipses in the plane");
-  add_row_stream_options(app, *options);
-  app.footer(kHelp);
-  return {&app, [options] {
-            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+  add_row_stream_options(command, *options);
+  command.footer(kHelp);
+  command.runs([options] {
+    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",
-                               .bind = row_by_row(bind)};
-            return run_row_stream(task, *options);
-          }};
+                               .bind = tables::row_by_row(bind)};
+    return tables::run_row_stream(task, *options);
+  });
 }
 
 }  // namespace tangency::tool

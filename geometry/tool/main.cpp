@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <CLI/CLI.hpp>
-
-#include <vector>
-
 #include <tangency/geometry/tool/command_line.hpp>
-#include <tangency/geometry/tool/program.hpp>
 
 namespace tangency::tool {
 namespace {
@@ -23,27 +18,16 @@ Exit status:
 `tangency SUBCOMMAND --help` lists columns and statuses and gives an example.
 )";
 
-int run(int argc, char** argv) {
-  CLI::App program(kProgramDescription, "tangency");
-  program.set_version_flag("--version", "tangency " TANGENCY_VERSION);
-  program.footer(kProgramHelp);
-  program.require_subcommand(1);
-  const std::vector<Subcommand> subcommands{add_contact(program), add_overlap(program),
-                                            add_classify(program), add_ellipse(program)};
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& stop) {
-    return exit_after(program, stop, argc, argv);
-  }
-  for (const Subcommand& subcommand : subcommands) {
-    if (subcommand.app->parsed()) return subcommand.run();
-  }
-  return refused;
-}
-
 }  // namespace
 }  // namespace tangency::tool
 
 int main(int argc, char** argv) {
-  return tangency::tool::guarded("tangency", [&] { return tangency::tool::run(argc, argv); });
+  using namespace tangency::tool;
+  tangency::tables::Program program("tangency", kProgramDescription, TANGENCY_VERSION);
+  program.footer(kProgramHelp);
+  add_contact(program);
+  add_overlap(program);
+  add_classify(program);
+  add_ellipse(program);
+  return program.run(argc, argv);
 }

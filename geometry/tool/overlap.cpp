@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tool/body_columns.hpp>
+#include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
 namespace tangency::tool {
@@ -35,33 +35,33 @@ Example, two unit spheres that touch:
   0,external_touch,0,exact
 )";
 
-RowFunction bind(const csv::Header& header) {
-  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const csv::RowCursor& row,
-                                                                      csv::RowText& out) {
+tables::RowFunction bind(const tables::Header& header) {
+  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const tables::RowCursor& row,
+                                                                      tables::RowText& out) {
     const RelationAnswer answer = relation(a.read(row), b.read(row));
     const bool meet =
         answer.relation != Relation::separate && answer.relation != Relation::external_touch;
     out.text(to_string(answer.relation));
     out.text(meet ? "1" : "0");
     out.text(to_string(answer.tier));
-    return RowOutcome::answered;
+    return tables::RowOutcome::answered;
   };
 }
 
 }  // namespace
 
-Subcommand add_overlap(CLI::App& program) {
-  const auto options = std::make_shared<RowStreamOptions>();
-  CLI::App& app =
-      *program.add_subcommand("overlap", "Exact relation of pairs of ellipsoids: do they overlap?");
-  add_row_stream_options(app, *options);
-  app.footer(kHelp);
-  return {&app, [options] {
-            const RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+void add_overlap(tables::Program& program) {
+  const auto options = std::make_shared<tables::RowStreamOptions>();
+  tables::Command& command =
+      program.subcommand("overlap", "Exact relation of pairs of ellipsoids: do they overlap?");
+  add_row_stream_options(command, *options);
+  command.footer(kHelp);
+  command.runs([options] {
+    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "relation",
-                               .bind = row_by_row(bind)};
-            return run_row_stream(task, *options);
-          }};
+                               .bind = tables::row_by_row(bind)};
+    return tables::run_row_stream(task, *options);
+  });
 }
 
 }  // namespace tangency::tool

@@ -22,12 +22,12 @@ namespace {
 using TableRow = std::map<std::string, std::string>;  // cell by column
 
 std::vector<TableRow> read_table(const std::string& path) {
-  csv::Reader reader(path);
+  tables::Reader reader(path);
   std::vector<TableRow> rows;
-  for_each_row(reader, [&](const csv::RowCursor& row) {
+  for_each_row(reader, [&](const tables::RowCursor& row) {
     TableRow cells;
     for (std::size_t c = 0; c < reader.header().size(); ++c) {
-      const auto column = static_cast<csv::Column>(c);
+      const auto column = static_cast<tables::Column>(c);
       cells[reader.header().name(column)] = std::string(row.text(column));
     }
     rows.push_back(std::move(cells));

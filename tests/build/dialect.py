@@ -222,7 +222,7 @@ def departures_of_names(file):
         if (before == "using" and after == "=" and not CAMEL.match(token.text) and
                 token.text not in ALIASES and source.text_at(i - 2) != ">"):
             yield token.line, f"alias {token.text}: CamelCase"
-        if before == "namespace" and not SNAKE.match(token.text):
+        if before == "namespace" and not SNAKE.match(token.text) and token.text not in LIBRARIES:
             yield token.line, f"namespace {token.text}: snake_case"
         at_namespace = source.around[i] is None or source.scope[source.around[i]] == "namespace"
         if at_namespace and before not in ("::", "namespace", "."):
@@ -240,6 +240,7 @@ def departures_of_names(file):
 
 
 # What the standard library asks of a container, an iterator or an allocator.
+LIBRARIES = {"CLI"}  # whose types a header declares in place of including them
 ALIASES = {"value_type", "size_type", "difference_type", "pointer", "reference", "iterator",
            "const_iterator", "iterator_category", "result_type", "is_always_equal"}
 

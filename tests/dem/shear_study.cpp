@@ -16,6 +16,7 @@
 #include <string>
 
 #include <tangency/dem/simulation.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
 
 namespace {
 
@@ -74,22 +75,13 @@ void print(const std::string& name, const Peak& peak) {
             << std::defaultfloat << std::endl;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const bool growth_alone = argc == 3 && argv[2] == std::string("--growth-alone");
-  if (argc != 2 && !growth_alone) {
-    std::cerr << "usage: shear_study SCENE [--growth-alone], a scene whose stages before the last "
-                 "two make a sample, the "
-                 "last but one relaxes it and the last shears it\n";
-    return 2;
-  }
+bool study(const std::string& path, bool growth_alone) {
   bool sound = true;
   const auto expect = [&](bool holds, const std::string& what) {
     if (!holds) std::cout << "NOT SO: " << what << std::endl;
     sound = sound && holds;
   };
-  const Scene scene = load_scene(argv[1]);
+  const Scene scene = load_scene(path);
   Simulation simulation(scene);
   double early_coordination = 0.0;
   while (simulation.state().stage + 2 < scene.stages.size()) {
@@ -110,7 +102,7 @@ int main(int argc, char** argv) {
          "coordination of 12 to 12.7 at the end");
   expect(seen.coordination_std > 0.5, "no crystal");
 
-  if (growth_alone) return sound ? 0 : 1;
+  if (growth_alone) return sound;
 
   std::cout << "                             peak/deg  strain   cycles  inertial  step/critical  "
                "energy error / work\n";
@@ -139,5 +131,22 @@ int main(int argc, char** argv) {
   for (const double factor : {0.33, 0.36, 0.4, 0.45})
     variant("step " + std::to_string(factor).substr(0, 4) + " sqrt(m/K)", false,
             [&](Scene&, Drive& shear, Drive&) { shear.time_step_factor = factor; });
-  return sound ? 0 : 1;
+  return sound;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::tables::Program program("shear_study",
+                                    "How a shear's peak depends on step, rate and equations");
+  std::string scene;
+  bool growth_alone = false;
+  program
+      .option("SCENE", scene,
+              "Its stages before the last two make a sample, the last but one relaxes it and the "
+              "last shears it")
+      .required();
+  program.flag("--growth-alone", growth_alone, "Ends with the sample");
+  program.runs([&] { return study(scene, growth_alone) ? 0 : 1; });
+  return program.run(argc, argv);
 }

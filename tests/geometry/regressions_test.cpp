@@ -32,11 +32,11 @@ struct Row {
 
 template <class Check>
 void for_each_regression(const std::string& table, const Check& check) {
-  csv::Reader reader(TANGENCY_TEST_DATA "/regressions/" + table);
-  const csv::Column broke = reader.header().require("broke");
-  const csv::Column expected = reader.header().require("expected");
+  tables::Reader reader(TANGENCY_TEST_DATA "/regressions/" + table);
+  const tables::Column broke = reader.header().require("broke");
+  const tables::Column expected = reader.header().require("expected");
   int rows = 0;
-  csv::for_each_row(reader, [&](const csv::RowCursor& row) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     const Row read{
         [&](const std::string& name) { return row.number(reader.header().require(name)); },
         std::string(row.text(broke)), std::string(row.text(expected))};

@@ -120,7 +120,8 @@ TEST(Corpus, HoldsEveryRelationAndEveryType) {
   EXPECT_EQ(types.size(), 20U);
 }
 
-RawEllipsoid body(const csv::RowCursor& row, const csv::Header& header, const std::string& who) {
+RawEllipsoid body(const tables::RowCursor& row, const tables::Header& header,
+                  const std::string& who) {
   const auto cell = [&](const char* field) { return row.number(header.require(who + field)); };
   return {{cell(".x"), cell(".y"), cell(".z")},
           {cell(".r1"), cell(".r2"), cell(".r3")},
@@ -134,8 +135,8 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
     if (corpus.kind != CorpusKind::pairs) continue;
     const std::string path = kFolder + std::string(corpus.name);
     const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
-    csv::Reader reader(path + ".csv");
-    csv::for_each_row(reader, [&](const csv::RowCursor& line) {
+    tables::Reader reader(path + ".csv");
+    tables::for_each_row(reader, [&](const tables::RowCursor& line) {
       if (line.index() % 5 != 0) return;
       const TruthRow& row = truth.rows.at(line.index());
       const auto pair = separation(real(body(line, reader.header(), "a")),
@@ -160,7 +161,8 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
   }
 }
 
-RawEllipse ellipse(const csv::RowCursor& row, const csv::Header& header, const std::string& who) {
+RawEllipse ellipse(const tables::RowCursor& row, const tables::Header& header,
+                   const std::string& who) {
   const auto cell = [&](const char* field) { return row.number(header.require(who + field)); };
   return {{cell(".x"), cell(".y")}, {cell(".r1"), cell(".r2")}, {cell(".ux"), cell(".uy")}};
 }
@@ -177,9 +179,9 @@ Real support(const RawEllipse& e, const std::array<Real, 2>& n) {
 TEST(Corpus, EveryTrueNormalOfEllipsesReachesTheGapAndNoneOfAGridExceedsIt) {
   const std::string path = kFolder + "ellipses";
   const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
-  csv::Reader reader(path + ".csv");
+  tables::Reader reader(path + ".csv");
   std::size_t ties = 0;
-  csv::for_each_row(reader, [&](const csv::RowCursor& line) {
+  tables::for_each_row(reader, [&](const tables::RowCursor& line) {
     const TruthRow& row = truth.rows.at(line.index());
     const RawEllipse a = ellipse(line, reader.header(), "a"),
                      b = ellipse(line, reader.header(), "b");

@@ -143,7 +143,7 @@ TEST(GradeCommand, AHangingToolIsKilledAndEveryCorpusGraded) {
 TEST(ToolRun, KeepsWhatWasPrintedBeforeTheTimeWasUp) {
   const TemporaryFolder folder;
   const std::string up = make_pipe(folder.path("up")), never = make_pipe(folder.path("never"));
-  const csv::Descriptor deadline(::open(up.c_str(), O_RDWR | O_CLOEXEC));
+  const tables::Descriptor deadline(::open(up.c_str(), O_RDWR | O_CLOEXEC));
   const std::string inputs = folder.write("inputs.csv", "x\n1\n");
   const verify::ToolRun run = verify::run_tool(
       "printf 'row,overlaps\\n3,1\\n'; echo slow >&2; echo > " + up + "; cat " + never, inputs,

@@ -20,7 +20,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::csv {
+namespace tangency::tables {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -515,4 +515,4 @@ TEST(CsvRowText, WritesCellsInOrder) {
 }
 
 }  // namespace
-}  // namespace tangency::csv
+}  // namespace tangency::tables

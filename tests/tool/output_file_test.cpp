@@ -12,7 +12,7 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/tests/tool/process.hpp>
 
-namespace tangency::csv {
+namespace tangency::tables {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -107,4 +107,4 @@ TEST(OutputFile, RefusesTheNinthAtOnceAndTakesItLater) {
 }
 
 }  // namespace
-}  // namespace tangency::csv
+}  // namespace tangency::tables

@@ -3,7 +3,6 @@
 // crossings and their multiplicities exactly; their places, the common area and the gap in numbers;
 // and everything against the same pair exchanged. The merge gate runs a part of it; docs/guide.md
 // names the whole.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/families.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 
@@ -239,26 +239,10 @@ Tally run(const Family& family, std::uint64_t seed, double share, long numbers) 
   return tally;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold relation, crossings, area and gap of ellipses against the oracles");
-  double share = 1;
-  long numbers = 1000;
-  std::uint64_t seed = 20261122;
-  app.add_option("--share", share, "of 100,000 random pairs, and 10,000 of each other family")
-      ->capture_default_str();
-  app.add_option("--numbers", numbers,
-                 "pairs of each family whose area, crossings and gap are held "
-                 "against high precision")
-      ->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-
-  std::printf("seed %llu\n%-17s %7s %5s %8s %-33s %5s %7s %8s %8s %8s %8s %5s %8s %9s\n",
-              static_cast<unsigned long long>(seed), "family", "pairs", "wrong", "filter %",
-              "crossings 0 1 2 3 4 and equal", "exch.", "numbers", "place/uL", "area", "gap/uL",
-              "bound/uL", "local", "violated", "GSL wrong");
+bool agree(std::uint64_t seed, double share, long numbers) {
+  std::printf("%-17s %7s %5s %8s %-33s %5s %7s %8s %8s %8s %8s %5s %8s %9s\n", "family", "pairs",
+              "wrong", "filter %", "crossings 0 1 2 3 4 and equal", "exch.", "numbers", "place/uL",
+              "area", "gap/uL", "bound/uL", "local", "violated", "GSL wrong");
   bool fine = true;
   for (const Family& family : tangency::verify::ellipse_families(kExtremeAspect)) {
     const Tally t = run(family, seed, share, numbers);
@@ -273,5 +257,20 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
     fine = fine && t.wrong == 0 && t.unequal == 0 && t.violated == 0 && t.gsl_wrong == 0;
   }
-  return fine ? 0 : 1;
+  return fine;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program(
+      "ellipse_agreement",
+      "Hold relation, crossings, area and gap of ellipses against the oracles");
+  double share = 1;
+  long numbers = 1000;
+  program.option("--share", share, "of 100,000 random pairs, and 10,000 of each other family");
+  program.option("--numbers", numbers,
+                 "pairs of each family whose area, crossings and gap are held "
+                 "against high precision");
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, share, numbers); });
 }

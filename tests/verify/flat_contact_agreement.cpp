@@ -4,11 +4,11 @@
 // thicknesses apart, nearly concentric, rim to rim, crossing, nearly parallel, touched on a face.
 // Prints the largest errors over their bounds. The merge gate runs a part of it; docs/guide.md
 // names the whole.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -16,6 +16,7 @@
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/support/gap_gradient.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/tests/verify/raw_sampler.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
@@ -366,21 +367,9 @@ bool check_derivatives(Source& source, long count) {
   return kept;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold the numbers of flat bodies against 100 digits");
-  long count = 100'000;
-  unsigned seed = 20261122;
-  double aspect = 1e8;
-  std::string only;
-  app.add_option("--count", count, "inputs of each")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  app.add_option("--aspect", aspect, "largest aspect ratio")->capture_default_str();
-  app.add_option("--only", only, "gaps, curvatures or derivatives");
-  CLI11_PARSE(app, argc, argv);
+bool agree(unsigned seed, long count, double aspect, const std::string& only) {
   Source source(seed, aspect);
-  std::printf("seed %u, aspect ratios to %g; largest errors seen\n", seed, aspect);
+  std::printf("aspect ratios to %g; largest errors seen\n", aspect);
   bool kept = true;
   const auto run = [&](const char* name, auto check) {
     if (!only.empty() && only != name) return;
@@ -390,5 +379,21 @@ int main(int argc, char** argv) {
   run("gaps", check_definitions);
   run("curvatures", check_curvatures);
   run("derivatives", check_derivatives);
-  return kept ? 0 : 1;
+  return kept;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program("flat_contact_agreement",
+                                              "Hold the numbers of flat bodies against 100 digits");
+  long count = 100'000;
+  double aspect = 1e8;
+  std::string only;
+  program.option("--count", count, "inputs of each");
+  program.option("--aspect", aspect, "largest aspect ratio");
+  program.option("--only", only, "gaps, curvatures or derivatives");
+  return program.run(argc, argv, [&](std::uint64_t seed) {
+    return agree(static_cast<unsigned>(seed), count, aspect, only);
+  });
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the kernel's gap, its certificate and its bounds on normal and points against the 100-digit
 // oracle, family by family. The merge gate runs a part of it; docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
 #include <tangency/verify/oracles/gap.hpp>
@@ -267,20 +266,7 @@ void print(const Family& family, const Tally& t) {
       t.tiers[4], keeps(family, t) ? "" : "   BROKEN");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app{"Holds signed_gap against the 100-digit oracle"};
-  long count = 5000;
-  std::uint64_t seed = 20261122;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  std::string only;
-  app.add_option("--per-family", count, "pairs of each family")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  app.add_option("--threads", threads)->capture_default_str();
-  app.add_option("--only", only, "families whose name contains this");
-  CLI11_PARSE(app, argc, argv);
-
+bool agree(std::uint64_t seed, long count, unsigned threads, const std::string& only) {
   std::vector<Family> families = make_families();
   for (std::uint64_t i = 0; Family & family : families) family.index = i++;
   std::erase_if(families, [&](const Family& f) { return f.name.find(only) == std::string::npos; });
@@ -288,33 +274,41 @@ int main(int argc, char** argv) {
   const long parts = (count + kPart - 1) / kPart;
   std::vector<Tally> total(families.size());
   std::mutex adding;
-  std::atomic<std::size_t> next = 0;
   const std::size_t jobs = families.size() * static_cast<std::size_t>(parts);
-  const auto work = [&] {
-    for (std::size_t job = next++; job < jobs; job = next++) {
-      const std::size_t f = job / static_cast<std::size_t>(parts);
-      const long part = static_cast<long>(job % static_cast<std::size_t>(parts));
-      Tally tally;
-      families[f].run(seed + 1'000'000 * families[f].index + static_cast<std::uint64_t>(part),
-                      std::min(kPart, count - part * kPart), tally);
-      const std::lock_guard lock(adding);
-      total[f].add(tally);
-      if (job % 64 == 63) std::fprintf(stderr, "%zu of %zu parts\n", job + 1, jobs);
-    }
-  };
-  std::vector<std::thread> pool;
-  for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
-  for (std::thread& thread : pool) thread.join();
+  tangency::testing::for_each_part(threads, jobs, [&](std::size_t job) {
+    const std::size_t f = job / static_cast<std::size_t>(parts);
+    const long part = static_cast<long>(job % static_cast<std::size_t>(parts));
+    Tally tally;
+    families[f].run(seed + 1'000'000 * families[f].index + static_cast<std::uint64_t>(part),
+                    std::min(kPart, count - part * kPart), tally);
+    const std::lock_guard lock(adding);
+    total[f].add(tally);
+  });
 
   std::printf(
-      "seed %llu; errors in u L; tiers fast/safeguarded/factored/search/exact\n%-34s %6s %5s %5s "
+      "errors in u L; tiers fast/safeguarded/factored/search/exact\n%-34s %6s %5s %5s "
       "%4s %4s %4s %4s %8s %8s %9s   tiers\n",
-      static_cast<unsigned long long>(seed), "family", "pairs", "local", "wrong", "fail", "viol",
-      "outs", "open", "near", "far", "gap_error");
+      "family", "pairs", "local", "wrong", "fail", "viol", "outs", "open", "near", "far",
+      "gap_error");
   bool all = !families.empty();
   for (std::size_t f = 0; f < families.size(); ++f) {
     print(families[f], total[f]);
     all = all && keeps(families[f], total[f]) && total[f].pairs == count;
   }
-  return all ? 0 : 1;
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program("gap_agreement",
+                                              "Holds signed_gap against the 100-digit oracle");
+  long count = 5000;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  std::string only;
+  program.option("--per-family", count, "pairs of each family");
+  program.option("--threads", threads);
+  program.option("--only", only, "families whose name contains this");
+  return program.run(argc, argv,
+                     [&](std::uint64_t seed) { return agree(seed, count, threads, only); });
 }

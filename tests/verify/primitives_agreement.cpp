@@ -2,7 +2,6 @@
 // Holds the closest point, the ray, the wall and the sphere against the oracle's 120 digits on as
 // many inputs of each as asked for, and prints the largest errors. The merge gate runs a part of
 // it; docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/ray.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
@@ -335,21 +335,23 @@ bool check_rays(Source& source, long count) {
          near_miss.error <= 1 && hits > count / 4;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold points, spheres, walls and rays against 120 digits");
-  long count = 100'000;
-  std::uint64_t seed = 20261122;
-  app.add_option("--count", count, "inputs of each")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+bool agree(std::uint64_t seed, long count) {
   Source source(seed);
-  std::printf("seed %llu; largest errors seen\n", static_cast<unsigned long long>(seed));
+  std::puts("largest errors seen");
   bool kept = true;
   for (const auto check : {check_points, check_spheres, check_walls, check_rays}) {
     kept = check(source, count) && kept;
     std::fflush(stdout);
   }
-  return kept ? 0 : 1;
+  return kept;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program(
+      "primitives_agreement", "Hold points, spheres, walls and rays against 120 digits");
+  long count = 100'000;
+  program.option("--count", count, "inputs of each");
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count); });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the real roots of quartics, of coefficients over the whole range of doubles, against
 // Sturm's count in exact integers. The merge gate runs a part of it; docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include <tangency/geometry/polynomial.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 
 namespace {
 
@@ -394,17 +394,8 @@ class Source {
 constexpr const char* kKinds[] = {"any exponents", "within 1e+-140", "few terms",
                                   "roots of any exponents", "close roots in any unit"};
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold the real roots of quartics against Sturm's count in exact integers");
-  long count = 1'000'000;
-  std::uint64_t seed = 20261122;
-  app.add_option("--count", count, "polynomials in all")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  std::printf("seed %llu\n%-24s %11s %9s %8s %12s %7s %10s %16s\n",
-              static_cast<unsigned long long>(seed), "kind", "polynomials", "roots", "closely",
+bool agree(std::uint64_t seed, long count) {
+  std::printf("%-24s %11s %9s %8s %12s %7s %10s %16s\n", "kind", "polynomials", "roots", "closely",
               "missed", "beyond", "violations", "error, at most");
   long violations = 0;
   for (int kind = 0; kind < 5; ++kind) {
@@ -422,5 +413,16 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
     violations += t.violations;
   }
-  return violations == 0 ? 0 : 1;
+  return violations == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program(
+      "quartic_agreement",
+      "Hold the real roots of quartics against Sturm's count in exact integers");
+  long count = 1'000'000;
+  program.option("--count", count, "polynomials in all");
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count); });
 }

@@ -2,7 +2,6 @@
 // Holds rays against exact rational numbers: which hits lie in the interval, and how far hit points
 // are from surface and line, of bodies as thin as doubles allow and of origins exactly on the
 // surface. The merge gate runs a part of it; docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 #include <mpfr.h>
 
@@ -17,6 +16,7 @@
 #include <utility>
 
 #include <tangency/geometry/ray.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
 namespace {
@@ -346,18 +346,9 @@ void print_row(const Case& c) {
   std::printf("%a,%a\n", c.begin, c.end);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold rays against exact rational numbers");
-  long count = 2'500'000;
-  std::uint64_t seed = 20261122;
-  app.add_option("--count", count, "rays in all")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  std::printf("seed %llu\n%-26s %8s %8s %8s %9s %6s %14s %11s %12s\n",
-              static_cast<unsigned long long>(seed), "kind", "rays", "hits", "grazing", "at an end",
-              "wrong", "surface, in uL", "line, in uL", "t, of room");
+bool agree(std::uint64_t seed, long count) {
+  std::printf("%-26s %8s %8s %8s %9s %6s %14s %11s %12s\n", "kind", "rays", "hits", "grazing",
+              "at an end", "wrong", "surface, in uL", "line, in uL", "t, of room");
   bool kept = true;
   for (int kind = 0; kind < 5; ++kind) {
     Source source(seed + static_cast<std::uint64_t>(kind));
@@ -372,5 +363,15 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
     kept = kept && t.wrong == 0 && t.hits > t.rays / 10;
   }
-  return kept ? 0 : 1;
+  return kept;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program("ray_agreement",
+                                              "Hold rays against exact rational numbers");
+  long count = 2'500'000;
+  program.option("--count", count, "rays in all");
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count); });
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies
 // by family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include <tangency/geometry/relation.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
@@ -124,23 +123,13 @@ void run(const Job& job, Tallies& tallies) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold the kernel's exact relation against the oracle's");
+/// Pairs of each class, adversarial ones and those over the whole range of doubles.
+struct Counts {
   long per_class = 1'000'000, adversarial = 100'000, heaviest = 0;
-  std::uint64_t seed = 20261122;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  app.add_option("--per-class", per_class, "random pairs of each class")->capture_default_str();
-  app.add_option("--adversarial", adversarial, "adversarial pairs")->capture_default_str();
-  app.add_option(
-         "--heaviest", heaviest,
-         "pairs of numbers over the whole range of doubles; the oracle takes a second a pair")
-      ->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  app.add_option("--threads", threads)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+};
 
+bool agree(std::uint64_t seed, unsigned threads, const Counts& counts) {
+  const auto& [per_class, adversarial, heaviest] = counts;
   constexpr long kPart = 10'000;
   std::vector<Job> jobs;
   const auto split = [&](const tangency::verify::ContactFamily* family, long count,
@@ -156,23 +145,16 @@ int main(int argc, char** argv) {
 
   Tallies total;
   std::mutex adding;
-  std::atomic<std::size_t> next = 0, done = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      Tallies part;
-      run(jobs[i], part);
-      const std::lock_guard lock(adding);
-      for (const auto& [family, tally] : part) total[family].add(tally);
-      if (++done % 16 == 0) std::fprintf(stderr, "%zu of %zu parts\n", done.load(), jobs.size());
-    }
-  };
-  std::vector<std::thread> pool;
-  for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
-  for (std::thread& thread : pool) thread.join();
+  tangency::testing::for_each_part(threads, jobs.size(), [&](std::size_t i) {
+    Tallies part;
+    run(jobs[i], part);
+    const std::lock_guard lock(adding);
+    for (const auto& [family, tally] : part) total[family].add(tally);
+  });
 
   Tally all;
-  std::printf("seed %llu\n%-28s %9s %13s %16s %16s %11s\n", static_cast<unsigned long long>(seed),
-              "family", "pairs", "disagreements", "overlaps filter", "relation filter", "slowest");
+  std::printf("%-28s %9s %13s %16s %16s %11s\n", "family", "pairs", "disagreements",
+              "overlaps filter", "relation filter", "slowest");
   const auto print = [](const char* name, const Tally& t) {
     std::printf("%-28s %9ld %13ld %14.3f %% %14.3f %% %8.3f ms\n", name, t.pairs, t.disagreements,
                 100.0 * static_cast<double>(t.overlaps_filter) / static_cast<double>(t.pairs),
@@ -184,5 +166,21 @@ int main(int argc, char** argv) {
     all.add(tally);
   }
   print("all", all);
-  return all.disagreements == 0 && all.pairs == heaviest + adversarial + 3 * per_class ? 0 : 1;
+  return all.disagreements == 0 && all.pairs == heaviest + adversarial + 3 * per_class;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program(
+      "relation_agreement", "Hold the kernel's exact relation against the oracle's");
+  Counts counts;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  program.option("--per-class", counts.per_class, "random pairs of each class");
+  program.option("--adversarial", counts.adversarial, "adversarial pairs");
+  program.option(
+      "--heaviest", counts.heaviest,
+      "pairs of numbers over the whole range of doubles; the oracle takes a second a pair");
+  program.option("--threads", threads);
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, threads, counts); });
 }

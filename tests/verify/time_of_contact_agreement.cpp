@@ -2,7 +2,6 @@
 // Holds the time of first contact against the interval oracle on as many motions as asked for, by
 // family, and the tolerance of many more that spin, exactly. The merge gate runs a part of it;
 // docs/guide.md names the whole.
-#include <CLI/CLI.hpp>
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include <tangency/geometry/time_of_contact.hpp>
+#include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/oracles/time_of_contact.hpp>
 
@@ -286,20 +286,10 @@ void compare(const Case& c, Tally& tally) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Hold the time of first contact against the interval oracle");
-  long count = 120'000, spins = 1'000'000;
-  std::uint64_t seed = 20261122;
-  app.add_option("--count", count, "motions in all")->capture_default_str();
-  app.add_option("--spins", spins, "motions that spin, without the oracle")->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  std::printf("seed %llu\n%-22s %8s %8s %8s %8s %5s %5s %9s %6s %9s %5s %9s %14s %8s\n",
-              static_cast<unsigned long long>(seed), "family", "motions", "contact", "none",
-              "at start", "late", "early", "too close", "open", "undecided", "wide", "earliest",
-              "steps (most)", "us each");
+bool agree(std::uint64_t seed, long count, long spins) {
+  std::printf("%-22s %8s %8s %8s %8s %5s %5s %9s %6s %9s %5s %9s %14s %8s\n", "family", "motions",
+              "contact", "none", "at start", "late", "early", "too close", "open", "undecided",
+              "wide", "earliest", "steps (most)", "us each");
   bool kept = true;
   for (const Family family : kFamilies) {
     Source source(seed + static_cast<std::uint64_t>(family));
@@ -315,5 +305,16 @@ int main(int argc, char** argv) {
     kept = kept && t.kept();
   }
   kept = check_spins(spins, seed) && kept;
-  return kept ? 0 : 1;
+  return kept;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tangency::testing::AgreementProgram program(
+      "time_of_contact_agreement", "Hold the time of first contact against the interval oracle");
+  long count = 120'000, spins = 1'000'000;
+  program.option("--count", count, "motions in all");
+  program.option("--spins", spins, "motions that spin, without the oracle");
+  return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count, spins); });
 }

@@ -45,19 +45,19 @@ void write_all(int file, std::string_view text) {
   }
 }
 
-csv::Descriptor memory_file(const char* name) {
-  csv::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
+tables::Descriptor memory_file(const char* name) {
+  tables::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
   if (!file.is_open()) fail("no file in memory");
   return file;
 }
 
 // The table without its comments, from its start.
-csv::Descriptor without_comments(const std::string& path) {
+tables::Descriptor without_comments(const std::string& path) {
   std::ifstream from(path, std::ios::binary);
   if (!from) {
-    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
+    throw tables::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
   }
-  csv::Descriptor table = memory_file("inputs");
+  tables::Descriptor table = memory_file("inputs");
   std::string line, text;
   while (std::getline(from, line)) {
     const std::size_t first = line.find_first_not_of(" \t");
@@ -70,12 +70,12 @@ csv::Descriptor without_comments(const std::string& path) {
 }
 
 struct Pipe {
-  csv::Descriptor ours, theirs;
+  tables::Descriptor ours, theirs;
   Pipe() {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe");
-    ours = csv::Descriptor(ends[0]);
-    theirs = csv::Descriptor(ends[1]);
+    ours = tables::Descriptor(ends[0]);
+    theirs = tables::Descriptor(ends[1]);
   }
 };
 
@@ -94,8 +94,8 @@ class HeldSignals {
     ::sigemptyset(&child);
     ::sigaddset(&child, SIGCHLD);
     ::signal(SIGCHLD, SIG_DFL);  // ignored, it would tell nothing
-    arrivals_ = csv::Descriptor(::signalfd(-1, &held, SFD_CLOEXEC));
-    ends_ = csv::Descriptor(::signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK));
+    arrivals_ = tables::Descriptor(::signalfd(-1, &held, SFD_CLOEXEC));
+    ends_ = tables::Descriptor(::signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK));
     if (!arrivals_.is_open() || !ends_.is_open() ||
         ::sigprocmask(SIG_BLOCK, &held, &before_) != 0 ||
         ::sigprocmask(SIG_BLOCK, &child, nullptr) != 0) {
@@ -111,19 +111,19 @@ class HeldSignals {
   int ends() const { return ends_.get(); }          // readable once a child has ended
 
  private:
-  csv::Descriptor arrivals_, ends_;
+  tables::Descriptor arrivals_, ends_;
   sigset_t before_{};
 };
 
 // Readable after so many seconds.
-csv::Descriptor timer(double seconds) {
+tables::Descriptor timer(double seconds) {
   constexpr double kLongest = 1e9;  // chosen: a life
   const double whole = std::floor(std::min(seconds, kLongest));
   itimerspec after{};
   after.it_value.tv_sec = static_cast<time_t>(whole);
   after.it_value.tv_nsec =
       std::max(1L, static_cast<long>(1e9 * (std::min(seconds, kLongest) - whole)));
-  csv::Descriptor up(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC));
+  tables::Descriptor up(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC));
   if (!up.is_open() || ::timerfd_settime(up.get(), 0, &after, nullptr) != 0) fail("no timer");
   return up;
 }
@@ -260,7 +260,7 @@ class Watch {
   ToolRun& run_;
   Clock::time_point begin_ = Clock::now();
   static constexpr std::size_t kPipes = 2, kEnds = 2, kArrivals = 3, kDeadline = 4;
-  csv::Descriptor timer_;
+  tables::Descriptor timer_;
   std::array<pollfd, 5> events_{};
   std::array<char, 1 << 16> buffer_{};
   std::size_t bytes_ = 0, read_ = 0;  // of standard output, and of both
@@ -272,7 +272,7 @@ class Watch {
 }  // namespace
 
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits) {
-  const csv::Descriptor table = without_comments(inputs);
+  const tables::Descriptor table = without_comments(inputs);
   ToolRun run{memory_file("answers"), {}, false, {}, {}, 0};
   run.output_path = "/proc/self/fd/" + std::to_string(run.output.get());
   Pipe output, error;

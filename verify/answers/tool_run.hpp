@@ -17,7 +17,7 @@ struct ToolLimits {
 };
 
 struct ToolRun {
-  csv::Descriptor output;  ///< a file in memory with what came on standard output; never closed yet
+  tables::Descriptor output;  ///< a file in memory with what came on standard output; never closed yet
   std::string output_path;  ///< by which this process opens it again
   bool sound;               ///< ended by itself, not by a signal, a limit or an interrupt
   std::string ending;  ///< "ended with status 0", "was ended by signal 11 (Segmentation fault)",
@@ -32,7 +32,7 @@ struct ToolRun {
 /// more, is kept: a tool waits for what it has started.
 /// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
 /// by a shell.
-/// Throws csv::Error where the inputs cannot be read, std::system_error where no process starts.
+/// Throws tables::Error where the inputs cannot be read, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
 
 }  // namespace tangency::verify

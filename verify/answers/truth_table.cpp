@@ -12,11 +12,11 @@
 namespace tangency::verify {
 namespace {
 
-using csv::Column;
-using csv::RowCursor;
+using tables::Column;
+using tables::RowCursor;
 using Columns3 = std::array<Column, 3>;
 
-CorpusKind kind_of(const csv::Header& header) {
+CorpusKind kind_of(const tables::Header& header) {
   if (header.find("type")) return CorpusKind::quadrics;
   return header.find("crossings") ? CorpusKind::ellipses : CorpusKind::pairs;
 }
@@ -47,7 +47,7 @@ void require_same(const RowCursor& line, Column column, bool same) {
   if (!same) throw line.error(column, "another line about this row says otherwise");
 }
 
-Columns3 require3(const csv::Header& header, const std::array<const char*, 3>& names) {
+Columns3 require3(const tables::Header& header, const std::array<const char*, 3>& names) {
   return {header.require(names[0]), header.require(names[1]), header.require(names[2])};
 }
 
@@ -60,7 +60,7 @@ int small_count(const RowCursor& row, Column column) {
 // What all kinds have in common, and the order of rows.
 class TableReader {
  public:
-  TableReader(const csv::Header& header, CorpusKind kind)
+  TableReader(const tables::Header& header, CorpusKind kind)
       : row_(header.require("row")), family_(header.require("family")), table_{kind, {}, {}, {}} {}
 
   // The row of the table that this line is about; `again` where it has been seen.
@@ -107,7 +107,7 @@ Relation read_relation(const RowCursor& line, Column column) {
 
 class PairReader {
  public:
-  PairReader(const csv::Header& header, Definition definition)
+  PairReader(const tables::Header& header, Definition definition)
       : definition_(definition),
         relation_(header.require("relation")),
         size_(header.require("size")),
@@ -168,7 +168,7 @@ class PairReader {
 
 class EllipseReader {
  public:
-  explicit EllipseReader(const csv::Header& header)
+  explicit EllipseReader(const tables::Header& header)
       : relation_(header.require("relation")),
         crossings_(header.require("crossings")),
         size_(header.require("size")),
@@ -228,11 +228,11 @@ std::optional<Relation> relation_named(std::string_view word) {
   return std::nullopt;
 }
 
-CorpusKind kind_of_truth(const std::string& path) { return kind_of(csv::Reader(path).header()); }
+CorpusKind kind_of_truth(const std::string& path) { return kind_of(tables::Reader(path).header()); }
 
 TruthTable read_truth(const std::string& path, Definition definition) {
-  csv::Reader file(path);
-  const csv::Header& header = file.header();
+  tables::Reader file(path);
+  const tables::Header& header = file.header();
   TableReader reader(header, kind_of(header));
   TruthTable& table = reader.table();
   bool again = false;
@@ -240,7 +240,7 @@ TruthTable read_truth(const std::string& path, Definition definition) {
     case CorpusKind::pairs: {
       table.has_normals = definition != Definition::centre_line;
       const PairReader pairs(header, definition);
-      csv::for_each_row(file, [&](const RowCursor& line) {
+      tables::for_each_row(file, [&](const RowCursor& line) {
         reader.enter(line, again);
         pairs.read(line, again, table);
       });
@@ -249,7 +249,7 @@ TruthTable read_truth(const std::string& path, Definition definition) {
     case CorpusKind::ellipses: {
       const EllipseReader ellipses(header);
       table.has_normals = ellipses.has_normals();
-      csv::for_each_row(file, [&](const RowCursor& line) {
+      tables::for_each_row(file, [&](const RowCursor& line) {
         reader.enter(line, again);
         ellipses.read(line, again, table);
       });
@@ -257,7 +257,7 @@ TruthTable read_truth(const std::string& path, Definition definition) {
     }
     case CorpusKind::quadrics: {
       const Column type = header.require("type");
-      csv::for_each_row(file, [&](const RowCursor& line) {
+      tables::for_each_row(file, [&](const RowCursor& line) {
         reader.enter(line, again).type = read_type(line, type);
       });
       break;

@@ -51,10 +51,10 @@ struct TruthTable {
   bool has_normals = false;
 };
 
-/// By the columns: `type` makes quadrics, `crossings` ellipses. Throws csv::Error.
+/// By the columns: `type` makes quadrics, `crossings` ellipses. Throws tables::Error.
 CorpusKind kind_of_truth(const std::string& path);
 
-/// `definition` is for pairs; it changes nothing else. Throws csv::Error: a table that cannot be
+/// `definition` is for pairs; it changes nothing else. Throws tables::Error: a table that cannot be
 /// read, lacks a column, skips a row or returns to one.
 TruthTable read_truth(const std::string& path, Definition definition);
 

@@ -19,17 +19,14 @@
 #include <utility>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::string shown(double value, const char* format) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string shown(double value, const char* format) { return tables::formatted(format, value); }
 
 // Both values, with as many digits as tell them apart.
 std::string both(const std::string& name, double now, double before) {
@@ -41,7 +38,7 @@ std::string both(const std::string& name, double now, double before) {
 }
 
 [[noreturn]] void refuse(const std::string& path, std::size_t line) {
-  throw csv::Error(
+  throw tables::Error(
       {.file = path,
        .line = line,
        .rule = "a baseline must be what --json writes, an array of {name, unit, value}"});
@@ -107,7 +104,8 @@ Baseline read_baseline(const std::string& path) {
   std::error_code none;
   if (!file || std::filesystem::is_directory(path, none)) {
     const int problem = file ? EISDIR : errno;
-    throw csv::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(problem))});
+    throw tables::Error(
+        {.file = path, .rule = "cannot be read: " + std::string(strerror(problem))});
   }
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   try {

@@ -21,7 +21,7 @@ namespace tangency::verify {
 /// Values by name.
 using Baseline = std::map<std::string, double>;
 
-/// What as_json() wrote. Throws csv::Error, naming the file and the line, for anything else.
+/// What as_json() wrote. Throws tables::Error, naming the file and the line, for anything else.
 Baseline read_baseline(const std::string& path);
 
 /// A line each, with both values; worse and better: the largest change first.

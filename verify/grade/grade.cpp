@@ -12,8 +12,8 @@
 namespace tangency::verify {
 namespace {
 
-using csv::Column;
-using csv::RowCursor;
+using tables::Column;
+using tables::RowCursor;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Chosen: enough to see what is going on.
@@ -31,7 +31,7 @@ struct Columns {
   std::optional<Column> normal_x, normal_y, normal_z;  // all, or x and y of ellipses, or none
   bool part_of_a_normal = false;
 
-  Columns(const csv::Header& header, const TruthTable& truth) {
+  Columns(const tables::Header& header, const TruthTable& truth) {
     const CorpusKind kind = truth.kind;
     if (kind == CorpusKind::quadrics) {
       type = header.find("type");
@@ -63,7 +63,7 @@ class Grader {
       : truth_(truth), demands_(demands), verdicts_(truth.rows.size()) {}
 
   void read(const std::string& path) {
-    csv::Reader reader(path);
+    tables::Reader reader(path);
     const Columns columns(reader.header(), truth_);
     result_.judges_words = columns.words();
     result_.judges_gaps = columns.gap.has_value();
@@ -73,7 +73,7 @@ class Grader {
     offered_ = columns.words() || columns.gap || columns.normal() || columns.area;
     if (!offered_) fault("the header names no column that is graded");
     if (columns.part_of_a_normal) fault("the header names a part of a normal; all of it is graded");
-    csv::Block block;
+    tables::Block block;
     RowCursor line(reader.header());
     while (reader.read(block)) {
       line.enter(block);
@@ -83,13 +83,13 @@ class Grader {
   }
 
   // What ends the reading: no header, or a line beyond all lines.
-  void end_by(const csv::Error& error) {
+  void end_by(const tables::Error& error) {
     fault(error, error.fault().line > 1 ? "; what follows is not read" : "");
   }
 
   // By row and line, without the name of the file, which may be no more than a number.
-  void fault(const csv::Error& error, const std::string& consequence = "") {
-    const csv::Fault& where = error.fault();
+  void fault(const tables::Error& error, const std::string& consequence = "") {
+    const tables::Fault& where = error.fault();
     std::string text = std::string(error.what()).substr(where.file.size());
     text = where.line > 0 ? "line " + text.substr(1) : text.substr(2);
     fault((row_ == kNoRow ? "" : "row " + std::to_string(row_) + ", ") + text + consequence);
@@ -110,7 +110,7 @@ class Grader {
     for (;;) {
       try {
         return line.next();
-      } catch (const csv::Error& error) {
+      } catch (const tables::Error& error) {
         row_ = kNoRow;
         fault(error);
       }
@@ -122,7 +122,7 @@ class Grader {
     if (!line.text(column).empty()) {
       try {
         return line.number(column);
-      } catch (const csv::Error& error) {
+      } catch (const tables::Error& error) {
         fault(error);
       }
     }
@@ -141,7 +141,7 @@ class Grader {
     double index = 0;
     try {
       index = line.number(number_column);
-    } catch (const csv::Error& error) {
+    } catch (const tables::Error& error) {
       return fault(error);
     }
     if (!(index >= 0 && index < static_cast<double>(verdicts_.size())) ||
@@ -303,7 +303,7 @@ Grade grade(const TruthTable& truth, const std::string& answers, const Demands& 
   Grader grader(truth, demands);
   try {
     grader.read(answers);
-  } catch (const csv::Error& error) {
+  } catch (const tables::Error& error) {
     grader.end_by(error);
   }
   return grader.result();

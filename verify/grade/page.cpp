@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/verify/grade/report.hpp>
 
 namespace tangency::verify {
@@ -46,9 +47,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string shown(double value, const char* format = "%.2g") {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+  return tables::formatted(format, value);
 }
 
 // Chosen: what is below the first decade stands on it, what is above the last one on that.

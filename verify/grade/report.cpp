@@ -8,14 +8,12 @@
 #include <limits>
 #include <tuple>
 
+#include <tangency/geometry/tables/number_text.hpp>
+
 namespace tangency::verify {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
+std::string number(double value) { return tables::rounded_text(value, 2); }
 
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What the subcommands of tangency-verify have in common.
+/// The subcommands of tangency-verify.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include <functional>
+#include <tangency/geometry/tables/command_line.hpp>
 
 namespace tangency::verify {
 
 enum ExitStatus : int {
   passed = 0,
-  failed = 1,   // a threshold is passed or answers are missing
-  refused = 2,  // the command line or a file
+  failed = 1,  // a threshold is passed or answers are missing
 };
 
-// A subcommand as main() sees it.
-struct Subcommand {
-  CLI::App* app;
-  std::function<ExitStatus()> run;  // once the command line has been parsed
-};
-
-Subcommand add_generate(CLI::App& program);
-Subcommand add_grade(CLI::App& program);
+void add_generate(tables::Program& program);
+void add_grade(tables::Program& program);
 
 }  // namespace tangency::verify

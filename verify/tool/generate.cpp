@@ -46,10 +46,10 @@ void write(const std::filesystem::path& folder, const std::string& name) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) {
-    throw csv::Error({.file = folder.string(), .rule = "cannot be made: " + problem.message()});
+    throw tables::Error({.file = folder.string(), .rule = "cannot be made: " + problem.message()});
   }
-  csv::OutputFile inputs((folder / (name + ".csv")).string());
-  csv::OutputFile truth((folder / (name + ".truth.csv")).string());
+  tables::OutputFile inputs((folder / (name + ".csv")).string());
+  tables::OutputFile truth((folder / (name + ".truth.csv")).string());
   const CorpusText text = generate(name);
   inputs.write(text.inputs);
   truth.write(text.truth);
@@ -59,33 +59,33 @@ void write(const std::filesystem::path& folder, const std::string& name) {
 
 }  // namespace
 
-Subcommand add_generate(CLI::App& program) {
+void add_generate(tables::Program& program) {
   struct Options {
     bool list = false;
     std::string name, folder;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App& app = *program.add_subcommand("generate", "Writes a corpus and its truth");
-  const auto list_flag = app.add_flag("--list", options->list, "Name all corpora, and write none");
-  app.add_option("NAME", options->name, "The corpus")
-      ->check(CLI::Validator(check_name, ""))
-      ->excludes(list_flag)
-      ->type_name("");
-  app.add_option("--out", options->folder, "Folder to write to; made where it is missing")
-      ->excludes(list_flag)
-      ->type_name("DIR");
-  app.footer(kHelp);
-  return {&app, [options] {
-            if (options->list) {
-              csv::OutputFile("-").write(list());
-              return passed;
-            }
-            if (options->name.empty() || options->folder.empty()) {
-              throw CLI::RequiredError(options->name.empty() ? "NAME or --list" : "--out");
-            }
-            write(options->folder, options->name);
-            return passed;
-          }};
+  tables::Command& command = program.subcommand("generate", "Writes a corpus and its truth");
+  const tables::Option list_flag =
+      command.flag("--list", options->list, "Name all corpora, and write none");
+  command.option("NAME", options->name, "The corpus")
+      .check(check_name)
+      .excludes(list_flag)
+      .type_name("");
+  command.option("--out", options->folder, "Folder to write to; made where it is missing")
+      .excludes(list_flag)
+      .type_name("DIR");
+  command.footer(kHelp);
+  command.runs([options] {
+    if (options->list) {
+      tables::OutputFile("-").write(list());
+      return passed;
+    }
+    if (options->name.empty()) throw tables::UsageError("NAME or --list is required");
+    if (options->folder.empty()) throw tables::UsageError("--out is required");
+    write(options->folder, options->name);
+    return passed;
+  });
 }
 
 }  // namespace tangency::verify

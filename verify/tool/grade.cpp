@@ -15,7 +15,6 @@
 #include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
-#include <tangency/geometry/tables/not_empty.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
@@ -79,7 +78,7 @@ struct Options {
 };
 
 [[noreturn]] void refuse(const std::string& file, const std::string& rule) {
-  throw csv::Error({.file = file, .rule = rule});
+  throw tables::Error({.file = file, .rule = rule});
 }
 
 // Beside the installed tool, or in the source tree.
@@ -151,9 +150,9 @@ void require_readable(const std::string& path) {
 
 // The inputs must be those that the truth is about.
 void require_rows(const std::string& inputs, std::size_t rows) {
-  csv::Reader reader(inputs);
+  tables::Reader reader(inputs);
   std::size_t found = 0;
-  csv::for_each_row(reader, [&](const csv::RowCursor&) { ++found; });
+  tables::for_each_row(reader, [&](const tables::RowCursor&) { ++found; });
   if (found != rows) {
     refuse(inputs,
            std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
@@ -179,11 +178,11 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
           RunNote{run.sound, run.ending, run.last_words, run.seconds}};
 }
 
-std::unique_ptr<csv::OutputFile> opened(const std::string& path) {
-  return path.empty() ? nullptr : std::make_unique<csv::OutputFile>(path);
+std::unique_ptr<tables::OutputFile> opened(const std::string& path) {
+  return path.empty() ? nullptr : std::make_unique<tables::OutputFile>(path);
 }
 
-void write(const std::unique_ptr<csv::OutputFile>& file, const std::string& text) {
+void write(const std::unique_ptr<tables::OutputFile>& file, const std::string& text) {
   if (!file) return;
   file->write(text);
   file->commit();
@@ -221,7 +220,7 @@ ExitStatus run(const Options& options) {
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
   // What cannot be written is refused before the first tool is started.
   const auto json = opened(options.json), html = opened(options.html);
-  csv::OutputFile screen("-");
+  tables::OutputFile screen("-");
   std::vector<CorpusGrade> grades;
   for (const std::string& name : chosen_corpora(options, folder)) {
     grades.push_back(graded(options, folder, name));
@@ -251,101 +250,108 @@ std::string check_definition(const std::string& name) {
          "are";
 }
 
-CLI::Validator whole_number() {
-  const auto check = [](const std::string& text) -> std::string {
-    std::size_t value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem == std::errc() && end == text.data() + text.size() &&
-        (text == "0" || !text.starts_with('0')))
-      return {};
-    return text + " is not a whole number from 0";
-  };
-  return CLI::Validator(check, "");
+std::string check_whole_number(const std::string& text) {
+  std::size_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem == std::errc() && end == text.data() + text.size() &&
+      (text == "0" || !text.starts_with('0')))
+    return {};
+  return text + " is not a whole number from 0";
 }
 
 // A finite number from 0; 0 itself only if asked for.
-CLI::Validator number(bool or_zero) {
-  const auto check = [or_zero](const std::string& text) -> std::string {
+tables::Check number(bool or_zero) {
+  return [or_zero](const std::string& text) -> std::string {
     double value = 0;
-    if (!csv::parse_number(text, value) && (or_zero ? value >= 0 : value > 0)) return {};
+    if (!tables::parse_number(text, value) && (or_zero ? value >= 0 : value > 0)) return {};
     return text + " is not a finite number " + (or_zero ? ">= 0" : "> 0");
   };
-  return CLI::Validator(check, "");
 }
 
 void require_fitting(const Options& options) {
   if (options.tool.empty() == options.answers.empty()) {
-    throw CLI::RequiredError("either --answers or --tool");
+    throw tables::UsageError("either --answers or --tool is required");
   }
   if (!options.answers.empty() && options.names.size() != 1) {
-    throw CLI::RequiredError("one --corpus, which the answers are for,");
+    throw tables::UsageError("one --corpus, which the answers are for, is required");
   }
 }
 
 }  // namespace
 
-Subcommand add_grade(CLI::App& program) {
+void add_grade(tables::Program& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App& app = *program.add_subcommand("grade", "Grades answers, or a tool that gives them");
-  app.add_option("--answers", options->answers,
-                 "A table of answers to one corpus; - is standard input")
-      ->check(tool::not_empty())
-      ->type_name("FILE");
-  app.add_option("--tool", options->tool,
-                 "A shell command, started once a corpus: inputs come on its standard input, "
-                 "answers are read from its standard output")
-      ->check(tool::not_empty("command"))
-      ->type_name("COMMAND");
-  app.add_option("--corpus", options->names,
-                 "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
-      ->type_name("NAME");
-  app.add_option("--corpora", options->corpora,
-                 "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
-      ->check(tool::not_empty())
-      ->type_name("DIR");
-  app.add_option("--definition", options->definition,
-                 "What gap and normal mean: common-normal (default), perram-wertheim, "
-                 "midpoint-potential or centre-line (how far B moves along the line of centres "
-                 "until both touch; normals are not graded)")
-      ->check(CLI::Validator(check_definition, ""))
-      ->type_name("D");
+  tables::Command& command =
+      program.subcommand("grade", "Grades answers, or a tool that gives them");
+  command
+      .option("--answers", options->answers,
+              "A table of answers to one corpus; - is standard input")
+      .not_empty()
+      .type_name("FILE");
+  command
+      .option("--tool", options->tool,
+              "A shell command, started once a corpus: inputs come on its standard input, "
+              "answers are read from its standard output")
+      .not_empty("command")
+      .type_name("COMMAND");
+  command
+      .option("--corpus", options->names,
+              "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
+      .type_name("NAME");
+  command
+      .option("--corpora", options->corpora,
+              "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
+      .not_empty()
+      .type_name("DIR");
+  command
+      .option("--definition", options->definition,
+              "What gap and normal mean: common-normal (default), perram-wertheim, "
+              "midpoint-potential or centre-line (how far B moves along the line of centres "
+              "until both touch; normals are not graded)")
+      .check(check_definition)
+      .type_name("D");
   Thresholds& limits = options->thresholds;
-  app.add_option("--max-wrong", limits.wrong,
-                 "Most wrong answers, over all corpora (default: 0); relations, or crossings or "
-                 "types, must then be answered")
-      ->check(whole_number())
-      ->type_name("N");
-  app.add_option("--max-gap-error", limits.gap_error, "Largest gap error")
-      ->check(number(true))
-      ->type_name("X");
-  app.add_option("--max-normal-error", limits.normal_error, "Largest normal error")
-      ->check(number(true))
-      ->type_name("X");
-  app.add_option("--time-limit", options->seconds,
-                 "Seconds a tool has for a corpus before it is killed (default: 300)")
-      ->check(number(false))
-      ->type_name("SECONDS");
-  app.add_option("--baseline", options->baseline,
-                 "An earlier grade, written by --json: anything worse fails, what is better is "
-                 "named, times are shown beside each other")
-      ->check(tool::not_empty())
-      ->type_name("FILE");
-  app.add_option("--baseline-slack", options->slack,
-                 "Share of the baseline's errors by which they may differ (default: 0)")
-      ->check(number(true))
-      ->type_name("X");
-  app.add_option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
-      ->check(tool::not_empty())
-      ->type_name("FILE");
-  app.add_option("--html", options->html, "Also write it as a page with plots")
-      ->check(tool::not_empty())
-      ->type_name("FILE");
-  app.footer(kHelp);
-  return {&app, [options, &app] {
-            require_fitting(*options);
-            options->demands_words = app.count("--max-wrong") > 0;
-            return run(*options);
-          }};
+  const tables::Option max_wrong =
+      command
+          .option("--max-wrong", limits.wrong,
+                  "Most wrong answers, over all corpora (default: 0); relations, or crossings or "
+                  "types, must then be answered")
+          .check(check_whole_number)
+          .type_name("N");
+  command.option("--max-gap-error", limits.gap_error, "Largest gap error")
+      .check(number(true))
+      .type_name("X");
+  command.option("--max-normal-error", limits.normal_error, "Largest normal error")
+      .check(number(true))
+      .type_name("X");
+  command
+      .option("--time-limit", options->seconds,
+              "Seconds a tool has for a corpus before it is killed (default: 300)")
+      .check(number(false))
+      .type_name("SECONDS");
+  command
+      .option("--baseline", options->baseline,
+              "An earlier grade, written by --json: anything worse fails, what is better is "
+              "named, times are shown beside each other")
+      .not_empty()
+      .type_name("FILE");
+  command
+      .option("--baseline-slack", options->slack,
+              "Share of the baseline's errors by which they may differ (default: 0)")
+      .check(number(true))
+      .type_name("X");
+  command.option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
+      .not_empty()
+      .type_name("FILE");
+  command.option("--html", options->html, "Also write it as a page with plots")
+      .not_empty()
+      .type_name("FILE");
+  command.footer(kHelp);
+  command.runs([options, max_wrong] {
+    require_fitting(*options);
+    options->demands_words = max_wrong.given();
+    return run(*options);
+  });
 }
 
 }  // namespace tangency::verify

@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CLI/CLI.hpp>
-
-#include <vector>
-
-#include <tangency/geometry/tool/program.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 
 namespace tangency::verify {
@@ -23,27 +18,14 @@ Exit status:
 `tangency-verify SUBCOMMAND --help` gives an example.
 )";
 
-int run(int argc, char** argv) {
-  CLI::App program(kProgramDescription, "tangency-verify");
-  program.set_version_flag("--version", "tangency-verify " TANGENCY_VERSION);
-  program.footer(kProgramHelp);
-  program.require_subcommand(1);
-  const std::vector<Subcommand> subcommands{add_generate(program), add_grade(program)};
-  try {
-    program.parse(argc, argv);
-    for (const Subcommand& subcommand : subcommands) {
-      if (subcommand.app->parsed()) return subcommand.run();
-    }
-  } catch (const CLI::ParseError& stop) {
-    return tool::exit_after(program, stop, argc, argv);
-  }
-  return refused;
-}
-
 }  // namespace
 }  // namespace tangency::verify
 
 int main(int argc, char** argv) {
-  return tangency::tool::guarded("tangency-verify",
-                                 [&] { return tangency::verify::run(argc, argv); });
+  using namespace tangency::verify;
+  tangency::tables::Program program("tangency-verify", kProgramDescription, TANGENCY_VERSION);
+  program.footer(kProgramHelp);
+  add_generate(program);
+  add_grade(program);
+  return program.run(argc, argv);
 }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/summary.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include <tangency/dem/observe.hpp>
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/history.hpp>
+#include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
+
+namespace tangency::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+void put_fields(nlohmann::ordered_json& summary, const History& history) {
+  const std::size_t last = history.size() - 1;
+  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{})) {
+    if (field.name == "stage")
+      summary[field.name] = history.stage(last);
+    else if (std::holds_alternative<std::int64_t>(field.value))
+      summary[field.name] = static_cast<std::int64_t>(history.column(field.name)[last]);
+    else
+      summary[field.name] = history.column(field.name)[last];
+  }
+}
+
+/// The peaks of the scene's last stage of kind shear, if the history has it.
+void add_peaks(nlohmann::ordered_json& summary, const History& history, const Scene& scene) {
+  const auto shears = [](const Stage& stage) { return stage.drive && stage.drive->axial_strain; };
+  const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(), shears);
+  if (last == scene.stages.rend()) return;
+  const auto peaks = peaks_of_stage(history, last->name);
+  if (!peaks) return;
+  summary["peak_friction_angle_deg"] = peaks->friction_angle_deg;
+  summary["strain_at_peak_friction"] = peaks->strain_at_friction;
+  summary["peak_dilation_rate"] = peaks->dilation_rate;
+  summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
+}
+
+}  // namespace
+
+void write_summary(const fs::path& directory, const Simulation& simulation, const RunCost& cost) {
+  const State& state = simulation.state();
+  const Balance balance = simulation.observe().balance;
+  const History history(directory / "history.csv");
+  nlohmann::ordered_json summary;
+  put_fields(summary, history);
+  add_peaks(summary, history, simulation.scene());
+  summary["particles"] = state.particles.size();
+  summary["cycles"] = state.cycle;
+  summary["wall_seconds"] = cost.wall_seconds;
+  summary["ns_per_listed_pair_per_cycle"] =
+      cost.listed_pair_cycles > 0.0 ? 1e9 * cost.cycle_seconds / cost.listed_pair_cycles : 0.0;
+  summary["listed_pairs"] = state.list.pairs().size();
+  summary["threads"] = cost.threads;
+  summary["state_hash"] = state_hash(state);
+  summary["rattlers"] = balance.rattlers;
+  summary["largest_unbalanced_ratio"] = balance.largest_unbalanced_ratio;
+  summary["largest_unbalanced_moment_ratio"] = balance.largest_unbalanced_moment_ratio;
+  write_whole(directory / "summary.json", summary.dump(2) + "\n");
+}
+
+std::optional<SummaryLines> read_summary(const fs::path& directory) {
+  const auto text = read_whole(directory / "summary.json");
+  if (!text) return std::nullopt;
+  const auto summary = nlohmann::ordered_json::parse(*text, nullptr, false);
+  if (!summary.is_object()) return std::nullopt;
+  SummaryLines lines;
+  for (const auto& [name, value] : summary.items())
+    lines.emplace_back(name, value.is_number_float() ? tables::rounded_text(value.get<double>(), 6)
+                             : value.is_string()     ? value.get<std::string>()
+                                                     : value.dump());
+  return lines;
+}
+
+}  // namespace tangency::dem

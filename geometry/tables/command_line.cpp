@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/tables/command_line.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <tangency/geometry/tables/output_file.hpp>
+
+namespace tangency::tables {
+namespace {
+
+int complain(const std::string& message) {
+  std::cerr << message << std::endl;
+  return kRefused;
+}
+
+/// Letters to add, drop, replace or exchange with their neighbour to make one word of the other.
+std::size_t slips_between(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> slips(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) slips[i][0] = i;
+  std::iota(slips[0].begin(), slips[0].end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = slips[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      slips[i][j] = std::min({slips[i - 1][j] + 1, slips[i][j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        slips[i][j] = std::min(slips[i][j], slips[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return slips[a.size()][b.size()];
+}
+
+}  // namespace
+
+Option Option::type_name(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
+}
+
+Option Option::shows_default() const {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option Option::hidden() const {
+  option_->group("");
+  return *this;
+}
+
+Option Option::required() const {
+  option_->required();
+  return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::check(Check allowed) const {
+  option_->check(CLI::Validator(std::move(allowed), ""));
+  return *this;
+}
+
+template <class Number>
+Option Option::between(Number low, Number high) const {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+template Option Option::between(int, int) const;
+template Option Option::between(unsigned, unsigned) const;
+template Option Option::between(std::size_t, std::size_t) const;
+
+Option Option::one_of(const std::vector<std::string>& words) const {
+  option_->check(CLI::IsMember(words).description(""));
+  return *this;
+}
+
+Option Option::not_empty(const std::string& what) const {
+  return check([what](const std::string& text) {
+    return text.empty() ? "a " + what + " is empty" : std::string();
+  });
+}
+
+bool Option::given() const { return option_->count() > 0; }
+
+template <class Value>
+Option Command::option(const std::string& names, Value& value, const std::string& help) {
+  return Option(app_->add_option(names, value, help));
+}
+template Option Command::option(const std::string&, double&, const std::string&);
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, int&, const std::string&);
+template Option Command::option(const std::string&, unsigned&, const std::string&);
+template Option Command::option(const std::string&, long&, const std::string&);
+template Option Command::option(const std::string&, std::uint64_t&, const std::string&);
+template Option Command::option(const std::string&, std::string&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+Option Command::flag(const std::string& names, bool& value, const std::string& help) {
+  return Option(app_->add_flag(names, value, help));
+}
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+Program::Program(const std::string& name, const std::string& description,
+                 const std::string& version)
+    : Command(*new CLI::App(description, name)), own_(&app()) {
+  if (!version.empty()) own_->set_version_flag("--version", name + ' ' + version);
+}
+
+Program::~Program() = default;
+
+Command& Program::subcommand(const std::string& name, const std::string& description) {
+  own_->require_subcommand(1);
+  subcommands_.push_back(Command(*own_->add_subcommand(name, description)));
+  return subcommands_.back();
+}
+
+/// "contcat is no subcommand; the nearest is contact", or all of them where none is near.
+std::string Program::no_subcommand(const std::string& word) const {
+  const auto name_of = [](const Command& one) { return one.app().get_name(); };
+  const auto slips = [&](const Command& one) { return slips_between(word, name_of(one)); };
+  const Command& nearest = *std::ranges::min_element(subcommands_, {}, slips);
+  std::string text = word + " is no subcommand; ";
+  // Chosen: half of the letters are right.
+  if (2 * slips(nearest) <= name_of(nearest).size()) {
+    return text + "the nearest is " + name_of(nearest);
+  }
+  for (const Command& one : subcommands_) {
+    if (&one != &subcommands_.front()) text += &one == &subcommands_.back() ? " and " : ", ";
+    text += name_of(one);
+  }
+  return text + (subcommands_.size() == 1 ? " is" : " are");
+}
+
+int Program::refuse(const std::string& why) const {
+  std::string name = own_->get_name();
+  for (const CLI::App* chosen : own_->get_subcommands()) name += ' ' + chosen->get_name();
+  return complain(name + ": " + why + " (`" + name + " --help` says what is allowed)");
+}
+
+int Program::parse_and_run(int argc, const char* const* argv) {
+  try {
+    own_->parse(argc, argv);
+  } catch (const CLI::ParseError& stop) {
+    if (stop.get_exit_code() == 0) {
+      std::ostringstream text;
+      own_->exit(stop, text);
+      OutputFile("-").write(text.str());
+      return 0;
+    }
+    // A mistyped subcommand is named before all.
+    if (!subcommands_.empty() && own_->get_subcommands().empty()) {
+      const auto is_word = [](const char* argument) { return argument[0] != '-'; };
+      const auto* const word = std::find_if(argv + std::min(argc, 1), argv + argc, is_word);
+      if (word != argv + argc) return refuse(no_subcommand(*word));
+    }
+    return refuse(stop.what());
+  }
+  const auto chosen =
+      std::ranges::find_if(subcommands_, [](const Command& one) { return one.app().parsed(); });
+  try {
+    const int status = chosen == subcommands_.end() ? body_() : chosen->body_();
+    flush_standard_output();
+    return status;
+  } catch (const UsageError& error) {
+    return refuse(error.what());
+  }
+}
+
+int Program::run(int argc, const char* const* argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // an error of write(2) then, which OutputFile tells
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const ReaderHasGone&) {
+  } catch (const std::bad_alloc&) {
+    return complain(own_->get_name() + ": out of memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(own_->get_name() + ": " + error.what());
+  } catch (const std::exception& error) {
+    return complain(error.what());
+  }
+  end_by_broken_pipe();
+}
+
+}  // namespace tangency::tables

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line and the frame of main() from inside: what a program is told, what it refuses,
+// and what becomes of what it prints. The commands' own tests hold their texts.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <tangency/geometry/tables/command_line.hpp>
+
+namespace tangency::testing {
+namespace {
+
+using tables::Command;
+using tables::Program;
+
+struct Ended {
+  int status;
+  std::string err;
+};
+
+Ended run(Program& program, std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "prog");
+  ::testing::internal::CaptureStderr();
+  const int status = program.run(static_cast<int>(arguments.size()), arguments.data());
+  return {status, ::testing::internal::GetCapturedStderr()};
+}
+
+TEST(CommandLine, ReadsEveryKindOfValue) {
+  Program program("prog", "A program");
+  double real = 0.5;
+  std::optional<double> maybe, left_out;
+  int integer = 0;
+  unsigned natural = 0;
+  long wide = 0;
+  std::uint64_t seed = 0;
+  std::string word, place;
+  std::vector<std::string> words;
+  bool flag = false, other_flag = false;
+  program.option("--real", real);
+  program.option("--maybe", maybe);
+  program.option("--left-out", left_out);
+  program.option("--integer", integer);
+  program.option("--natural", natural);
+  program.option("--wide", wide);
+  program.option("--seed", seed);
+  program.option("--word", word);
+  program.option("--words", words);
+  program.option("FILE", place);
+  program.flag("--flag", flag);
+  program.flag("--other-flag", other_flag);
+  program.runs([] { return 7; });
+  const Ended ended =
+      run(program, {"--real", "1e-3", "--maybe", "2", "--integer", "-3", "--natural=4", "--wide",
+                    "-5", "--seed", "18446744073709551615", "--word", "", "--words", "a", "--words",
+                    "b", "--flag", "file"});
+  EXPECT_EQ(ended.status, 7) << ended.err;
+  EXPECT_EQ(real, 1e-3);
+  EXPECT_EQ(maybe, 2.0);
+  EXPECT_EQ(left_out, std::nullopt);
+  EXPECT_EQ(integer, -3);
+  EXPECT_EQ(natural, 4U);
+  EXPECT_EQ(wide, -5);
+  EXPECT_EQ(seed, UINT64_MAX);
+  EXPECT_EQ(words, (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(flag);
+  EXPECT_FALSE(other_flag);
+  EXPECT_EQ(place, "file");
+}
+
+TEST(CommandLine, EveryRefusalIsOneLineThatNamesTheOption) {
+  const auto refusal = [](std::vector<const char*> arguments) {
+    Program program("prog", "A program");
+    int count = 1;
+    std::string word = "half", file = "-";
+    program.option("--count", count).between(1, 9);
+    program.option("--word", word).one_of({"half", "full"});
+    program.option("--file", file).not_empty().check([](const std::string& text) {
+      return text == "bad" ? "bad is bad" : std::string();
+    });
+    program.runs([] { return 0; });
+    const Ended ended = run(program, std::move(arguments));
+    EXPECT_EQ(ended.status, 2);
+    return ended.err;
+  };
+  const std::string end = " (`prog --help` says what is allowed)\n";
+  EXPECT_EQ(refusal({"--count", "0"}), "prog: --count: Value 0 not in range 1 to 9" + end);
+  EXPECT_EQ(refusal({"--count", "10"}), "prog: --count: Value 10 not in range 1 to 9" + end);
+  EXPECT_EQ(refusal({"--word", "third"}), "prog: --word: third not in {half,full}" + end);
+  EXPECT_EQ(refusal({"--file", ""}), "prog: --file: a file name is empty" + end);
+  EXPECT_EQ(refusal({"--file", "bad"}), "prog: --file: bad is bad" + end);
+  EXPECT_EQ(refusal({"stray"}), "prog: The following argument was not expected: stray" + end);
+}
+
+TEST(CommandLine, OnlyTheChosenSubcommandRuns) {
+  Program program("prog", "A program");
+  std::string ran;
+  for (const char* name : {"first", "second"}) {
+    program.subcommand(name, "One").runs([&ran, name] {
+      ran += name;
+      return 3;
+    });
+  }
+  EXPECT_EQ(run(program, {"second"}).status, 3);
+  EXPECT_EQ(ran, "second");
+}
+
+TEST(CommandLine, AnOptionTellsWhetherItWasGiven) {
+  for (const bool given : {false, true}) {
+    Program program("prog", "A program");
+    int value = 5;
+    const tables::Option option = program.option("--value", value);
+    program.runs([&] { return option.given() ? 1 : 0; });
+    const std::vector<const char*> all{"--value", "5"};
+    EXPECT_EQ(run(program, given ? all : std::vector<const char*>()).status, given ? 1 : 0);
+  }
+}
+
+TEST(CommandLine, WhatTheBodyThrowsIsARefusalWithTheNameOfTheProgram) {
+  const auto refusal = [](const std::function<int()>& body) {
+    Program program("prog", "A program");
+    program.subcommand("sub", "One").runs(body);
+    const Ended ended = run(program, {"sub"});
+    EXPECT_EQ(ended.status, 2);
+    return ended.err;
+  };
+  EXPECT_EQ(refusal([]() -> int { throw tables::UsageError("--out is required"); }),
+            "prog sub: --out is required (`prog sub --help` says what is allowed)\n");
+  EXPECT_EQ(refusal([]() -> int { throw std::runtime_error("pairs.csv:1: no"); }),
+            "pairs.csv:1: no\n");
+  EXPECT_EQ(refusal([]() -> int { throw std::bad_alloc(); }), "prog: out of memory\n");
+  EXPECT_EQ(refusal([]() -> int {
+              throw std::filesystem::filesystem_error(
+                  "cannot rename", std::make_error_code(std::errc::no_space_on_device));
+            }),
+            "prog: filesystem error: cannot rename: No space left on device\n");
+}
+
+/// A program that prints through stdio and std::cout, and lets neither know of an error.
+int print_to(int standard_output) {
+  ::dup2(standard_output, STDOUT_FILENO);
+  Program program("prog", "A program");
+  program.runs([] {
+    std::printf("a line\n");
+    std::cout << "another\n";
+    return 0;
+  });
+  const char* const name = "prog";
+  return program.run(1, &name);
+}
+
+TEST(CommandLineDeathTest, WhatWasPrintedToAFullDiskIsARefusal) {
+  EXPECT_EXIT(std::_Exit(print_to(::open("/dev/full", O_WRONLY | O_CLOEXEC))),
+              ::testing::ExitedWithCode(2),
+              "^<stdout>: cannot be written: No space left on device");
+}
+
+TEST(CommandLineDeathTest, WhatWasPrintedToAReaderThatHasGoneEndsTheProgramLikeSigpipe) {
+  const auto print_to_nobody = [] {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) std::_Exit(99);
+    ::close(ends[0]);
+    return print_to(ends[1]);
+  };
+  EXPECT_EXIT(std::_Exit(print_to_nobody()), ::testing::KilledBySignal(SIGPIPE), "^$");
+}
+
+}  // namespace
+}  // namespace tangency::testing
