@@ -19,13 +19,13 @@
 namespace tangency::bench {
 namespace {
 
-using verify::RawPair;
+using verify::EllipsoidPair;
 using verify::Real;
 
 /// A kind of pairs and where to get them from.
 struct Source {
   std::string name;
-  std::function<std::function<RawPair()>()> begin;  ///< a new sequence
+  std::function<std::function<EllipsoidPair()>()> begin;  ///< a new sequence
 };
 
 /// Cells of the tables hold no comma.
@@ -34,40 +34,37 @@ std::string without_commas(std::string name) {
   return name;
 }
 
-template <class Sequence, class Kind>
+template <class Kind>
 Source source_of(const Kind& kind) {
   return {without_commas(kind.name), [kind] {
-            return [sequence = Sequence(kind, kSeed)]() mutable -> RawPair {
-              const auto pair = sequence.next();
-              return {pair.a, pair.b};
+            return [pairs = verify::Sequence(kind, kSeed)]() mutable -> EllipsoidPair {
+              return pairs.next();
             };
           }};
 }
 
 std::vector<Source> sources() {
   std::vector<Source> all;
-  for (const auto& kind : verify::contact_classes())
-    all.push_back(source_of<verify::ManufacturedContacts>(kind));
+  for (const auto& kind : verify::contact_classes()) all.push_back(source_of(kind));
   for (const auto& kind : verify::extreme_families()) {
     const bool chosen = kind.aspect == 1e2 || kind.aspect == 1e4 || kind.aspect == 1e8;
     const bool plain = kind.size_ratio == 3 && kind.scale == 1 && kind.origin == 0;
     const bool other = kind.name == "size ratio to 1e8, aspect 10" || kind.scale > 1;
-    if ((chosen && plain) || other) all.push_back(source_of<verify::ExtremePairs>(kind));
+    if ((chosen && plain) || other) all.push_back(source_of(kind));
   }
   for (const auto& kind : verify::deep_families()) {
-    if (kind.within > 0 || kind.name == "aspect to 5, any overlap")
-      all.push_back(source_of<verify::DeepPairs>(kind));
+    if (kind.within > 0 || kind.name == "aspect to 5, any overlap") all.push_back(source_of(kind));
   }
   return all;
 }
 
-void add(Pairs& pairs, const RawPair& pair) {
+void add(Pairs& pairs, const EllipsoidPair& pair) {
   pairs.raw.push_back(pair.a);
   pairs.raw.push_back(pair.b);
   pairs.add(verify::to_ellipsoid(pair.a), verify::to_ellipsoid(pair.b));
 }
 
-RawPair about_a(RawPair pair) {
+EllipsoidPair about_a(EllipsoidPair pair) {
   for (std::size_t k = 0; k < 3; ++k) {
     pair.b.centre[k] -= pair.a.centre[k];
     pair.a.centre[k] = 0;

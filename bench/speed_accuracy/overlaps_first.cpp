@@ -5,11 +5,10 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include <tangency/verify/families/conversions.hpp>
-#include <tangency/verify/families/support.hpp>
+#include <tangency/verify/families/draw.hpp>
 
 namespace tangency::speed_accuracy {
 namespace {
@@ -109,10 +108,10 @@ std::unique_ptr<Pairs> listed_pairs(const std::string& family, int touching, std
   const auto kind =
       std::ranges::find(verify::contact_classes(), family, &verify::ContactFamily::name);
   verify::ManufacturedContacts contacts(*kind, bench::kSeed);
-  std::mt19937_64 random(bench::kSeed);
+  verify::Draw draw(bench::kSeed);
   std::vector<char> touches(count);
   std::fill_n(touches.begin(), count * static_cast<std::size_t>(touching) / 100, 1);
-  for (std::size_t i = count; i-- > 1;) std::swap(touches[i], touches[random() % (i + 1)]);
+  draw.shuffle(touches);
 
   auto pairs = std::make_unique<Pairs>();
   pairs->name = family;
@@ -123,7 +122,7 @@ std::unique_ptr<Pairs> listed_pairs(const std::string& family, int touching, std
     Ellipsoid b = verify::to_ellipsoid(c.b);
     double gap = c.gap;
     if (!touches[i]) {
-      const auto part = static_cast<double>(verify::uniform(random, kNearest, kFurthest));
+      const auto part = draw.real(kNearest, kFurthest);
       gap = part * mean_radius(a, b);
       b = b.moved_to(b.centre() + (gap - c.gap) * Vec3(c.normal.data()));
     }
