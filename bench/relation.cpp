@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     add(
         "exact_alone/" + family.name, family,
         [](const Ellipsoid& a, const Ellipsoid& b) {
-          return tangency::exact::position(tangency::exact::pair_quartic(a, b));
+          return tangency::exact::ExactPair(a, b).position();
         },
         1);
   }

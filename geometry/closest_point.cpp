@@ -13,13 +13,8 @@ namespace {
 ClosestPoint projected(const Ellipsoid& body, const Vec3& point) {
   assert(point.allFinite());
   const detail::SeenFromCentre seen = detail::seen_from_centre(body, point);
-  const detail::BodyFrame frame(body.orientation());
-  const detail::SurfaceProjection found =
-      detail::project_on_surface(seen.semi_axes, frame.to_body(seen.separation));
-  const Vec3 arm = detail::rounded(frame.to_space(found.point));
-  const auto in_unit = [&](double x) { return std::scalbn(x, seen.exponent); };
-  return {in_unit(found.distance.high), detail::rounded(frame.to_space(found.normal)),
-          arm.unaryExpr(in_unit)};
+  const detail::ClosestOnSurface found = detail::closest_on_surface(body, seen);
+  return {std::scalbn(found.distance.high, seen.exponent), found.normal, found.arm};
 }
 
 }  // namespace

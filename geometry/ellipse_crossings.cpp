@@ -5,11 +5,10 @@
 #include <cassert>
 #include <cmath>
 
+#include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 #include <tangency/geometry/plane/lens.hpp>
-#include <tangency/geometry/plane/real_quartic.hpp>
-#include <tangency/geometry/plane/scaled_plane_pair.hpp>
 
 namespace tangency {
 namespace {
@@ -19,44 +18,35 @@ using detail::DoubleDouble2;
 using detail::LensBody;
 using detail::LensVertex;
 using detail::PlaneLens;
-using detail::ScaledPlanePair;
 using exact::ConicAnswer;
 using exact::Meeting;
 
-/// The pair and what is exactly known of it.
-struct Asked {
-  const Ellipse& a;
-  const Ellipse& b;
-  const Vec2* separation;  ///< null: that of the centres
+using Asked = detail::AskedPair<Ellipse>;
+using ScaledPair = detail::ScaledPair<Ellipse>;
 
-  ConicAnswer meeting() const {
-    if (separation == nullptr) return detail::ellipse_meeting(a, b).answer;
-    return detail::ellipse_meeting(a.moved_to(Vec2::Zero()), b.moved_to(*separation)).answer;
-  }
-  ScaledPlanePair scaled() const {
-    return separation == nullptr ? detail::scaled_plane_pair(a, b)
-                                 : detail::scaled_plane_pair(a, b, *separation);
-  }
-};
+/// What is exactly known of the pair.
+ConicAnswer exact_meeting(const Asked& asked) {
+  const auto [a, b] = asked.placed();
+  return detail::ellipse_meeting(a, b).answer;
+}
 
-PlaneLens lens_of(const ScaledPlanePair& s, Meeting meeting) {
+PlaneLens lens_of(const ScaledPair& s, Meeting meeting) {
   return PlaneLens(s.a, s.b, s.d, s.d_low, meeting);
 }
 
-Vec2 scaled(const DoubleDouble2& v, int exponent) {
-  return {std::scalbn(v.x.high, exponent), std::scalbn(v.y.high, exponent)};
-}
-
 Crossings crossings(const Asked& asked) {
-  const Meeting meeting = asked.meeting().meeting;
+  const Meeting meeting = exact_meeting(asked).meeting;
   Crossings result{0, meeting == Meeting::equal, {}};
-  const ScaledPlanePair s = asked.scaled();
+  const ScaledPair s = detail::scaled_pair(asked);
+  const auto in_unit = [&](const DoubleDouble2& v) {
+    return scaled_by_power(detail::rounded(v), s.exponent);
+  };
   const PlaneLens lens = lens_of(s, meeting);
   for (int i = 0; i < lens.count(); ++i) {
     const DoubleDouble2 near = lens[i].arm, far = near - lens.separation();
     Crossing& crossing = result.at[static_cast<std::size_t>(result.count++)];
-    crossing.arm_a = scaled(lens.first_is_a() ? near : far, s.exponent);
-    crossing.arm_b = scaled(lens.first_is_a() ? far : near, s.exponent);
+    crossing.arm_a = in_unit(lens.first_is_a() ? near : far);
+    crossing.arm_b = in_unit(lens.first_is_a() ? far : near);
     crossing.multiplicity = lens[i].multiplicity;
   }
   detail::sort_few(result.at, result.count, [](const Crossing& p, const Crossing& q) {
@@ -92,7 +82,7 @@ double area_of(const PlaneLens& lens) {
 }
 
 double common_area(const Asked& asked) {
-  const ConicAnswer known = asked.meeting();
+  const ConicAnswer known = exact_meeting(asked);
   switch (known.relation) {
     case Relation::separate:
     case Relation::external_touch:
@@ -105,7 +95,7 @@ double common_area(const Asked& asked) {
     case Relation::overlap:
       break;
   }
-  const ScaledPlanePair s = asked.scaled();
+  const ScaledPair s = detail::scaled_pair(asked);
   // (3) holds for needles too, whose vertices err by more than they are apart.
   const double area = std::max(area_of(lens_of(s, known.meeting)), 0.0);
   return std::min({std::scalbn(area, 2 * s.exponent), asked.a.area(), asked.b.area()});
@@ -128,9 +118,9 @@ double reach(const LensBody& body, const DoubleDouble2& from, const DoubleDouble
 ChordContact chord_contact(const Asked& asked) {
   const Vec2 zero = Vec2::Zero();
   const ChordContact none{ChordStatus::not_applicable, 0.0, zero, zero, zero, zero};
-  const Meeting meeting = asked.meeting().meeting;
+  const Meeting meeting = exact_meeting(asked).meeting;
   if (meeting != Meeting::two_simple && meeting != Meeting::triple_and_simple) return none;
-  const ScaledPlanePair s = asked.scaled();
+  const ScaledPair s = detail::scaled_pair(asked);
   const PlaneLens lens = lens_of(s, meeting);
   // Of the first body's two arcs the one that is inside the second.
   const int begin = lens.level_between(0) < lens.level_between(1) ? 0 : 1;
@@ -145,18 +135,21 @@ ChordContact chord_contact(const Asked& asked) {
   const DoubleDouble2 on_second = middle - DoubleDouble(back) * n - lens.separation();
   const DoubleDouble2 point = middle + DoubleDouble(0.5 * (ahead - back)) * n;
   const bool straight = lens.first_is_a();
+  const auto in_unit = [&](const DoubleDouble2& v) {
+    return scaled_by_power(detail::rounded(v), s.exponent);
+  };
   return {ChordStatus::ok,
           std::scalbn(ahead + back, s.exponent),
           detail::rounded(straight ? n : -n),
-          scaled(straight ? on_first : on_second, s.exponent),
-          scaled(straight ? on_second : on_first, s.exponent),
-          scaled(straight ? point : point - lens.separation(), s.exponent)};
+          in_unit(straight ? on_first : on_second),
+          in_unit(straight ? on_second : on_first),
+          in_unit(straight ? point : point - lens.separation())};
 }
 
 }  // namespace
 
 Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept {
-  return in_default_environment([&] { return crossings(Asked{a, b, nullptr}); });
+  return in_default_environment([&] { return crossings(Asked{a, b}); });
 }
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
@@ -164,7 +157,7 @@ Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) 
 }
 
 double common_area(const Ellipse& a, const Ellipse& b) noexcept {
-  return in_default_environment([&] { return common_area(Asked{a, b, nullptr}); });
+  return in_default_environment([&] { return common_area(Asked{a, b}); });
 }
 double common_area(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
@@ -172,7 +165,7 @@ double common_area(const Ellipse& a, const Ellipse& b, const Vec2& separation) n
 }
 
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b) noexcept {
-  return in_default_environment([&] { return chord_contact(Asked{a, b, nullptr}); });
+  return in_default_environment([&] { return chord_contact(Asked{a, b}); });
 }
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());

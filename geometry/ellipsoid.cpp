@@ -29,11 +29,6 @@ Symmetric3 with_eigenvalues(const Mat3& r, const Vec3& e) {
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(2, 0), entry(0, 1)};
 }
 
-// Ellipsoid::moderate(): chosen so that a^10 d^2, the largest product of the coefficients of the
-// Perram-Wertheim form, stays below 2^1023.
-constexpr double kModerateLargest = 0x1p60;
-constexpr double kModerateSmallest = 0x1p-60;
-
 }  // namespace
 
 InvalidEllipsoid::InvalidEllipsoid(const EllipsoidFault& fault)
@@ -91,7 +86,7 @@ Ellipsoid::Ellipsoid(const Vec3& centre, const Vec3& semi_axes, const Quaternion
     smallest_ = semi_axes.minCoeff();
     least_radius_ = smallest_ * (smallest_ / largest_);
     is_sphere_ = semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2];
-    moderate_ = largest_ <= kModerateLargest && smallest_ >= kModerateSmallest;
+    moderate_ = largest_ <= detail::kLargestModerate && smallest_ >= detail::kSmallestModerate;
   });
 }
 

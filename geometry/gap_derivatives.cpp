@@ -14,6 +14,7 @@ namespace {
 
 using detail::PlaneBasis;
 using detail::PlaneTensor;
+using UnitPair = detail::UnitPair<Ellipsoid>;
 using Mat2 = Eigen::Matrix2d;
 using Mat23 = Eigen::Matrix<double, 2, 3>;
 using Mat218 = Eigen::Matrix<double, 2, 18>;
@@ -21,7 +22,6 @@ using Mat218 = Eigen::Matrix<double, 2, 18>;
 constexpr double kRounding =
     kOrdinaryGapErrorBound * kUnitRoundoff;    // of L: n.d is half of f(n) - f(-n)
 constexpr double kWorstConditioned = 0x1p-10;  // chosen: of u kappa' beta; three digits are left
-constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // of a pair in the unit of its caller
 // A Gap's normal is off by sqrt(u kappa) at most, so that these mostly do; and where they do not.
 constexpr int kPolishingSteps = 2, kMostSteps = 8;
 // Of the step from a settled normal, in u deep (kappa + sqrt(kappa beta)): what its rounding may
@@ -157,8 +157,9 @@ GapDerivatives derivatives_at(const Ellipsoid& a, const Ellipsoid& b, const Expa
   return result;
 }
 
-/// For a pair whose size is in range.
-GapDerivatives solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Gap& gap) {
+GapDerivatives solve(const UnitPair& pair, const Gap& gap) {
+  const Ellipsoid &a = pair.a, &b = pair.b;
+  const Vec3& d = pair.d;
   const double size = d.norm() + a.largest_semi_axis() + b.largest_semi_axis();
   if (std::abs(gap.normal.dot(d)) <= kRounding * size) return none(DerivativeStatus::tie);
   Expansion f(a, b, d, gap.normal);
@@ -172,20 +173,26 @@ GapDerivatives solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, cons
   return derivatives_at(a, b, f, ok ? DerivativeStatus::ok : DerivativeStatus::local);
 }
 
-/// The same in units of 2^exponent, taken back.
-GapDerivatives solve_scaled(const detail::ScaledPair& pair, const Gap& gap) {
-  GapDerivatives result = solve(pair.a, pair.b, pair.d, gap);
-  // A derivative has the unit length^(1 - number of lengths it is taken by).
+/// From units of 2^exponent: a derivative has the unit length^(1 - number of lengths it is taken
+/// by).
+void scale_back(GapDerivatives& result, int exponent) {
   const auto is_angle = [](int i) { return i % kOfBodyB / 3 == kRotation / 3; };
   for (int i = 0; i < 18; ++i) {
-    if (is_angle(i)) result.gradient[i] = std::scalbn(result.gradient[i], pair.exponent);
+    if (is_angle(i)) result.gradient[i] = std::scalbn(result.gradient[i], exponent);
     for (int j = 0; j < 18; ++j) {
       const int power = is_angle(i) + is_angle(j) - 1;
-      result.hessian(i, j) = std::scalbn(result.hessian(i, j), power * pair.exponent);
+      result.hessian(i, j) = std::scalbn(result.hessian(i, j), power * exponent);
     }
   }
-  result.least_radius = std::scalbn(result.least_radius, pair.exponent);
-  return result;
+  result.least_radius = std::scalbn(result.least_radius, exponent);
+}
+
+GapDerivatives answer(const detail::AskedPair<Ellipsoid>& asked, const Gap& gap) {
+  const Vec3 d = asked.d();
+  const UnitPair pair(asked, d, detail::moderate_size(asked.a, asked.b, d));
+  GapDerivatives found = solve(pair, gap);
+  if (!pair.in_own_unit()) scale_back(found, pair.exponent);
+  return found;
 }
 
 }  // namespace
@@ -193,20 +200,11 @@ GapDerivatives solve_scaled(const detail::ScaledPair& pair, const Gap& gap) {
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept {
   contract::require_finite("gap_derivatives", "separation", separation);
-  return in_default_environment([&] {
-    const double largest =
-        std::max({separation.cwiseAbs().maxCoeff(), a.largest_semi_axis(), b.largest_semi_axis()});
-    if (largest <= kLargest && largest >= kSmallest) return solve(a, b, separation, gap);
-    return solve_scaled(detail::scaled_pair(a, b, separation), gap);
-  });
+  return in_default_environment([&] { return answer({a, b, &separation}, gap); });
 }
 
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept {
-  return in_default_environment([&] {
-    const Vec3 d = b.centre() - a.centre();
-    if (d.allFinite()) return gap_derivatives(a, b, d, gap);
-    return solve_scaled(detail::scaled_pair(a, b), gap);
-  });
+  return in_default_environment([&] { return answer({a, b}, gap); });
 }
 
 }  // namespace tangency

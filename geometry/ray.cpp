@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include <tangency/geometry/bodies/double_double_body.hpp>
 #include <tangency/geometry/bodies/ray_form.hpp>
+#include <tangency/geometry/bodies/surface_projection.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/power_of_two.hpp>
 
@@ -16,6 +16,7 @@ namespace tangency {
 namespace {
 
 using detail::DoubleDouble;
+using detail::DoubleDoubleMatrix;
 using detail::DoubleDoubleVector;
 
 constexpr double kEpsilon = detail::kDoubleDoubleEpsilon;
@@ -23,10 +24,8 @@ constexpr double kEpsilon = detail::kDoubleDoubleEpsilon;
 constexpr double kTurned = 64 * kEpsilon;
 constexpr double kCrossed = 8 * kEpsilon;
 constexpr double kSquared = 16 * kEpsilon;
-constexpr double kUnderflow = 0x1p-300;  // of a turned separation's components
-constexpr double kLeastAxis = 0x1p-200;  // as seen: a semi-axis below it was taken for it
-constexpr double kBeyond = 16.0;         // as seen: no hit has a t beyond it
-constexpr double kFarMiss = 0x1p-40;     // chosen: far above the rounding of the double test, 2^-49
+constexpr double kBeyond = 16.0;      // as seen: no hit has a t beyond it
+constexpr double kFarMiss = 0x1p-40;  // chosen: far above the rounding of the double test, 2^-49
 
 /// The line z + t v in the coordinates that make the body the unit ball, and how far it is off.
 struct UnitBallLine {
@@ -44,10 +43,10 @@ bool passes_far(const detail::SeenFromCentre& seen, const Vec3& direction) {
   return d.cross(direction).norm() - reach > kFarMiss * d.norm() * direction.norm();
 }
 
-UnitBallLine unit_ball_line(const detail::SeenFromCentre& seen, const detail::BodyFrame& frame,
+UnitBallLine unit_ball_line(const detail::SeenFromCentre& seen, const DoubleDoubleMatrix& rotation,
                             const Vec3& direction) {
-  UnitBallLine line{frame.to_body(seen.separation),
-                    frame.to_body(detail::exactly(direction)),
+  UnitBallLine line{turned_back(rotation, seen.separation),
+                    turned_back(rotation, detail::exactly(direction)),
                     {},
                     {},
                     {},
@@ -59,7 +58,8 @@ UnitBallLine unit_ball_line(const detail::SeenFromCentre& seen, const detail::Bo
     const double a = seen.semi_axes[static_cast<int>(i)];
     line.z[i] = line.z[i] / DoubleDouble(a);
     line.v[i] = line.v[i] / DoubleDouble(a);
-    z[i] = std::abs(line.z[i].high), line.dz[i] = (kTurned * distance + kUnderflow) / a;
+    z[i] = std::abs(line.z[i].high),
+    line.dz[i] = (kTurned * distance + detail::kLeastComponent) / a;
     v[i] = std::abs(line.v[i].high), line.dv[i] = kTurned * speed / a;
   }
   DoubleDoubleVector& x = line.moment;
@@ -109,7 +109,7 @@ class Chord {
     Vec3 normal;
   };
   /// @param side  -1, 1, or 0 for a tangent
-  Hit hit(int side, const detail::SeenFromCentre& seen, const detail::BodyFrame& frame) {
+  Hit hit(int side, const detail::SeenFromCentre& seen, const DoubleDoubleMatrix& rotation) {
     if (form_) {
       const auto [t, normal] = form_->hit(side, exponent_);
       return {t, normal};
@@ -126,7 +126,7 @@ class Chord {
                     (square * DoubleDouble(seen.semi_axes[static_cast<int>(i)]));
     }
     const DoubleDoubleVector normal = DoubleDouble(1.0) / detail::length(gradient) * gradient;
-    return {(half - detail::dot(line_.z, v)) / square, detail::rounded(frame.to_space(normal))};
+    return {(half - detail::dot(line_.z, v)) / square, detail::rounded(turned(rotation, normal))};
   }
 
  private:
@@ -175,21 +175,20 @@ RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t
   RayHit hit{
       RayStatus::miss, 0, {{0.0, Vec3::Zero(), Vec3::Zero()}, {0.0, Vec3::Zero(), Vec3::Zero()}}};
   const detail::SeenFromCentre seen = detail::seen_from_centre(body, ray.origin);
-  const int turn = std::max({exponent_of(ray.direction[0]), exponent_of(ray.direction[1]),
-                             exponent_of(ray.direction[2])});
-  const Vec3 direction =
-      ray.direction.unaryExpr([=](double x) { return scaled_by_power(x, -turn); });
+  const int turn = exponent_of(ray.direction);
+  const Vec3 direction = scaled_by_power(ray.direction, -turn);
   if (passes_far(seen, direction)) return hit;
 
-  const detail::BodyFrame frame(body.orientation());
-  const UnitBallLine line = unit_ball_line(seen, frame, direction);
-  Chord chord(body, ray, line, seen.exponent - turn, seen.semi_axes.minCoeff() <= kLeastAxis);
+  const DoubleDoubleMatrix rotation = detail::double_double_rotation(body.orientation());
+  const UnitBallLine line = unit_ball_line(seen, rotation, direction);
+  Chord chord(body, ray, line, seen.exponent - turn,
+              seen.semi_axes.minCoeff() <= detail::kThinnestAxisSeen);
   if (chord.sign() < 0) return hit;
 
   const int begin = chord.place_of(t_begin), end = chord.place_of(t_end);
   const auto consider = [&](int side) {
     if (begin > side || end < side) return;
-    auto [t, normal] = chord.hit(side, seen, frame);
+    auto [t, normal] = chord.hit(side, seen, rotation);
     // An end that is the hit itself, and one that its rounding would pass.
     double rounded = std::clamp(std::scalbn(t.high, seen.exponent - turn), t_begin, t_end);
     for (const auto& [place, at] : {std::pair(begin, t_begin), std::pair(end, t_end)}) {

@@ -11,118 +11,96 @@ namespace {
 
 using detail::Filtered;
 using detail::OverlapFilter;
+using exact::Containment;
+using exact::ExactPair;
+using exact::Position;
+using UnitPair = detail::UnitPair<Ellipsoid>;
 
-/// Calls ask(a, b, d, d_low) with the pair in a unit that suits the filters, c_B - c_A = d + d_low;
-/// `otherwise` where there is none.
-template <class Answer, class Ask>
-Answer filtered(const Ellipsoid& a, const Ellipsoid& b, Answer otherwise, const Ask& ask) noexcept {
+/// In the unit of the caller or, where the filters cannot use that, in one that may suit them.
+[[gnu::always_inline]] inline UnitPair in_unit(const Ellipsoid& a, const Ellipsoid& b) {
   const Vec3 d = b.centre() - a.centre();
-  if (detail::moderate(a, b, d)) {
-    return ask(a, b, d, [&] { return detail::separation_error(a.centre(), b.centre(), d); });
-  }
-  const detail::ScaledPair pair = detail::scaled_pair(a, b);
-  if (!detail::moderate(pair.a, pair.b, pair.d)) return otherwise;
-  return ask(pair.a, pair.b, pair.d, [&] { return pair.d_low; });
+  return {{a, b}, d, detail::moderate(a, b, d)};
+}
+bool suits_the_filters(const UnitPair& pair) {
+  return pair.in_own_unit() || detail::moderate(pair.a, pair.b, pair.d);
 }
 
 /// The answer of the filter in double or, where it cannot tell, in double-double.
-template <class SeparationError>
-Filtered settled(const OverlapFilter& filter, const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
-                 const SeparationError& d_low) {
+Filtered settled(const OverlapFilter& filter, const UnitPair& pair) {
   if (filter.answer() != Filtered::unknown) return filter.answer();
-  return detail::filter_overlap_in_double_double(a, b, d, d_low(), filter.normal());
-}
-
-enum class Found { apart, overlapping, a_inside, b_inside, meeting, unknown };
-
-template <class SeparationError>
-Found filter_relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
-                      const SeparationError& d_low) {
-  const OverlapFilter filter(a, b, d);
-  switch (settled(filter, a, b, d, d_low)) {
-    case Filtered::apart:
-      return Found::apart;
-    case Filtered::unknown:
-      return Found::unknown;
-    case Filtered::interiors_meet:
-      break;
-  }
-  const Vec3 n = filter.normal();
-  if (!detail::proves_sticking_out(a, b, d, n)) {
-    return detail::proves_inside(a, b, d) ? Found::a_inside : Found::meeting;
-  }
-  if (detail::proves_sticking_out(b, a, -d, n)) return Found::overlapping;
-  return detail::proves_inside(b, a, -d) ? Found::b_inside : Found::meeting;
-}
-
-/// For a pair whose interiors meet.
-RelationAnswer exact_containment(const exact::PairPolynomials& pair) {
-  using exact::Containment;
-  constexpr Tier tier = Tier::exact;
-  if (exact::equal(pair)) return {Relation::equal, Inner::none, tier};
-  switch (exact::containment(pair)) {
-    case Containment::interior:
-      return {Relation::a_in_b, Inner::none, tier};
-    case Containment::touching:
-      return {Relation::internal_touch, Inner::a, tier};
-    case Containment::none:
-      break;
-  }
-  switch (exact::containment(pair.exchanged())) {
-    case Containment::interior:
-      return {Relation::b_in_a, Inner::none, tier};
-    case Containment::touching:
-      return {Relation::internal_touch, Inner::b, tier};
-    case Containment::none:
-      break;
-  }
-  return {Relation::overlap, Inner::none, tier};
+  return detail::filter_overlap_in_double_double(pair.a, pair.b, pair.d, pair.rest_of_d(),
+                                                 filter.normal());
 }
 
 /// What both filters tell.
 Filtered filter_overlap(const Ellipsoid& a, const Ellipsoid& b) {
-  return filtered(a, b, Filtered::unknown,
-                  [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d, const auto& d_low) {
-                    return settled(OverlapFilter(pa, pb, d), pa, pb, d, d_low);
-                  });
+  const UnitPair pair = in_unit(a, b);
+  if (!suits_the_filters(pair)) return Filtered::unknown;
+  return settled(OverlapFilter(pair.a, pair.b, pair.d), pair);
 }
 
 /// Whatever the filter in double does not tell at once.
-OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
+[[gnu::noinline]] OverlapAnswer doubtful_overlap(const Ellipsoid& a, const Ellipsoid& b) {
   const Filtered found = filter_overlap(a, b);
   if (found != Filtered::unknown) return {found == Filtered::interiors_meet, Tier::filter};
-  const exact::Position position = exact::position(exact::pair_quartic(a, b));
-  return {position == exact::Position::interiors_meet, Tier::exact};
+  return {ExactPair(a, b).position() == Position::interiors_meet, Tier::exact};
+}
+
+/// What the filters tell: the relation, or no more than that the interiors meet, or nothing.
+struct Found {
+  std::optional<Relation> relation;
+  bool interiors_meet = false;
+};
+
+Found filter_relation(const Ellipsoid& a, const Ellipsoid& b) {
+  const UnitPair pair = in_unit(a, b);
+  if (!suits_the_filters(pair)) return {};
+  const OverlapFilter filter(pair.a, pair.b, pair.d);
+  const Filtered interiors = settled(filter, pair);
+  if (interiors == Filtered::apart) return {Relation::separate};
+  if (interiors == Filtered::unknown) return {};
+  const Vec3 n = filter.normal();
+  if (!detail::proves_sticking_out(pair.a, pair.b, pair.d, n)) {
+    if (detail::proves_inside(pair.a, pair.b, pair.d)) return {Relation::a_in_b};
+  } else if (detail::proves_sticking_out(pair.b, pair.a, -pair.d, n)) {
+    return {Relation::overlap};
+  } else if (detail::proves_inside(pair.b, pair.a, -pair.d)) {
+    return {Relation::b_in_a};
+  }
+  return {std::nullopt, true};
+}
+
+RelationAnswer exactly(Relation relation, Inner inner = Inner::none) {
+  return {relation, inner, Tier::exact};
+}
+
+/// For a pair whose interiors meet.
+RelationAnswer exact_containment(const ExactPair& pair) {
+  if (pair.equal()) return exactly(Relation::equal);
+  const Containment a_in_b = pair.containment();
+  if (a_in_b == Containment::interior) return exactly(Relation::a_in_b);
+  if (a_in_b == Containment::touching) return exactly(Relation::internal_touch, Inner::a);
+  const Containment b_in_a = pair.exchanged().containment();
+  if (b_in_a == Containment::interior) return exactly(Relation::b_in_a);
+  if (b_in_a == Containment::touching) return exactly(Relation::internal_touch, Inner::b);
+  return exactly(Relation::overlap);
+}
+
+/// @param interiors_meet  is that known?
+[[gnu::noinline]] RelationAnswer exact_relation(const Ellipsoid& a, const Ellipsoid& b,
+                                                bool interiors_meet) {
+  const ExactPair pair(a, b);
+  if (interiors_meet) return exact_containment(pair);
+  const Position position = pair.position();
+  if (position == Position::apart) return exactly(Relation::separate);
+  if (position == Position::touching) return exactly(Relation::external_touch);
+  return exact_containment(pair);
 }
 
 RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
-  const Found found = filtered(a, b, Found::unknown,
-                               [](const Ellipsoid& pa, const Ellipsoid& pb, const Vec3& d,
-                                  const auto& d_low) { return filter_relation(pa, pb, d, d_low); });
-  switch (found) {
-    case Found::apart:
-      return {Relation::separate, Inner::none, Tier::filter};
-    case Found::overlapping:
-      return {Relation::overlap, Inner::none, Tier::filter};
-    case Found::a_inside:
-      return {Relation::a_in_b, Inner::none, Tier::filter};
-    case Found::b_inside:
-      return {Relation::b_in_a, Inner::none, Tier::filter};
-    case Found::meeting:
-      return exact_containment(exact::pair_polynomials(a, b));
-    case Found::unknown:
-      break;
-  }
-  const exact::PairPolynomials pair = exact::pair_polynomials(a, b);
-  switch (exact::position(pair.quartic)) {
-    case exact::Position::apart:
-      return {Relation::separate, Inner::none, Tier::exact};
-    case exact::Position::touching:
-      return {Relation::external_touch, Inner::none, Tier::exact};
-    case exact::Position::interiors_meet:
-      break;
-  }
-  return exact_containment(pair);
+  const Found found = filter_relation(a, b);
+  if (found.relation) return {*found.relation, Inner::none, Tier::filter};
+  return exact_relation(a, b, found.interiors_meet);
 }
 
 }  // namespace

@@ -77,24 +77,16 @@ double overlap_within(const MovingPair& pair, double from, double to) {
   return proven_overlap(pair, best) ? best : -1.0;
 }
 
-Vec3 scaled(const Vec3& v, int power) {
-  return v.unaryExpr([=](double x) { return std::scalbn(x, power); });
-}
-
 Motion in_unit(const Motion& motion, int exponent) {
-  return {scaled(motion.velocity, -exponent), motion.angular_velocity,
-          scaled(motion.pivot_arm, -exponent)};
+  return {scaled_by_power(motion.velocity, -exponent), motion.angular_velocity,
+          scaled_by_power(motion.pivot_arm, -exponent)};
 }
 
 /// The exponent of the largest length on a body's way.
 int exponent_of_path(const Motion& motion, double horizon) {
-  int exponent = -1100;
-  for (int i = 0; i < 3; ++i) {
-    assert(std::isfinite(horizon * motion.velocity[i]) && std::isfinite(motion.pivot_arm[i]));
-    exponent = std::max(
-        {exponent, exponent_of(horizon * motion.velocity[i]), exponent_of(motion.pivot_arm[i])});
-  }
-  return exponent;
+  const Vec3 way = horizon * motion.velocity;
+  assert(way.allFinite() && motion.pivot_arm.allFinite());
+  return std::max(exponent_of(way), exponent_of(motion.pivot_arm));
 }
 
 /// The pair in a unit of length, a power of two, in which squares of lengths on the way do not
@@ -106,7 +98,7 @@ struct Problem {
 
 Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                 const Motion& motion_b, double horizon) {
-  const detail::ScaledPair start = detail::scaled_pair(a, b);
+  const auto start = detail::scaled_pair<Ellipsoid>({a, b});
   constexpr int kLongest = 500;
   const int path =
       std::max(exponent_of_path(motion_a, horizon), exponent_of_path(motion_b, horizon));
@@ -114,10 +106,11 @@ Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
   const int shift = start.exponent - exponent;
   const auto body = [&](const Ellipsoid& e) {
     constexpr double kLeast = std::numeric_limits<double>::min();
-    return Ellipsoid(Vec3::Zero(), scaled(e.semi_axes(), shift).cwiseMax(kLeast), e.orientation());
+    return Ellipsoid(Vec3::Zero(), scaled_by_power(e.semi_axes(), shift).cwiseMax(kLeast),
+                     e.orientation());
   };
   return {MovingPair(body(start.a), in_unit(motion_a, exponent), body(start.b),
-                     in_unit(motion_b, exponent), scaled(start.d, shift)),
+                     in_unit(motion_b, exponent), scaled_by_power(start.d, shift)),
           exponent};
 }
 
@@ -161,8 +154,8 @@ TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellip
                             : advance(pair, horizon, tolerance);
   found.gap.gap = std::scalbn(found.gap.gap, exponent);
   found.gap.gap_error = std::scalbn(found.gap.gap_error, exponent);
-  found.gap.arm_a = scaled(found.gap.arm_a, exponent);
-  found.gap.arm_b = scaled(found.gap.arm_b, exponent);
+  found.gap.arm_a = scaled_by_power(found.gap.arm_a, exponent);
+  found.gap.arm_b = scaled_by_power(found.gap.arm_b, exponent);
   found.resolution = std::scalbn(found.resolution, exponent);
   return found;
 }

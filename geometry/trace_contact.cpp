@@ -17,23 +17,22 @@ TraceContact nothing(TraceStatus status) {
   return result;
 }
 
-/// The scheme for a pair known to overlap, times 2^exponent.
-TraceContact solve(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, int exponent) {
-  const auto found = detail::trace_scheme<double>(detail::trace_body<double>(a),
-                                                  detail::trace_body<double>(b), d, {});
+/// The scheme for a pair known to overlap, in the caller's unit.
+TraceContact solve(const detail::ScaledPair<Ellipsoid>& pair) {
+  const auto found = detail::trace_scheme<double>(detail::trace_body<double>(pair.a),
+                                                  detail::trace_body<double>(pair.b), pair.d, {});
   TraceContact result = nothing(found.status);
   result.cone = found.cone;
   result.other_pole = found.other_pole;
   result.curves = found.curves;
   if (found.status != TraceStatus::ok) return result;
-  const auto scaled = [exponent](const Vec3& v) {
-    return Vec3(v.unaryExpr([exponent](double c) { return std::scalbn(c, exponent); }));
-  };
-  result.gap = std::scalbn(found.gap, exponent);
+  result.gap = scaled_by_power(found.gap, pair.exponent);
   result.normal = found.normal;
-  result.arm_a = scaled(found.arm_a);
-  result.arm_b = scaled(found.arm_b);
-  for (std::size_t k = 0; k < 4; ++k) result.corners[k] = scaled(found.corner[k]);
+  result.arm_a = scaled_by_power(found.arm_a, pair.exponent);
+  result.arm_b = scaled_by_power(found.arm_b, pair.exponent);
+  for (std::size_t k = 0; k < 4; ++k) {
+    result.corners[k] = scaled_by_power(found.corner[k], pair.exponent);
+  }
   return result;
 }
 
@@ -62,8 +61,7 @@ const char* to_string(TraceStatus status) noexcept {
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] {
     if (relation(a, b).relation != Relation::overlap) return nothing(TraceStatus::not_overlapping);
-    const detail::ScaledPair pair = detail::scaled_pair(a, b);
-    return solve(pair.a, pair.b, pair.d, pair.exponent);
+    return solve(detail::scaled_pair<Ellipsoid>({a, b}));
   });
 }
 

@@ -3,6 +3,9 @@
 
 #include <cstddef>
 
+#include <tangency/geometry/gap/error_bounds.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/geometry/batch/gap_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -16,12 +19,9 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::detail::HWY_NAMESPACE {
 namespace {
 
-constexpr double kUnitRoundoff = 0x1p-53;
-constexpr double kThinnest = 0x1p42;                      // of a/h: as for one pair, gap_proof.cpp
-constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;  // as for one pair: gap.cpp
 // Of u L, what a better normal may still gain; half of it is in doubt. Chosen: no more than
 // rounding is. With 4.0 following moderate shapes takes 15 % less time and errs twice as much.
-constexpr double kEnough = 1.0;
+constexpr double kWorthAStep = 1.0;
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
 constexpr double kSteady = 0.02;         // of l: measured, as good as one step more
 constexpr int kFirstSteps = 2;  // of Newton's, cold; following, one less: then it is proven
@@ -89,7 +89,7 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const Pack axes = pair.a.largest + pair.b.largest;
   // (V)
   Pack roundings = multiply_add(all(13.0), axes, pair.d_error);
-  roundings = multiply_add(all(2.02), largest_component(at.beyond_a), roundings);
+  roundings = multiply_add(all(kOfReach), largest_component(at.beyond_a), roundings);
   const Pack value_error = u * multiply_add(all(10.8), size, roundings);
   const Pack ball = (at.gap - value_error) + (pair.a.least_radius + pair.b.least_radius);
   // (R)
@@ -106,8 +106,8 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
     return multiply_add(all(roundings_of_size * kUnitRoundoff), pair.size, pair.tolerance);
   };
   const PackMask settled = (absolute(gap) > error) & (error <= within(kLaneErrorBound)) &
-                           (ball > above0) & (larger(thin_a, thin_b) <= all(kThinnest));
-  return {gap, error, settled, settled & (above <= within(kEnough))};
+                           (ball > above0) & (larger(thin_a, thin_b) <= all(kThinnestAlongNormal));
+  return {gap, error, settled, settled & (above <= within(kWorthAStep))};
 }
 
 HWY_INLINE PackPoint chosen(const PackMask& yes, const PackPoint& a, const PackPoint& b) {
@@ -208,7 +208,8 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   const PackSymmetric3 shape_a = shape(pair.a), shape_b = shape(pair.b);
   PackVec3 n = first_normal(block, i, pair, shape_a, shape_b);
   // False for NaN, which is how bodies that are not moderate() stay out.
-  PackMask going = (pair.size <= all(kLargest)) & (largest_component(pair.d) >= all(kSmallest));
+  PackMask going =
+      (pair.size <= all(kLargestModerate)) & (largest_component(pair.d) >= all(kSmallestModerate));
   const PackMask in_range = going;
   const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
   for (int k = 0; k < block.first_steps; ++k) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/numbers/power_of_two.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/geometry/batch/overlap_lanes.cpp"
@@ -17,7 +18,6 @@ namespace tangency::detail::HWY_NAMESPACE {
 namespace {
 
 constexpr double kPolynomial = 720 * 0x1p-52;  // E1 of relation-filter.md: (W) of gap-batch.md
-constexpr double kLargest = 0x1p60;            // of the components of d, as there
 constexpr int kSteps = 8;                      // chosen: measured pairs need 1 to 3
 
 struct PackAnswer {
@@ -66,8 +66,8 @@ HWY_INLINE void decide(const LaneBlock& block, std::size_t i, LaneOverlaps& answ
   const PackPerramWertheim form(a, b, d);
   const Pack trace_a = trace(a), trace_b = trace(b), d2 = dot(d, d);
   // False for NaN, which is how bodies that are not moderate() stay out.
-  PackMask open =
-      (body_a.largest + body_b.largest > all(0.0)) & (largest_component(d) <= all(kLargest));
+  PackMask open = (body_a.largest + body_b.largest > all(0.0)) &
+                  (largest_component(d) <= all(kLargestModerate));
   PackMask decided = without(open, open), meet = decided;
   Pack l = form.first_guess();
   for (int step = 0; step < kSteps; ++step) {

@@ -11,29 +11,6 @@ namespace {
 
 using IntegerVector = std::array<mpz_class, 3>;
 
-struct ScaledRotation {
-  IntegerForm<3> matrix;     ///< |q|^2 R: rows and columns of equal length, not symmetric
-  mpz_class squared_length;  ///< |q|^2
-};
-
-ScaledRotation scaled_rotation(const Quaternion& q) {
-  const std::array<double, 4> stored{q.w(), q.x(), q.y(), q.z()};
-  const int exponent = common_exponent(stored);
-  const mpz_class w = to_integer(stored[0], exponent);
-  const mpz_class x = to_integer(stored[1], exponent);
-  const mpz_class y = to_integer(stored[2], exponent);
-  const mpz_class z = to_integer(stored[3], exponent);
-  const mpz_class ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-  const mpz_class wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
-  const mpz_class xy = 2 * x * y, yz = 2 * y * z, zx = 2 * z * x;
-  ScaledRotation result;
-  result.matrix[0] = {ww + xx - yy - zz, xy - wz, zx + wy};
-  result.matrix[1] = {xy + wz, ww - xx + yy - zz, yz - wx};
-  result.matrix[2] = {zx - wy, yz + wx, ww - xx - yy + zz};
-  result.squared_length = ww + xx + yy + zz;
-  return result;
-}
-
 IntegerVector to_integers(const Vec3& v, int exponent) {
   return {to_integer(v.x(), exponent), to_integer(v.y(), exponent), to_integer(v.z(), exponent)};
 }
@@ -67,6 +44,24 @@ IntegerForm<4> centred_form(const IntegerForm<3>& block, const IntegerVector& ce
 }
 
 }  // namespace
+
+ScaledRotation scaled_rotation(const Quaternion& q) {
+  const std::array<double, 4> stored{q.w(), q.x(), q.y(), q.z()};
+  const int exponent = common_exponent(stored);
+  const mpz_class w = to_integer(stored[0], exponent);
+  const mpz_class x = to_integer(stored[1], exponent);
+  const mpz_class y = to_integer(stored[2], exponent);
+  const mpz_class z = to_integer(stored[3], exponent);
+  const mpz_class ww = w * w, xx = x * x, yy = y * y, zz = z * z;
+  const mpz_class wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
+  const mpz_class xy = 2 * x * y, yz = 2 * y * z, zx = 2 * z * x;
+  ScaledRotation result;
+  result.matrix[0] = {ww + xx - yy - zz, xy - wz, zx + wy};
+  result.matrix[1] = {xy + wz, ww - xx + yy - zz, yz - wx};
+  result.matrix[2] = {zx - wy, yz + wx, ww - xx - yy + zz};
+  result.squared_length = ww + xx + yy + zz;
+  return result;
+}
 
 int length_exponent(const Ellipsoid& e) noexcept {
   const Vec3& c = e.centre();

@@ -23,6 +23,13 @@ struct EllipsoidForm {
   mpz_class denominator;  ///< > 0
 };
 
+/// |q|^2 R: rows and columns of equal length, not symmetric.
+struct ScaledRotation {
+  IntegerForm<3> matrix;
+  mpz_class squared_length;  ///< |q|^2
+};
+ScaledRotation scaled_rotation(const Quaternion& q);
+
 /// The largest e for which centre and semi-axes are integer multiples of 2^e.
 int length_exponent(const Ellipsoid& e) noexcept;
 

@@ -21,10 +21,6 @@ mpz_class shifted(const mpz_class& value, long by) {
                  : mpz_class(value >> static_cast<mp_bitcnt_t>(-by));
 }
 
-long bit_length(const mpz_class& value) {
-  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
-}
-
 /// numerator / denominator / 2^exponent
 detail::DoubleDouble quotient(const mpz_class& numerator, const mpz_class& denominator,
                               long exponent) {
@@ -55,7 +51,8 @@ RayForm::RayForm(const Ellipsoid& body, const Vec3& origin, const Vec3& directio
   const int of_direction = common_exponent_of(direction);
   form_ = ellipsoid_form(body, exponent).form;
   unit_ = of_direction - exponent;
-  int largest = exponent, least = body.semi_axes().unaryExpr(&exponent_of).minCoeff();
+  int largest = exponent,
+      least = body.semi_axes().unaryExpr([](double x) { return exponent_of(x); }).minCoeff();
   for (int i = 0; i < 3; ++i) {
     origin_[static_cast<std::size_t>(i)] = to_integer(origin[i], exponent);
     direction_[static_cast<std::size_t>(i)] = to_integer(direction[i], of_direction);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <tangency/geometry/numbers/power_of_two.hpp>
+
 namespace tangency::detail {
 namespace {
 
@@ -90,9 +92,26 @@ DoubleDoubleVector unit_coordinates(const Vec3& a, const DoubleDoubleVector& y) 
 
 }  // namespace
 
+SeenFromCentre seen_from_centre(const Ellipsoid& body, const DoubleDoubleVector& separation,
+                                int shift) noexcept {
+  const int exponent =
+      std::max(exponent_of(rounded(separation)), exponent_of(body.semi_axes()) - shift);
+  const Vec3 axes = scaled_by_power(body.semi_axes(), -(exponent + shift));
+  return {axes.cwiseMax(kThinnestAxisSeen), scaled_by_power(separation, -exponent),
+          exponent + shift};
+}
+
+SeenFromCentre seen_from_centre(const Ellipsoid& body, const Vec3& point) noexcept {
+  constexpr int kBelowOverflow = 2;
+  // The difference of two huge coordinates may overflow in the caller's unit.
+  const int shift = (point - body.centre()).allFinite() ? 0 : kBelowOverflow;
+  const Vec3 to = scaled_by_power(point, -shift), from = scaled_by_power(body.centre(), -shift);
+  return seen_from_centre(
+      body, {two_sum(to[0], -from[0]), two_sum(to[1], -from[1]), two_sum(to[2], -from[2])}, shift);
+}
+
 SurfaceProjection project_on_surface(const Vec3& semi_axes,
                                      const DoubleDoubleVector& from) noexcept {
-  constexpr double kLeastComponent = 0x1p-300;  // below it products of two would underflow
   DoubleDoubleVector y = from;
   for (DoubleDouble& component : y) {
     if (std::abs(component.high) < kLeastComponent) component = {};
@@ -107,6 +126,14 @@ SurfaceProjection project_on_surface(const Vec3& semi_axes,
   // n . y - h(n) at n = v / |v|, v = diag(1/a) w, of support 1.
   const DoubleDouble scale = DoubleDouble(1.0) / length(gradient);
   return {scale * (dot(gradient, y) - DoubleDouble(1.0)), scale * gradient, point};
+}
+
+ClosestOnSurface closest_on_surface(const Ellipsoid& body, const SeenFromCentre& seen) noexcept {
+  const DoubleDoubleMatrix r = double_double_rotation(body.orientation());
+  const SurfaceProjection found =
+      project_on_surface(seen.semi_axes, turned_back(r, seen.separation));
+  return {found.distance, rounded(turned(r, found.normal)),
+          scaled_by_power(rounded(turned(r, found.point)), seen.exponent)};
 }
 
 }  // namespace tangency::detail

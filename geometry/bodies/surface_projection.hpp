@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The point of an ellipsoid's surface closest to a given point, in the frame of its axes and in
-/// double-double.
+/// A point seen from an ellipsoid's centre, and the point of the surface closest to it, in
+/// double-double: for answers each of whose numbers is rounded once.
 #pragma once
 
-#include <tangency/geometry/bodies/double_double_body.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
 
 namespace tangency::detail {
 
+/// A body and a point seen from its centre, in units of 2^exponent: the largest of the semi-axes
+/// and of the separation's components in [1, 4). A semi-axis below kThinnestAxisSeen of that is
+/// taken for it.
+struct SeenFromCentre {
+  Vec3 semi_axes;
+  DoubleDoubleVector separation;  ///< point - centre, exactly
+  int exponent;
+};
+
+/// @param separation  point - centre, in units of 2^shift times that of the body
+SeenFromCentre seen_from_centre(const Ellipsoid& body, const DoubleDoubleVector& separation,
+                                int shift = 0) noexcept;
+SeenFromCentre seen_from_centre(const Ellipsoid& body, const Vec3& point) noexcept;
+
+/// In the frame of the axes.
 struct SurfaceProjection {
   DoubleDouble distance;      ///< signed, < 0 inside
   DoubleDoubleVector normal;  ///< unit, outwards
@@ -25,5 +41,15 @@ struct SurfaceProjection {
 /// grows with t, so that Newton's method on it climbs to the root from below [MoreSorensen1983].
 SurfaceProjection project_on_surface(const Vec3& semi_axes,
                                      const DoubleDoubleVector& from) noexcept;
+
+/// The same in space.
+struct ClosestOnSurface {
+  DoubleDouble distance;  ///< signed, < 0 inside, in units of 2^exponent
+  Vec3 normal;            ///< unit, outwards
+  Vec3 arm;               ///< of the point from the centre, in the unit of the body
+};
+
+/// @param seen  the point, as seen_from_centre() of this body has it
+ClosestOnSurface closest_on_surface(const Ellipsoid& body, const SeenFromCentre& seen) noexcept;
 
 }  // namespace tangency::detail

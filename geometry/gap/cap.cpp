@@ -54,23 +54,24 @@ struct Roots {
 
 double square(double x) { return x * x; }
 
-SideBend side_bend(const SideAt& at, const Roots& roots, const Root& along_e, const Root& along_m,
-                   int first, double error, const Vec3 tangent[2]) {
+SideHessian side_hessian(const SideAt& at, const Roots& roots, const Root& along_e,
+                         const Root& along_m, int first, double error, const Vec3 tangent[2]) {
   const double h = at.side.support.high, reach = roots.largest;
   const double off = kTurnError * reach + std::min(kPointError * reach * (reach / h), 2.0 * reach);
-  SideBend bend{h - kSupportError * reach, {}, {}};
+  SideHessian hessian{h - kSupportError * reach, {}, {}};
   for (int i = 0; i < 2; ++i) {
     const Root& root = i == 0 ? along_e : along_m;
-    bend.curvature[i] = square(root.segment<3>(first).norm() + roots.error + error);
+    hessian.curvature[i] = square(root.segment<3>(first).norm() + roots.error + error);
     // A'e is, across y, of the square h e' Hess h e; along y it is e . x_A.
-    bend.stretch[i] = h * bend.curvature[i] + square(std::abs(tangent[i].dot(at.point)) + off);
+    hessian.stretch[i] =
+        h * hessian.curvature[i] + square(std::abs(tangent[i].dot(at.point)) + off);
   }
-  return bend;
+  return hessian;
 }
 
 }  // namespace
 
-Bend bend_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept {
+Hessian hessian_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept {
   Vec3 e = normal.unitOrthogonal(), m = normal.cross(e).normalized();
   Roots of_a(a.side, e, m), of_b(b.side, e, m);
   Root root_e, root_m;
@@ -109,34 +110,35 @@ Bend bend_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept {
   return {{e, m},
           {root_e.squaredNorm(), root_m.squaredNorm()},
           loss,
-          side_bend(a, of_a, root_e, root_m, 0, turned, tangent),
-          side_bend(b, of_b, root_e, root_m, 3, turned, tangent)};
+          side_hessian(a, of_a, root_e, root_m, 0, turned, tangent),
+          side_hessian(b, of_b, root_e, root_m, 3, turned, tangent)};
 }
 
-Cap cap_around(const Bend& bend, const Slope& slope, double widest) noexcept {
-  const double f = slope.value;
-  const double keep = kLess - bend.loss;
-  const double least = std::min(bend.curvature[0], bend.curvature[1]) * keep;
+Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) noexcept {
+  const double f = gradient.value;
+  const double keep = kLess - hessian.loss;
+  const double least = std::min(hessian.curvature[0], hessian.curvature[1]) * keep;
   Cap cap;
   cap.width = f < 0.0 ? std::min(widest, std::sqrt(least / -f) - 1.0) : widest;
   if (!(keep > 0.5) || !(cap.width > 64.0 * kRoundings)) return cap;
   for (int i = 0; i < 2; ++i) {
-    cap.least[i] = (bend.curvature[i] * keep + std::max(f, 0.0)) / (1.0 + cap.width) +
+    cap.least[i] = (hessian.curvature[i] * keep + std::max(f, 0.0)) / (1.0 + cap.width) +
                    kMore * std::min(f, 0.0);
     if (!(cap.least[i] > 0.0)) return cap;
   }
-  const double r0 = std::abs(slope.rest[0]) + slope.error;
-  const double r1 = std::abs(slope.rest[1]) + slope.error;
+  const double r0 = std::abs(gradient.rest[0]) + gradient.error;
+  const double r1 = std::abs(gradient.rest[1]) + gradient.error;
   const double eta2 = kMore * in_inverse_norm(cap, r0 * r0, r1 * r1);
   cap.eta = std::sqrt(eta2);
   cap.height = 0.5 * kMore * eta2;
-  const auto holds = [&](const SideBend& side) {
+  const auto holds = [&](const SideHessian& side) {
     const double spread = in_inverse_norm(cap, side.stretch[0], side.stretch[1]);
     const double width = cap.width * side.h;
     return 4.0 * kMore * eta2 * spread <= width * width;
   };
   const double tilt = in_inverse_norm(cap, 1.0, 1.0);
-  cap.proven = holds(bend.a) && holds(bend.b) && (f <= 0.0 || kMore * eta2 * tilt <= cap.width);
+  cap.proven =
+      holds(hessian.a) && holds(hessian.b) && (f <= 0.0 || kMore * eta2 * tilt <= cap.width);
   return cap;
 }
 

@@ -5,29 +5,28 @@
 #pragma once
 
 #include <tangency/geometry/bodies/double_double_body.hpp>
+#include <tangency/geometry/bodies/scaled_pair.hpp>
 
 namespace tangency::detail {
 
 /// A pair in a unit in which nothing overflows: its size is within [2^-60, 2^62], semi-axes are at
 /// least 2^-300.
-struct Pair {
-  const Ellipsoid& a;
-  const Ellipsoid& b;
-  Vec3 d;
+struct Pair : UnitPair<Ellipsoid> {
   Vec3 d_low;   ///< c_B - c_A = d + d_low; each component at most u times that of d
   double size;  ///< |d| + a_A + a_B, the L of every bound
 
-  Pair(const Ellipsoid& a_, const Ellipsoid& b_, const Vec3& d_, const Vec3& d_low_) noexcept
-      : a(a_),
-        b(b_),
-        d(d_),
-        d_low(d_low_),
-        size(d_.norm() + (a_.largest_semi_axis() + b_.largest_semi_axis())) {}
-
+  [[gnu::always_inline]] explicit Pair(const AskedPair<Ellipsoid>& pair) noexcept
+      : Pair(pair, pair.d()) {}
   /// rho: a ball of this radius rolls inside A + (-B). Rounded down.
   double least_radius() const noexcept {
     return (1.0 - 0x1p-40) * (a.least_radius() + b.least_radius());
   }
+
+ private:
+  [[gnu::always_inline]] Pair(const AskedPair<Ellipsoid>& pair, const Vec3& given) noexcept
+      : UnitPair(pair, given, moderate_size(pair.a, pair.b, given) && thick_enough(pair.a, pair.b)),
+        d_low(rest_of_d()),
+        size(d.norm() + (a.largest_semi_axis() + b.largest_semi_axis())) {}
 };
 
 /// (S) of the derivation: generously the rounding of curvatures and lengths in double, but for what
@@ -37,18 +36,18 @@ inline constexpr double kMore = 1.0 + kRoundings, kLess = 1.0 - kRoundings;
 
 /// The part of one body in the bending at a normal, along the two principal tangents e. All but for
 /// 2^-40 of themselves.
-struct SideBend {
+struct SideHessian {
   double h;             ///< support function, at most
   double curvature[2];  ///< e' Hess h e, a radius of curvature of a normal section, at least
   double stretch[2];    ///< |A' e|^2, A = R diag(a), at least
 };
 
 /// Principal tangents e1, e2 of H = Hess(h_A + h_B) at a normal, and bounds of H from below.
-struct Bend {
+struct Hessian {
   Vec3 tangent[2];
   double curvature[2];  ///< c_i: H >= (1 - loss) (c_1 e1 e1' + c_2 e2 e2') in the tangent plane
   double loss;          ///< (S) of the derivation: rounding, which thin bodies amplify
-  SideBend a, b;
+  SideHessian a, b;
 };
 
 /// A body at a normal, as evaluated in double-double.
@@ -58,10 +57,10 @@ struct SideAt {
 };
 
 /// @param normal  unit: what both sides were evaluated at
-Bend bend_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept;
+Hessian hessian_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept;
 
 /// What is known of f at a normal to first order.
-struct Slope {
+struct Gradient {
   double value;    ///< f
   double rest[2];  ///< r along the principal tangents
   double error;    ///< of each of the two
@@ -79,7 +78,7 @@ struct Cap {
 };
 
 /// @param widest  the largest width wanted, > 0 and at most 1
-Cap cap_around(const Bend& bend, const Slope& slope, double widest) noexcept;
+Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) noexcept;
 
 /// v_1 / G_1 + v_2 / G_2
 inline double in_inverse_norm(const Cap& cap, double v1, double v2) noexcept {

@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include <tangency/geometry/bodies/double_double_body.hpp>
+#include <tangency/geometry/gap/error_bounds.hpp>
 #include <tangency/geometry/numbers/two_lanes.hpp>
 
 namespace tangency::detail {
 namespace {
-
-constexpr double kThinnest = 0x1p42;  // of a/h: where terms of second order are below 2^-6 u a
 
 struct Sides {
   TwoLanes h;          ///< support functions
@@ -40,23 +39,20 @@ void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
   const double axes = axis_a + axis_b, h = at.h[0] + at.h[1];
   const double thin_a = axis_a / at.h[0], thin_b = axis_b / at.h[1];
   const double radii = axis_a * thin_a + axis_b * thin_b;
-  // (V) of the derivation.
-  const double value_error =
-      kUnitRoundoff *
-      (6.71 * axes + 5.51 * h + 2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.71 * std::abs(gap));
+  const double error = value_error(axes, h, beyond_a.cwiseAbs().maxCoeff(), gap, kOfGap);
   proof.gap = gap;
-  proof.low = gap - value_error;
+  proof.low = gap - error;
   proof.normal = normal;
   proof.arm_a = point_a;
   proof.arm_b = -point_b;
   const double ball = proof.low + pair.least_radius();
   // (R): rounding, of which the radii of curvature amplify that of the normal.
-  const double rest_error = kUnitRoundoff * (8.0 * radii + 32.0 * (axes + std::abs(gap)));
-  const double reach2 = 1.01 * ((rest - gap * normal).squaredNorm() + rest_error * rest_error);
-  // Beyond kThinnest (V) and (R) do not hold: what low is then is not asked for.
-  proof.global = ball > 0.0 && std::max(thin_a, thin_b) <= kThinnest;
+  const double reach2 =
+      reach_squared((rest - gap * normal).squaredNorm(), rest_error(radii, axes, gap));
+  // Beyond kThinnestAlongNormal (V) and (R) do not hold: what low is then is not asked for.
+  proof.global = ball > 0.0 && std::max(thin_a, thin_b) <= kThinnestAlongNormal;
   // (B): the ball seen from the origin.
-  proof.high = proof.global ? gap + (value_error + reach2 / ball) : GapProof::kUnproven;
+  proof.high = proof.global ? gap + (error + reach2 / ball) : GapProof::kUnproven;
 }
 
 namespace {
@@ -75,8 +71,8 @@ constexpr int kHalvings = 8;  // chosen, of one move
 struct Local {
   Vec3 normal;
   DoubleDouble f;
-  Slope slope;
-  Bend bend;
+  Gradient gradient;
+  Hessian hessian;
   Vec3 point_a, point_b;
 };
 
@@ -98,15 +94,15 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
   const auto radius = [](const Ellipsoid& body, const DoubleDoubleSide& side) {
     return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
   };
-  const Bend bend = bend_at({a, rounded(point_a)}, {b, rounded(point_b)}, normal);
+  const Hessian hessian = hessian_at({a, rounded(point_a)}, {b, rounded(point_b)}, normal);
   // A support point is never further off than its body is long.
   const double across = std::min(kRestError * (radius(pair.a, a) + radius(pair.b, b)),
                                  2.0 * (pair.a.largest_semi_axis() + pair.b.largest_semi_axis()));
   const double error = kTangentError * r.norm() + kRestError * pair.size + across;
   return {normal,
           f,
-          {f.high, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, error},
-          bend,
+          {f.high, {hessian.tangent[0].dot(r), hessian.tangent[1].dot(r)}, error},
+          hessian,
           rounded(point_a),
           rounded(point_b)};
 }
@@ -115,9 +111,9 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
 Vec3 step(const Local& at) {
   Vec3 move = Vec3::Zero();
   for (int i = 0; i < 2; ++i) {
-    const double bend = at.bend.curvature[i] + at.slope.value;
-    if (!(bend > 0.0)) return Vec3::Zero();
-    move += at.slope.rest[i] / bend * at.bend.tangent[i];
+    const double curvature = at.hessian.curvature[i] + at.gradient.value;
+    if (!(curvature > 0.0)) return Vec3::Zero();
+    move += at.gradient.rest[i] / curvature * at.hessian.tangent[i];
   }
   return move;
 }
@@ -150,7 +146,7 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
                                     double cap_width) noexcept {
   const double error = kValueError * pair.size;
   const Local at = ascend(pair, normal, error);
-  const Cap cap = cap_around(at.bend, at.slope, cap_width);
+  const Cap cap = cap_around(at.hessian, at.gradient, cap_width);
   CapProof proof;
   proof.cap = cap;
   proof.low = sum_down(at.f.high, at.f.low - error);
@@ -159,7 +155,8 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
   double height = cap.proven ? cap.height : GapProof::kUnproven;
   if (proof.global && !cap.proven) {
     height =
-        (std::abs(at.slope.rest[0]) + std::abs(at.slope.rest[1]) + 2.0 * at.slope.error) * kMore;
+        (std::abs(at.gradient.rest[0]) + std::abs(at.gradient.rest[1]) + 2.0 * at.gradient.error) *
+        kMore;
   }
   proof.high = sum_up(at.f.high, at.f.low + (error + height * kMore));
   // In the middle of what is proven, unless that is so wide that f(n) is the better answer.
@@ -173,16 +170,16 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
 
 ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept {
   const Local at = evaluate(pair, normal);
-  const Cap cap = cap_around(at.bend, at.slope, 1.0 / 16);
+  const Cap cap = cap_around(at.hessian, at.gradient, 1.0 / 16);
   const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
   if (!cap.proven) return {std::numbers::pi, 2.0 * axis_a, 2.0 * axis_b};
   // (P): a support point moves by A times the change of its unit vector.
-  const auto shift = [&](double axis, const SideBend& side) {
-    const double bend = in_inverse_norm(cap, side.curvature[0], side.curvature[1]);
-    return std::min(2.0 * axis, 2.5 * axis * cap.eta * std::sqrt(bend / side.h));
+  const auto shift = [&](double axis, const SideHessian& side) {
+    const double spread = in_inverse_norm(cap, side.curvature[0], side.curvature[1]);
+    return std::min(2.0 * axis, 2.5 * axis * cap.eta * std::sqrt(spread / side.h));
   };
   const double turn = 2.0 * cap.eta * std::sqrt(in_inverse_norm(cap, 1.0, 1.0));
-  return {kMore * turn, shift(axis_a, at.bend.a), shift(axis_b, at.bend.b)};
+  return {kMore * turn, shift(axis_a, at.hessian.a), shift(axis_b, at.hessian.b)};
 }
 
 }  // namespace tangency::detail

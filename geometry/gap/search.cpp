@@ -8,13 +8,12 @@
 #include <limits>
 #include <utility>
 
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/gap/error_bounds.hpp>
 
 namespace tangency::detail {
 namespace {
 
-constexpr double kEnough = kOrdinaryGapErrorBound * kUnitRoundoff;  // of the size
-constexpr std::size_t kMostPeaks = 16;                              // chosen: 2 to 6 are common
+constexpr std::size_t kMostPeaks = 16;     // chosen: 2 to 6 are common
 constexpr std::size_t kMostPending = 256;  // four, and one more for each of some 220 halvings
 constexpr double kCapError = 64 * kUnitRoundoff;  // section 5 of the derivation, of a semi-axis
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays
@@ -55,7 +54,7 @@ class SphereSearch {
 
   /// Is every normal shown to be no better than the best, within the budget?
   bool prove(int budget) {
-    if (best().global && best().high - best().low <= kEnough * size_) return true;
+    if (best().global && best().high - best().low <= kOrdinaryError * size_) return true;
     // f(-n) = f(n) - 2 n.d: only the half of the sphere towards d can hold the greatest value.
     const Vec3 pole = pair_.d == Vec3::Zero() ? Vec3(Vec3::UnitZ()) : pair_.d.stableNormalized();
     const Vec3 e = pole.unitOrthogonal(), m = pole.cross(e).normalized();

@@ -170,7 +170,7 @@ class Meridian {
     return (ideal_.d * c - a - b) / sqrt(c * c + s * s);
   }
 
-  /// The cap of gap_cap.cpp along one tangent only.
+  /// The cap of cap.cpp along one tangent only.
   void add(const GapProof& proof, double t) {
     Peak& peak = peaks_[count_];
     peak.proof = proof;

@@ -18,18 +18,18 @@ namespace tangency::detail {
 inline constexpr double kWidestOk = 100.0;
 
 /// Where the proof leaves the sign open, the exact relation decides. No gap is above |d|.
-/// @param asked     tells overlaps(tier), which raises the tier where it has to, and relation()
+/// @param exact     tells overlaps(tier), which raises the tier where it has to, and relation()
 /// @param distance  |d| or more
-template <class Proof, class Asked>
-void settle_sign(Proof& proof, GapTier& tier, const Asked& asked, double distance) {
+template <class Proof, class Exact>
+void settle_sign(Proof& proof, GapTier& tier, const Exact& exact, double distance) {
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   if (proof.low > 0.0 || (proof.global && proof.high < 0.0)) return;
   if (proof.high >= 0.0) tier = GapTier::exact;
-  if (asked.overlaps(tier)) {
+  if (exact.overlaps(tier)) {
     proof.high = std::min(proof.high, 0.0);
     proof.low = std::min(proof.low, -kLeast);
     if (proof.gap >= 0.0) proof.gap = std::min(0.5 * proof.low, -kLeast);
-  } else if (asked.relation() == Relation::external_touch) {
+  } else if (exact.relation() == Relation::external_touch) {
     // Of a branch that is not known to be the global one the value 0 is not, nor that its normal
     // is that of the touch: it stays `local`, and the error tells how far below 0 it is.
     proof.low = proof.global ? 0.0 : std::min(proof.low, 0.0);
@@ -52,28 +52,27 @@ inline double scaled_gap(double value, int exponent) {
   return std::copysign(std::numeric_limits<double>::denorm_min(), value);
 }
 
-/// @param solved       a proof and its tier
-/// @param pair         what was solved, with its size
-/// @param distance     |d| or more
-/// @param in_own_unit  is the pair the one that was asked about, or one in units of 2^exponent?
-template <class AnyGap, class Solved, class Asked, class AnyPair>
-AnyGap finished_gap(Solved& solved, const Asked& asked, const AnyPair& pair, double distance,
-                    bool in_own_unit, int exponent) {
+/// @param solved    a proof and its tier
+/// @param exact     as for settle_sign()
+/// @param pair      a UnitPair with its `size`: what was solved
+/// @param distance  |d| or more
+template <class AnyGap, class Solved, class Exact, class Pair>
+AnyGap finished_gap(Solved& solved, const Exact& exact, const Pair& pair, double distance) {
   auto& proof = solved.proof;
   proof.high = std::min(proof.high, distance);
-  settle_sign(proof, solved.tier, asked, distance);
+  settle_sign(proof, solved.tier, exact, distance);
   const double error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
   const bool narrow = error <= kWidestOk * kUnitRoundoff * pair.size;
   const GapStatus status = proof.global && narrow ? GapStatus::ok : GapStatus::local;
-  if (in_own_unit)
+  if (pair.in_own_unit())
     return {proof.gap, proof.normal, proof.arm_a, proof.arm_b, error, status, solved.tier};
   // In the caller's unit both numbers may be subnormal, and so rounded.
   constexpr double kSubnormal = 4.0 * std::numeric_limits<double>::denorm_min();
-  return {scaled_gap(proof.gap, exponent),
+  return {scaled_gap(proof.gap, pair.exponent),
           proof.normal,
-          asked.a.support_point(proof.normal),
-          -asked.b.support_point(proof.normal),
-          error == 0.0 ? 0.0 : std::scalbn(error, exponent) + kSubnormal,
+          pair.asked.a.support_point(proof.normal),
+          -pair.asked.b.support_point(proof.normal),
+          error == 0.0 ? 0.0 : std::scalbn(error, pair.exponent) + kSubnormal,
           status,
           solved.tier};
 }

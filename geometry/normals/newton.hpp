@@ -27,7 +27,7 @@ enum class Finish {
 /// Newton's method from a unit normal. Accepted where the tangent Hessian was negative definite at
 /// *every* step and the end is as near as `finish` asks; "the last step was small"
 /// alone lets wrong answers through on extreme shapes. What it returns is still to be proven:
-/// gap_proof.hpp. Requires moderate() bodies.
+/// gap/proof.hpp. Requires moderate() bodies.
 Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, const Vec3& normal,
                        Finish finish) noexcept;
 

@@ -17,12 +17,12 @@ double PerramWertheimForm::first_guess() const noexcept {
 }
 
 double PerramWertheimForm::maximise(int steps) const noexcept {
-  constexpr double kEnough = 0.01;  // chosen: what follows is Newton's method on the normal itself
+  constexpr double kSettled = 0.01;  // chosen: what follows is Newton's method on the normal itself
   PerramWertheimSearch search;
   double l = first_guess();
   for (int i = 0; i < steps; ++i) {
     const double next = search.next(at(l));
-    const bool settled = std::abs(next - l) < kEnough * l;
+    const bool settled = std::abs(next - l) < kSettled * l;
     l = next;
     if (settled) break;
   }

@@ -21,30 +21,11 @@ constexpr double kSmallestSlope = 0x1p-100;  // chosen: leads out of the bracket
 constexpr double kResidual = 0x1p9;  // of (S + E) v = d and of A'v, B'v: |E| over |S|
 constexpr double kSlope = 0x1p12;    // of p over kappa v'Sv
 
-DoubleDouble scaled(const DoubleDouble& v, int power) {
-  return {scaled_by_power(v.high, power), scaled_by_power(v.low, power)};
-}
-WideFloat scaled(const WideFloat& v, int power) { return v.scaled(power); }
-
-int exponent(const DoubleDouble& v) { return exponent_of(v.high); }
-int exponent(const WideFloat& v) {
-  constexpr int kOfZero = -1'000'000;  // less than of any other number that doubles lead to
-  return v.is_zero() ? kOfZero : static_cast<int>(v.exponent());
-}
-
-DoubleDouble product(double a, double b, const DoubleDouble*) { return two_product(a, b); }
-WideFloat product(double a, double b, const WideFloat*) { return WideFloat(a) * WideFloat(b); }
-
-DoubleDoubleMatrix rotation(const Quaternion& q, const DoubleDouble*) {
-  return double_double_rotation(q);
-}
-WideMatrix rotation(const Quaternion& q, const WideFloat*) { return wide_rotation(q); }
-
 /// M_A + l M_B as L D L', L unit lower triangular.
 template <class T>
 class ShapeSum {
  public:
-  ShapeSum(const ShapeIn<T>& a, const ShapeIn<T>& b, const T& l) {
+  ShapeSum(const PreciseShape<T>& a, const PreciseShape<T>& b, const T& l) {
     const T xy = a.xy + l * b.xy, zx = a.zx + l * b.zx;
     d0_ = a.xx + l * b.xx;
     l10_ = xy / d0_, l20_ = zx / d0_;
@@ -58,7 +39,7 @@ class ShapeSum {
     const auto above = [&](const T& d) { return zero < Arithmetic<T>::rough(d); };
     return above(d0_) && above(d1_) && above(d2_);
   }
-  VectorOf<T> solve(const VectorOf<T>& v) const {
+  Vector3<T> solve(const Vector3<T>& v) const {
     const T y1 = v[1] - l10_ * v[0], y2 = v[2] - l20_ * v[0] - l21_ * y1;
     const T z = y2 / d2_, y = y1 / d1_ - l21_ * z;
     return {v[0] / d0_ - l10_ * y - l20_ * z, y, z};
@@ -72,7 +53,7 @@ class ShapeSum {
 template <class T>
 struct Levels {
   Direction<T> v;
-  VectorOf<T> y_a, y_b;    ///< A' v and l B' v
+  Vector3<T> y_a, y_b;     ///< A' v and l B' v
   Rough<T> l, in_a, in_b;  ///< l; their squares, the levels
   Rough<T> apart;          ///< log of the ratio of the levels
   /// v' M_A S^-1 l M_B v, a form of the parallel sum of M_A and l M_B.
@@ -104,8 +85,8 @@ WideFloat log_ratio(const WideFloat& a, const WideFloat& b) {
 }
 
 template <class T>
-Levels<T> levels(const ShapeIn<T>& a, const ShapeIn<T>& b, const ShapeSum<T>& sum, const T& l,
-                 const Direction<T>& d) {
+Levels<T> levels(const PreciseShape<T>& a, const PreciseShape<T>& b, const ShapeSum<T>& sum,
+                 const T& l, const Direction<T>& d) {
   const auto rough = [](const T& v) { return Arithmetic<T>::rough(v); };
   Levels<T> at;
   at.v = direction<T>(sum.solve(d.vector));
@@ -146,8 +127,9 @@ double first_ratio(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) {
 
 /// v at an l that is settled, with the bounds of the derivation; nothing where they do not hold.
 template <class T>
-std::optional<EqualLevel<T>> equal_level(const ShapeIn<T>& a, const ShapeIn<T>& b, const T& l,
-                                         const Levels<T>& at, const Direction<T>& d) {
+std::optional<PerramWertheimPoint<T>> settled_point(const PreciseShape<T>& a,
+                                                    const PreciseShape<T>& b, const T& l,
+                                                    const Levels<T>& at, const Direction<T>& d) {
   using std::abs, std::sqrt;
   using R = Rough<T>;
   const auto size = [&](double axis_a, double axis_b) {
@@ -170,20 +152,17 @@ std::optional<EqualLevel<T>> equal_level(const ShapeIn<T>& a, const ShapeIn<T>& 
   const R of_l = slack * (abs(at.apart) + slack * in_levels) / at.slope(parallel);
   if (!(of_l < R(kSmallError))) return std::nullopt;
   const R relative = slack * (solving + of_l), off = relative * root;
-  return EqualLevel<T>{l,
-                       at.v.vector,
-                       at.y_a,
-                       at.y_b,
-                       at.v.exponent + d.exponent,
-                       off / (sqrt(least) * length),
-                       off,
-                       off * sqrt(at.l),
-                       relative * share_a,
-                       relative * share_b};
+  return PerramWertheimPoint<T>{l,
+                                at.v.vector,
+                                at.y_a,
+                                at.y_b,
+                                at.v.exponent + d.exponent,
+                                off / (sqrt(least) * length),
+                                off,
+                                off * sqrt(at.l),
+                                relative * share_a,
+                                relative * share_b};
 }
-
-double as_double(double v) { return v; }
-double as_double(const WideFloat& v) { return static_cast<double>(v); }
 
 template <class T>
 bool below(const T& x, const T& y) {
@@ -193,12 +172,12 @@ bool below(const T& x, const T& y) {
 }  // namespace
 
 template <class T>
-ShapeIn<T>::ShapeIn(const Ellipsoid& body_) noexcept
-    : body(body_), rotation(detail::rotation(body_.orientation(), static_cast<const T*>(nullptr))) {
-  VectorOf<T> squares;
+PreciseShape<T>::PreciseShape(const Ellipsoid& body_) noexcept
+    : body(body_), rotation(Arithmetic<T>::rotation(body_.orientation())) {
+  Vector3<T> squares;
   for (std::size_t k = 0; k < 3; ++k) {
     const double axis = body.semi_axes()[static_cast<int>(k)];
-    squares[k] = product(axis, axis, static_cast<const T*>(nullptr));
+    squares[k] = Arithmetic<T>::product(axis, axis);
   }
   const auto entry = [&](std::size_t i, std::size_t j) {
     T sum = rotation[i][0] * rotation[j][0] * squares[0];
@@ -210,35 +189,38 @@ ShapeIn<T>::ShapeIn(const Ellipsoid& body_) noexcept
 }
 
 template <class T>
-VectorOf<T> ShapeIn<T>::stretched(const VectorOf<T>& v) const noexcept {
-  VectorOf<T> y = turned_back(rotation, v);
+Vector3<T> PreciseShape<T>::stretched(const Vector3<T>& v) const noexcept {
+  Vector3<T> y = turned_back(rotation, v);
   for (std::size_t k = 0; k < 3; ++k) y[k] = T(body.semi_axes()[static_cast<int>(k)]) * y[k];
   return y;
 }
 
 template <class T>
-VectorOf<T> ShapeIn<T>::spread(const VectorOf<T>& y) const noexcept {
-  VectorOf<T> z;
+Vector3<T> PreciseShape<T>::spread(const Vector3<T>& y) const noexcept {
+  Vector3<T> z;
   for (std::size_t k = 0; k < 3; ++k) z[k] = T(body.semi_axes()[static_cast<int>(k)]) * y[k];
-  return {dot(rotation[0], z), dot(rotation[1], z), dot(rotation[2], z)};
+  return turned(rotation, z);
 }
 
 template <class T>
-VectorOf<T> ShapeIn<T>::in_ball(const VectorOf<T>& v) const noexcept {
-  VectorOf<T> y = turned_back(rotation, v);
+Vector3<T> PreciseShape<T>::in_ball(const Vector3<T>& v) const noexcept {
+  Vector3<T> y = turned_back(rotation, v);
   for (std::size_t k = 0; k < 3; ++k) y[k] = y[k] / T(body.semi_axes()[static_cast<int>(k)]);
   return y;
 }
 
 template <class T>
-Direction<T> direction(const VectorOf<T>& v) noexcept {
+Direction<T> direction(const Vector3<T>& v) noexcept {
+  const auto exponent = [](const T& x) { return Arithmetic<T>::exponent(x); };
   const int largest = std::max({exponent(v[0]), exponent(v[1]), exponent(v[2])});
-  return {{scaled(v[0], -largest), scaled(v[1], -largest), scaled(v[2], -largest)}, largest};
+  return {scaled_by_power(v, -largest), largest};
 }
 
 template <class T>
-std::optional<EqualLevel<T>> find_equal_level(const ShapeIn<T>& a, const ShapeIn<T>& b,
-                                              const Direction<T>& d, double& ratio) noexcept {
+std::optional<PerramWertheimPoint<T>> find_perram_wertheim_point(const PreciseShape<T>& a,
+                                                                 const PreciseShape<T>& b,
+                                                                 const Direction<T>& d,
+                                                                 double& ratio) noexcept {
   // Wider than l = h_A / h_B can be, so that l at an end, as along a common axis, is inside.
   T low = T(0.5) * (T(a.body.smallest_semi_axis()) / T(b.body.largest_semi_axis()));
   T high = T(2.0) * (T(a.body.largest_semi_axis()) / T(b.body.smallest_semi_axis()));
@@ -254,35 +236,33 @@ std::optional<EqualLevel<T>> find_equal_level(const ShapeIn<T>& a, const ShapeIn
     if (!sum.positive()) return std::nullopt;
     const Levels<T> at = levels(a, b, sum, l, d);
     const Rough<T> move = newton_step(at), length = abs(move);
-    if (!std::isfinite(as_double(move))) return std::nullopt;
-    ratio = as_double(at.l);
+    if (!std::isfinite(static_cast<double>(move))) return std::nullopt;
+    ratio = static_cast<double>(at.l);
     // Where Newton's steps are short and no longer become shorter they are rounding.
     const bool shorter = !newton || length < Rough<T>(0.5) * last;
-    if (length < settled || (length < near && !shorter)) return equal_level(a, b, l, at, d);
+    if (length < settled || (length < near && !shorter)) return settled_point(a, b, l, at, d);
     last = length, newton = true;
-    (as_double(move) > 0.0 ? low : high) = l;
+    (static_cast<double>(move) > 0.0 ? low : high) = l;
     if (length < near) {
       l = l * (T(1.0) + T(move));
       continue;
     }
-    const T next = l * T(std::exp(std::clamp(as_double(move), -700.0, 700.0)));
+    const T next = l * T(std::exp(std::clamp(static_cast<double>(move), -700.0, 700.0)));
     newton = below(low, next) && below(next, high);
     l = newton ? next : sqrt(low) * sqrt(high);
   }
   return std::nullopt;
 }
 
-template struct ShapeIn<DoubleDouble>;
-template struct ShapeIn<WideFloat>;
-template Direction<DoubleDouble> direction(const VectorOf<DoubleDouble>& v) noexcept;
-template Direction<WideFloat> direction(const VectorOf<WideFloat>& v) noexcept;
-template std::optional<EqualLevel<DoubleDouble>> find_equal_level(const ShapeIn<DoubleDouble>& a,
-                                                                  const ShapeIn<DoubleDouble>& b,
-                                                                  const Direction<DoubleDouble>& d,
-                                                                  double& ratio) noexcept;
-template std::optional<EqualLevel<WideFloat>> find_equal_level(const ShapeIn<WideFloat>& a,
-                                                               const ShapeIn<WideFloat>& b,
-                                                               const Direction<WideFloat>& d,
-                                                               double& ratio) noexcept;
+template struct PreciseShape<DoubleDouble>;
+template struct PreciseShape<WideFloat>;
+template Direction<DoubleDouble> direction(const Vector3<DoubleDouble>& v) noexcept;
+template Direction<WideFloat> direction(const Vector3<WideFloat>& v) noexcept;
+template std::optional<PerramWertheimPoint<DoubleDouble>> find_perram_wertheim_point(
+    const PreciseShape<DoubleDouble>& a, const PreciseShape<DoubleDouble>& b,
+    const Direction<DoubleDouble>& d, double& ratio) noexcept;
+template std::optional<PerramWertheimPoint<WideFloat>> find_perram_wertheim_point(
+    const PreciseShape<WideFloat>& a, const PreciseShape<WideFloat>& b,
+    const Direction<WideFloat>& d, double& ratio) noexcept;
 
 }  // namespace tangency::detail

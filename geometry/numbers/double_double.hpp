@@ -9,11 +9,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::detail {
@@ -30,6 +30,7 @@ struct DoubleDouble {
   constexpr DoubleDouble(double value) : high(value) {}  // NOLINT: exact, so implicit
   constexpr DoubleDouble(double h, double l) : high(h), low(l) {}
 
+  explicit constexpr operator double() const noexcept { return high; }
   DoubleDouble operator-() const noexcept { return {-high, -low}; }
 };
 
@@ -84,40 +85,31 @@ inline DoubleDouble sqrt(const DoubleDouble& a) noexcept {
   return quick_two_sum(root, rest.high / (2.0 * root));
 }
 
-// Vectors and rotations of space in double-double. Requirements as for double_double.hpp.
+/// Times 2^power.
+inline DoubleDouble scaled_by_power(const DoubleDouble& a, int power) noexcept {
+  return {scaled_by_power(a.high, power), scaled_by_power(a.low, power)};
+}
 
-using DoubleDoubleVector = std::array<DoubleDouble, 3>;
-using DoubleDoubleMatrix = std::array<DoubleDoubleVector, 3>;  ///< by rows
+// Vectors and rotations of space in double-double.
 
-/// R(q/|q|), each entry within 20 units of kDoubleDoubleEpsilon.
+using DoubleDoubleVector = Vector3<DoubleDouble>;
+using DoubleDoubleMatrix = Matrix3<DoubleDouble>;
+
+/// R(q/|q|), each entry within 20 units of kDoubleDoubleEpsilon, and vectors v turned by it, and
+/// back, within 25 of them times |v|_1 (docs/derivations/relation-filter.md, section 4).
 DoubleDoubleMatrix double_double_rotation(const Quaternion& q) noexcept;
 
-/// R' v
-DoubleDoubleVector turned_back(const DoubleDoubleMatrix& r, const DoubleDoubleVector& v) noexcept;
-
-DoubleDouble dot(const DoubleDoubleVector& a, const DoubleDoubleVector& b) noexcept;
-
 /// |a_1| + |a_2| + |a_3|
-double sum_of_absolutes(const DoubleDoubleVector& v) noexcept;
+inline double sum_of_absolutes(const DoubleDoubleVector& v) noexcept {
+  return std::abs(v[0].high) + std::abs(v[1].high) + std::abs(v[2].high);
+}
 
 inline DoubleDoubleVector exactly(const Vec3& v) noexcept { return {v[0], v[1], v[2]}; }
 inline Vec3 rounded(const DoubleDoubleVector& v) noexcept {
   return {v[0].high, v[1].high, v[2].high};
 }
 
-inline DoubleDouble length(const DoubleDoubleVector& v) noexcept { return sqrt(dot(v, v)); }
-inline DoubleDoubleVector operator*(const DoubleDouble& s, const DoubleDoubleVector& v) noexcept {
-  return {s * v[0], s * v[1], s * v[2]};
-}
-inline DoubleDoubleVector operator+(const DoubleDoubleVector& a,
-                                    const DoubleDoubleVector& b) noexcept {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline DoubleDoubleVector operator-(const DoubleDoubleVector& v) noexcept {
-  return {-v[0], -v[1], -v[2]};
-}
-
-// Vectors of the plane in double-double. Requirements as for double_double.hpp. Internal.
+// Vectors of the plane in double-double.
 
 struct DoubleDouble2 {
   DoubleDouble x, y;
@@ -162,9 +154,7 @@ inline DoubleDouble2 normalised(const DoubleDouble2& v) noexcept {
 /// u/|u|, each component within 40 units of kDoubleDoubleEpsilon of itself (and 2^-1074).
 /// @param direction  finite, not zero, of any length
 inline DoubleDouble2 double_double_direction(const Vec2& direction) noexcept {
-  const int exponent = std::max(exponent_of(direction[0]), exponent_of(direction[1]));
-  return normalised(
-      {scaled_by_power(direction[0], -exponent), scaled_by_power(direction[1], -exponent)});
+  return normalised(exactly(scaled_by_power(direction, -exponent_of(direction))));
 }
 
 }  // namespace tangency::detail

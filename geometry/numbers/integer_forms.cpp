@@ -127,6 +127,14 @@ mpq_class to_rational(double value) {
   return result;
 }
 
+void strip_powers_of_two(std::span<mpz_class> values) {
+  mp_bitcnt_t common = ~mp_bitcnt_t{0};
+  for (const mpz_class& v : values) {
+    if (v != 0) common = std::min(common, mpz_scan1(v.get_mpz_t(), 0));
+  }
+  for (mpz_class& v : values) v >>= common;
+}
+
 template <std::size_t N>
 Inertia inertia(const IntegerForm<N>& form) {
   const Minors<N> minors = regular_minors(form);

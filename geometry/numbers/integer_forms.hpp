@@ -40,6 +40,14 @@ mpz_class to_integer(double value, int exponent);
 /// value as a rational number, exactly.
 mpq_class to_rational(double value);
 
+/// Of |value|; 1 for 0.
+inline long bit_length(const mpz_class& value) {
+  return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+}
+
+/// Divides all by the largest power of two that they have in common.
+void strip_powers_of_two(std::span<mpz_class> values);
+
 /// A symmetric N x N matrix, both triangles filled; N is 2, 3 or 4 (conics need 3, quadrics 4).
 template <std::size_t N>
 using IntegerForm = std::array<std::array<mpz_class, N>, N>;

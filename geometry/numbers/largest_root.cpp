@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/geometry/numbers/integer_forms.hpp>
+
 namespace tangency::exact {
 namespace {
-
-long bits(const mpz_class& x) { return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2)); }
 
 /// A polynomial in coordinates y, t = x + 2^e y, that move: x comes down on the largest root, which
 /// stays at y <= 0, and 2^e becomes smaller. Known up to a factor > 0.
@@ -24,7 +24,7 @@ class Approach {
   }
 
   /// An exponent e with 2^e above all roots: their sum is -c_(n-1) / c_n, and they are > 0.
-  long exponent_above() const { return bits(c_[c_.size() - 2]) - bits(c_.back()) + 1; }
+  long exponent_above() const { return bit_length(c_[c_.size() - 2]) - bit_length(c_.back()) + 1; }
 
   /// t = 2^exponent t'.
   void scale(long exponent) {
@@ -32,7 +32,7 @@ class Approach {
       const std::size_t power = exponent > 0 ? k : c_.size() - 1 - k;
       c_[k] <<= power * static_cast<mp_bitcnt_t>(exponent > 0 ? exponent : -exponent);
     }
-    strip();
+    strip_powers_of_two(c_);
   }
 
   /// x moves to x + step, in units 2^e: Horner's rule.
@@ -57,7 +57,7 @@ class Approach {
   /// Newton's step for p / p', which finds a root of any multiplicity, and a narrow cluster of
   /// roots, with quadratic convergence: a guess, from leading digits, as many as `digits` ask for.
   mpz_class cluster_step(long digits) const {
-    const long spare = std::max(0L, bits(c_[1]) - 2 * digits - 64);
+    const long spare = std::max(0L, bit_length(c_[1]) - 2 * digits - 64);
     const auto head = [&](std::size_t k) {
       return k < c_.size() ? mpz_class(c_[k] >> static_cast<mp_bitcnt_t>(spare)) : mpz_class(0);
     };
@@ -69,15 +69,6 @@ class Approach {
   int degree() const { return static_cast<int>(c_.size()) - 1; }
 
  private:
-  /// Divides by a power of two that all coefficients have in common.
-  void strip() {
-    mp_bitcnt_t common = ~mp_bitcnt_t{0};
-    for (const mpz_class& c : c_) {
-      if (c != 0) common = std::min(common, mpz_scan1(c.get_mpz_t(), 0));
-    }
-    for (mpz_class& c : c_) c >>= common;
-  }
-
   std::vector<mpz_class> c_;
 };
 
@@ -100,7 +91,7 @@ int compare_coprime(const IntegerPolynomial& f, const IntegerPolynomial& g) {
     // The distances lie in [step, degree (step + 1)].
     if (step_f > to_g.degree() * (step_g + 1)) return -1;
     if (step_g > to_f.degree() * (step_f + 1)) return 1;
-    const long finer = digits + 8 - bits(std::min(step_f, step_g));
+    const long finer = digits + 8 - bit_length(std::min(step_f, step_g));
     if (finer > 0) {
       to_f.scale(-finer);
       to_g.scale(-finer);

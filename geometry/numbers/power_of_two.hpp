@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Doubles by their bits: exponent, zero test and scaling that read subnormal numbers as they are
-/// even where the caller's floating-point environment reads them as zero (DAZ).
+/// even where the caller's floating-point environment reads them as zero (DAZ). And the powers of
+/// two at which a pair is scaled, or left to another tier.
 #pragma once
 
 #include <bit>
@@ -40,5 +41,43 @@ inline double scaled_by_power(double value, int power) noexcept {
   const double magnitude = std::scalbn(static_cast<double>(bits), power - 1074);
   return std::signbit(value) ? -magnitude : magnitude;
 }
+
+/// Of Eigen's.
+template <class T>
+concept FixedVector = requires {
+  T::SizeAtCompileTime;
+};
+
+/// The same of a vector: the largest exponent of its components, and each one scaled.
+template <FixedVector Vector>
+int exponent_of(const Vector& v) noexcept {
+  return v.unaryExpr([](double x) { return exponent_of(x); }).maxCoeff();
+}
+template <FixedVector Vector>
+Vector scaled_by_power(const Vector& v, int power) noexcept {
+  return v.unaryExpr([power](double x) { return scaled_by_power(x, power); });
+}
+
+namespace detail {
+using tangency::scaled_by_power;  // beside the overloads for its own arithmetics
+
+// Between which lengths an arithmetic neither overflows nor underflows.
+
+/// Of semi-axes and components of d in the caller's unit of length. Chosen: a^10 d^2, the largest
+/// product of the coefficients of the Perram-Wertheim form, stays below 2^1023
+/// (Ellipsoid::moderate()).
+inline constexpr double kLargestModerate = 0x1p60, kSmallestModerate = 0x1p-60;
+
+/// Of the size of a pair, which is 1 or more: a semi-axis below it is taken for it. Chosen: squares
+/// of it are normal numbers, and what the change makes of a gap is below the rounding of
+/// double-double.
+inline constexpr double kThinnestAxis = 0x1p-300;
+/// The same where a body is seen from a point (seen_from_centre()): quotients of two semi-axes are
+/// squared in double-double.
+inline constexpr double kThinnestAxisSeen = 0x1p-200;
+/// A component of a vector that counts for 0: a product of two would underflow.
+inline constexpr double kLeastComponent = 0x1p-300;
+
+}  // namespace detail
 
 }  // namespace tangency

@@ -149,21 +149,9 @@ WideFloat sqrt(const WideFloat& a) noexcept {
 }
 
 WideMatrix wide_rotation(const Quaternion& q) noexcept {
-  const WideFloat w = q.w(), x = q.x(), y = q.y(), z = q.z();
-  const WideFloat ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-  const WideFloat wx = w * x, wy = w * y, wz = w * z, xy = x * y, yz = y * z, zx = z * x;
-  const WideFloat s = WideFloat(1.0) / (ww + xx + (yy + zz)), t = s + s;
-  return {{{s * (ww + xx - (yy + zz)), t * (xy - wz), t * (zx + wy)},
-           {t * (xy + wz), s * (ww + yy - (xx + zz)), t * (yz - wx)},
-           {t * (zx - wy), t * (yz + wx), s * (ww + zz - (xx + yy))}}};
-}
-
-WideVector turned_back(const WideMatrix& r, const WideVector& v) noexcept {
-  WideVector result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result[k] = r[0][k] * v[0] + r[1][k] * v[1] + r[2][k] * v[2];
-  }
-  return result;
+  return rotation_matrix<WideFloat>(WideFloat(q.w()), WideFloat(q.x()), WideFloat(q.y()),
+                                    WideFloat(q.z()),
+                                    [](const WideFloat& a, const WideFloat& b) { return a * b; });
 }
 
 }  // namespace tangency::detail

@@ -13,6 +13,7 @@
 
 #include <array>
 
+#include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::detail {
@@ -56,26 +57,17 @@ class WideFloat {
 
 inline WideFloat abs(const WideFloat& a) noexcept { return a.negative() ? -a : a; }
 
-using WideVector = std::array<WideFloat, 3>;
-using WideMatrix = std::array<WideVector, 3>;  ///< by rows
+/// Times 2^power.
+inline WideFloat scaled_by_power(const WideFloat& a, long power) noexcept {
+  return a.scaled(power);
+}
+
+using WideVector = Vector3<WideFloat>;
+using WideMatrix = Matrix3<WideFloat>;
 
 /// R(q/|q|), each entry within 20 units of kWideEpsilon.
 WideMatrix wide_rotation(const Quaternion& q) noexcept;
 
-/// R' v
-WideVector turned_back(const WideMatrix& r, const WideVector& v) noexcept;
-
-inline WideFloat dot(const WideVector& a, const WideVector& b) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline WideFloat length(const WideVector& v) noexcept { return sqrt(dot(v, v)); }
-inline WideVector operator*(const WideFloat& s, const WideVector& v) noexcept {
-  return {s * v[0], s * v[1], s * v[2]};
-}
-inline WideVector operator+(const WideVector& a, const WideVector& b) noexcept {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline WideVector operator-(const WideVector& v) noexcept { return {-v[0], -v[1], -v[2]}; }
 inline Vec3 rounded(const WideVector& v) noexcept {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }

@@ -1,11 +1,51 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The filter in front of the exact relation of two ellipses. Internal.
+/// How two ellipses lie, and the points where their boundaries meet: a filter, and exact integers
+/// behind it. Internal (GMP inside).
+///
+/// Q is the 3 x 3 form that is negative inside, E(l) = l Q_A + Q_B, P(l) = det E(l), a cubic with
+/// P(0) < 0 and a leading coefficient < 0, so that 0 or 2 of its roots are positive.
+/// docs/derivations/ellipses.md derives:
+///
+/// (1) P has two distinct positive roots <=> separate; a double positive root <=> external touch.
+/// (2) P has three distinct roots, none positive: the boundaries meet nowhere, if a member E(l) is
+///     definite (positive: B inside A; negative: A inside B), else in four points.
+/// (3) One real root and two complex: they meet in two points.
+/// (4) A multiple root r of P is rational. E(r) has rank 0: equal; rank 1: they touch twice (a
+///     double root) or to fourth order (a triple one); rank 2: they touch once, and E(r), if
+///     indefinite, is two lines through that point that lead to the others.
 #pragma once
 
 #include <optional>
 
-#include <tangency/geometry/plane/conic_pair.hpp>
+#include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/relation.hpp>
+
+namespace tangency::exact {
+
+/// How the boundaries meet in real points, by their multiplicities.
+enum class Meeting {
+  equal,
+  nowhere,
+  two_simple,
+  four_simple,
+  one_double,  ///< and two complex points
+  double_and_two_simple,
+  two_double,
+  triple_and_simple,
+  quadruple,
+};
+
+struct ConicAnswer {
+  Relation relation;
+  Inner inner;
+  Meeting meeting;
+};
+
+/// The exact relation and meeting.
+ConicAnswer conic_relation(const Ellipse& a, const Ellipse& b);
+
+}  // namespace tangency::exact
 
 namespace tangency::detail {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tangency/geometry/gap/error_bounds.hpp>
+
 namespace tangency::detail {
 namespace {
 
 constexpr int kMostSteps = 12;        // chosen: ordinary contacts take 2 to 4
 constexpr double kLongestStep = 0.5;  // rad; chosen
-// u L; chosen, as the bound of gap.hpp for ordinary shapes.
-constexpr double kEnough = 16.0;
 
 /// Half of the shape matrix' adjugate times d, and what else the form needs of one body.
 struct Weighted {
@@ -62,8 +62,8 @@ Vec2 perram_wertheim_normal(const PlanePair& pair) noexcept {
     const double linear = l * x, square = l * l * b.determinant;
     const double d = a.determinant + linear + square, q = (linear + 2.0 * square) / d;
     const double slope = 1.0 + p - s - q;
-    const double bend = p * (1.0 - p) - s * (1.0 - s) - (linear + 4.0 * square) / d + q * q;
-    const double change = std::clamp(-slope / std::min(bend, -0.05), -1.0, 1.0);
+    const double curvature = p * (1.0 - p) - s * (1.0 - s) - (linear + 4.0 * square) / d + q * q;
+    const double change = std::clamp(-slope / std::min(curvature, -0.05), -1.0, 1.0);
     l *= (2.0 + change) / (2.0 - change);
   }
   return (a.vector + l * b.vector).stableNormalized();
@@ -79,22 +79,19 @@ bool settle_plane_gap(const PlanePair& pair, Vec2& normal, PlaneProof& proof) no
     const Vec2 beyond_a = pair.d - at_a.point, rest = (beyond_a - at_b.point) + pair.d_low;
     const double gap = n.dot(rest), tangential = n[0] * rest[1] - n[1] * rest[0];
     const double radii = axis_a * (axis_a / at_a.h) + axis_b * (axis_b / at_b.h);
-    // (V), (R) and (B) of gap-certificate.md: the operations are those of space without the third
-    // component.
-    const double value_error =
-        kUnitRoundoff * (6.71 * axes + 5.51 * (at_a.h + at_b.h) +
-                         2.02 * beyond_a.cwiseAbs().maxCoeff() + 9.61 * std::abs(gap));
-    const double ball = gap - value_error + rho;
-    const double rest_error = kUnitRoundoff * (8.0 * radii + 32.0 * (axes + std::abs(gap)));
-    const double reach2 = 1.01 * (tangential * tangential + rest_error * rest_error);
-    const double above = value_error + reach2 / ball;
-    if (ball > 0.0 && above - value_error <= unit && above <= kEnough * unit) {
-      proof = {gap, gap - value_error, gap + above, true, n, at_a.point, -at_b.point};
+    // (V), (R) and (B): the operations are those of space without the third component.
+    const double error =
+        value_error(axes, at_a.h + at_b.h, beyond_a.cwiseAbs().maxCoeff(), gap, kOfGapNormalised);
+    const double ball = gap - error + rho;
+    const double reach2 = reach_squared(tangential * tangential, rest_error(radii, axes, gap));
+    const double above = error + reach2 / ball;
+    if (ball > 0.0 && above - error <= unit && above <= kOrdinaryError * pair.size) {
+      proof = {gap, gap - error, gap + above, true, n, at_a.point, -at_b.point};
       return proof.low > 0.0 || proof.high < 0.0;
     }
-    const double bend = gap + at_a.radius + at_b.radius;
-    if (!(bend > 0.0)) return false;
-    const double turn = std::clamp(tangential / bend, -kLongestStep, kLongestStep);
+    const double curvature = gap + at_a.radius + at_b.radius;
+    if (!(curvature > 0.0)) return false;
+    const double turn = std::clamp(tangential / curvature, -kLongestStep, kLongestStep);
     normal = Vec2(n[0] - turn * n[1], n[1] + turn * n[0]).normalized();
     if (std::abs(turn) < 4.0 * kUnitRoundoff) return false;
   }

@@ -5,18 +5,24 @@
 /// Internal.
 #pragma once
 
+#include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/ellipse.hpp>
 
 namespace tangency::detail {
 
 /// A pair in a unit in which nothing overflows or underflows: the largest of semi-axes and d within
 /// [2^-60, 2^62], no semi-axis below 2^-300.
-struct PlanePair {
-  const Ellipse& a;
-  const Ellipse& b;
-  Vec2 d;  ///< c_B - c_A = d + d_low
-  Vec2 d_low;
+struct PlanePair : UnitPair<Ellipse> {
+  Vec2 d_low;   ///< c_B - c_A = d + d_low
   double size;  ///< L = |d| + largest semi-axis of A + that of B, rounded
+
+  explicit PlanePair(const AskedPair<Ellipse>& pair) noexcept : PlanePair(pair, pair.d()) {}
+
+ private:
+  PlanePair(const AskedPair<Ellipse>& pair, const Vec2& given) noexcept
+      : UnitPair(pair, given, moderate_size(pair.a, pair.b, given) && thick_enough(pair.a, pair.b)),
+        d_low(rest_of_d()),
+        size(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()) {}
 };
 
 /// An enclosure of the gap of the branch that a normal is on, with what was evaluated there.

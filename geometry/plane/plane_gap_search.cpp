@@ -16,7 +16,7 @@ constexpr double kNoise = 0x1p-92;
 constexpr double kSlack = 1.0 + 0x1p-20;  // covers what bounds in double round
 constexpr double kTie = 0x1p-80;          // of L: chosen; answers no further apart are one
 constexpr double kFine = 0x1p-60;       // of L: chosen; an arc with no more above the best is done
-constexpr double kEnough = 0x1p-52;     // of L: what a search that is slow settles for
+constexpr double kCoarse = 0x1p-52;     // of L: what a search that is slow settles for
 constexpr int kFineBudget = 400;        // arcs; chosen: above what kPlaneBudget says of extremes
 constexpr double kShortest = 0x1p-200;  // of L; far below the noise
 constexpr int kDeepest = 256;           // halvings
@@ -53,7 +53,7 @@ struct Sample {
   DoubleDouble2 n;
   DoubleDouble2 rest;  ///< d - x_A - x_B: the gradient of f's homogeneous extension
   DoubleDouble f, r;   ///< value and slope
-  double bend;         ///< -f''
+  double curvature;    ///< -f''
   Side a, b;
 };
 
@@ -77,7 +77,7 @@ class Circle {
     s.rest = (d_ - s.a.point) - s.b.point;
     s.f = dot(n, s.rest);
     s.r = cross(n, s.rest);
-    s.bend = s.f.high + s.a.radius + s.b.radius;
+    s.curvature = s.f.high + s.a.radius + s.b.radius;
     return s;
   }
 
@@ -111,10 +111,11 @@ DoubleDouble2 turned_by(const DoubleDouble2& n, double turn) noexcept {
 
 Sample Circle::climb(const DoubleDouble2& start) const noexcept {
   Sample here = at(start);
-  if (here.r.high == 0.0 && here.bend >= 0.0) return here;
+  if (here.r.high == 0.0 && here.curvature >= 0.0) return here;
   // Walk uphill with growing steps until the slope changes its sign, then close in.
   const double way = here.r.high < 0.0 ? -1.0 : 1.0;
-  double stride = here.bend > 0.0 ? std::min(0.5, 1.5 * std::abs(here.r.high) / here.bend) : 0.125;
+  double stride =
+      here.curvature > 0.0 ? std::min(0.5, 1.5 * std::abs(here.r.high) / here.curvature) : 0.125;
   Sample there = here;
   for (int step = 0; step < 1200; ++step, stride = std::min(0.5, 2.0 * stride)) {
     there = at(turned_by(here.n, way * std::max(stride, 0x1p-100)));
@@ -125,7 +126,7 @@ Sample Circle::climb(const DoubleDouble2& start) const noexcept {
     const Sample& nearer = std::abs(here.r.high) < std::abs(there.r.high) ? here : there;
     const double width = std::abs(cross(here.n, there.n).high);
     if (nearer.r.high == 0.0 || width < 0x1p-101) break;
-    const double turn = nearer.bend > 0.0 ? nearer.r.high / nearer.bend : kInfinity;
+    const double turn = nearer.curvature > 0.0 ? nearer.r.high / nearer.curvature : kInfinity;
     // Inside the bracket and not at its far end? Every third step halves.
     const double side_turn = &nearer == &here ? way * turn : -way * turn;
     const bool newton = step % 3 != 2 && side_turn > 0.0 && side_turn < 0.75 * width;
@@ -150,9 +151,9 @@ PlaneProof Circle::proof(const Sample& s) const noexcept {
     return proof;
   }
   // The branch alone: while the slope's own slope stays above half of what it is at n.
-  const double width = 4.0 * reach / s.bend;
-  if (s.bend > 0.0 && third_derivative(s, width) * width <= 0.5 * s.bend) {
-    proof.high = s.f.high + value_error + reach * reach / s.bend;
+  const double width = 4.0 * reach / s.curvature;
+  if (s.curvature > 0.0 && third_derivative(s, width) * width <= 0.5 * s.curvature) {
+    proof.high = s.f.high + value_error + reach * reach / s.curvature;
   }
   return proof;
 }
@@ -204,16 +205,17 @@ double Circle::excess(const Sample& low, const Sample& c, const Sample& high,
   const double reach = std::max(angle(low.n, c.n), angle(c.n, high.n));
   const double third = third_derivative(c, reach);
   const double slope = std::abs(c.r.high) + slope_error(c);
-  const double bend = c.bend * (c.bend > 0.0 ? 1.0 / kSlack : kSlack) - 0x1p-48 * size_;
+  const double curvature =
+      c.curvature * (c.curvature > 0.0 ? 1.0 / kSlack : kSlack) - 0x1p-48 * size_;
   const double above = (c.f - best.f).high;
-  const double parabola = bend > 0.0 && slope < bend * reach
-                              ? 0.5 * slope * slope / bend
-                              : slope * reach - 0.5 * bend * reach * reach;
+  const double parabola = curvature > 0.0 && slope < curvature * reach
+                              ? 0.5 * slope * slope / curvature
+                              : slope * reach - 0.5 * curvature * reach * reach;
   double taylor = above + kSlack * (parabola + third * reach * reach * reach / 6.0);
   // Concave all over the arc, which has the stationary point that is the best: no more than that.
   const bool has_best = cross(low.n, best.n).high >= 0.0 && cross(best.n, high.n).high >= 0.0 &&
                         dot(best.n, c.n).high > 0.0;
-  if (has_best && bend - reach * third > 0.0) {
+  if (has_best && curvature - reach * third > 0.0) {
     taylor = 2.0 * reach * (std::abs(best.r.high) + slope_error(best));
   }
   return std::min(corners, taylor) + noise;
@@ -255,7 +257,7 @@ class Search {
     }
     const double excess = circle_.excess(arc.low, c, arc.high, best_);
     ++arcs_;
-    const double wanted = arcs_ > kFineBudget ? kEnough : kFine;
+    const double wanted = arcs_ > kFineBudget ? kCoarse : kFine;
     if (excess <= wanted * circle_.size()) {
       above_ = std::max(above_, excess);
       return;

@@ -42,20 +42,8 @@ struct Body {
 };
 
 Body body(const Ellipsoid& e, int exponent) {
-  const Quaternion orientation = e.orientation();
-  std::array<double, 4> q = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
-  if (e.is_sphere()) q = {1.0, 0.0, 0.0, 0.0};  // any is as good: the shortest numbers
-  const int unit = common_exponent(q);
-  const mpz_class w = to_integer(q[0], unit), x = to_integer(q[1], unit);
-  const mpz_class y = to_integer(q[2], unit), z = to_integer(q[3], unit);
-  const mpz_class ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-  const mpz_class wx = w * x, wy = w * y, wz = w * z, xy = x * y, yz = y * z, zx = z * x;
-  const std::array<std::array<mpz_class, 3>, 3> r = {{
-      {ww + xx - yy - zz, 2 * (xy - wz), 2 * (zx + wy)},
-      {2 * (xy + wz), ww - xx + yy - zz, 2 * (yz - wx)},
-      {2 * (zx - wy), 2 * (yz + wx), ww - xx - yy + zz},
-  }};
-
+  // Of a sphere any rotation is as good: the one of the shortest numbers.
+  const auto [r, norm] = scaled_rotation(e.is_sphere() ? Quaternion(1, 0, 0, 0) : e.orientation());
   std::array<mpz_class, 3> a2, b2;
   for (int k = 0; k < 3; ++k) {
     const mpz_class axis = to_integer(e.semi_axes()[k], exponent);
@@ -64,7 +52,6 @@ Body body(const Ellipsoid& e, int exponent) {
   for (std::size_t k = 0; k < 3; ++k) b2[k] = a2[(k + 1) % 3] * a2[(k + 2) % 3];
 
   Body body;
-  const mpz_class norm = ww + xx + yy + zz;
   body.norm2 = norm * norm;
   body.determinant = a2[0] * b2[0];
   constexpr std::size_t kRow[] = {0, 1, 2, 1, 2, 0}, kColumn[] = {0, 1, 2, 2, 0, 1};
@@ -80,66 +67,13 @@ Body body(const Ellipsoid& e, int exponent) {
 
 /// Divided by the largest power of two that divides all.
 IntegerPolynomial without_powers_of_two(std::vector<mpz_class> coefficients) {
-  mp_bitcnt_t common = ~mp_bitcnt_t{0};
-  for (const mpz_class& c : coefficients) {
-    if (c != 0) common = std::min(common, mpz_scan1(c.get_mpz_t(), 0));
-  }
-  for (mpz_class& c : coefficients) c >>= common;
+  strip_powers_of_two(coefficients);
   return IntegerPolynomial(std::move(coefficients));
 }
 
 IntegerPolynomial reversed(const IntegerPolynomial& p) {
   return IntegerPolynomial({p.coefficients().rbegin(), p.coefficients().rend()});
 }
-
-}  // namespace
-
-PairPolynomials pair_polynomials(const Ellipsoid& a, const Ellipsoid& b) {
-  const int unit = std::min(length_exponent(a), length_exponent(b));
-  const Body ba = body(a, unit), bb = body(b, unit);
-  std::array<mpz_class, 3> d;
-  for (int i = 0; i < 3; ++i) {
-    d[static_cast<std::size_t>(i)] =
-        to_integer(b.centre()[i], unit) - to_integer(a.centre()[i], unit);
-  }
-  const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2],
-                        d[1] * d[2], d[2] * d[0], d[0] * d[1]};
-
-  // |q_A|^4 |q_B|^4 D and |q_A|^4 |q_B|^4 (l N - (1 + l) D)
-  const mpz_class norms = ba.norm2 * bb.norm2;
-  const mpz_class n0 = bb.norm2 * form(ba.adjugate, dd), n2 = ba.norm2 * form(bb.adjugate, dd);
-  const mpz_class n1 = form(mixed_adjugate(ba.shape, bb.shape), dd);
-  const mpz_class d0 = norms * ba.determinant, d3 = norms * bb.determinant;
-  const mpz_class d1 = trace_of_product(ba.adjugate, bb.shape);
-  const mpz_class d2 = trace_of_product(bb.adjugate, ba.shape);
-  return {without_powers_of_two({-d0, n0 - d1 - d0, n1 - d2 - d1, n2 - d3 - d2, -d3}),
-          without_powers_of_two({d0, d1, d2, d3})};
-}
-
-PairPolynomials PairPolynomials::exchanged() const { return {reversed(quartic), reversed(shapes)}; }
-
-Position position(const IntegerPolynomial& quartic) {
-  const auto c = quartic.coefficients();
-  if (sgn(c[1]) <= 0 && sgn(c[2]) <= 0 && sgn(c[3]) <= 0) return Position::interiors_meet;
-  // The signs change: at most two positive roots, by identity (2).
-  const int discriminant = discriminant_sign(quartic);
-  if (discriminant > 0) return Position::apart;
-  if (discriminant < 0) return Position::interiors_meet;
-  const IntegerPolynomial distinct = square_free_part(quartic);
-  // One real root is the negative one that is double, by identity (2).
-  if (distinct.degree() == 3 && discriminant_sign(distinct) < 0) return Position::interiors_meet;
-  // All roots are real: by Descartes' rule they change the sign once for each that is positive.
-  switch (sign_changes(distinct)) {
-    case 0:
-      return Position::interiors_meet;
-    case 1:
-      return Position::touching;
-    default:
-      return Position::apart;
-  }
-}
-
-namespace {
 
 /// Are all roots real? For a polynomial of degree 1 to 3 without multiple roots.
 bool all_roots_are_real(const IntegerPolynomial& p) { return discriminant_sign(p) > 0; }
@@ -158,9 +92,57 @@ bool is_binomial(const IntegerPolynomial& p) {
 
 }  // namespace
 
-Containment containment(const PairPolynomials& pair) {
-  const IntegerPolynomial quartic = pair.quartic.reflected();  // R
-  const IntegerPolynomial shapes = -pair.shapes.reflected();   // C
+ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b) {
+  const int unit = std::min(length_exponent(a), length_exponent(b));
+  const Body ba = body(a, unit), bb = body(b, unit);
+  std::array<mpz_class, 3> d;
+  for (int i = 0; i < 3; ++i) {
+    d[static_cast<std::size_t>(i)] =
+        to_integer(b.centre()[i], unit) - to_integer(a.centre()[i], unit);
+  }
+  const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2],
+                        d[1] * d[2], d[2] * d[0], d[0] * d[1]};
+
+  // |q_A|^4 |q_B|^4 D and |q_A|^4 |q_B|^4 (l N - (1 + l) D)
+  const mpz_class norms = ba.norm2 * bb.norm2;
+  const mpz_class n0 = bb.norm2 * form(ba.adjugate, dd), n2 = ba.norm2 * form(bb.adjugate, dd);
+  const mpz_class n1 = form(mixed_adjugate(ba.shape, bb.shape), dd);
+  const mpz_class d0 = norms * ba.determinant, d3 = norms * bb.determinant;
+  const mpz_class d1 = trace_of_product(ba.adjugate, bb.shape);
+  const mpz_class d2 = trace_of_product(bb.adjugate, ba.shape);
+  quartic_ = without_powers_of_two({-d0, n0 - d1 - d0, n1 - d2 - d1, n2 - d3 - d2, -d3});
+  shapes_ = without_powers_of_two({d0, d1, d2, d3});
+}
+
+ExactPair::ExactPair(IntegerPolynomial quartic, IntegerPolynomial shapes)
+    : quartic_(std::move(quartic)), shapes_(std::move(shapes)) {}
+
+ExactPair ExactPair::exchanged() const { return {reversed(quartic_), reversed(shapes_)}; }
+
+Position ExactPair::position() const {
+  const auto c = quartic_.coefficients();
+  if (sgn(c[1]) <= 0 && sgn(c[2]) <= 0 && sgn(c[3]) <= 0) return Position::interiors_meet;
+  // The signs change: at most two positive roots, by identity (2).
+  const int discriminant = discriminant_sign(quartic_);
+  if (discriminant > 0) return Position::apart;
+  if (discriminant < 0) return Position::interiors_meet;
+  const IntegerPolynomial distinct = square_free_part(quartic_);
+  // One real root is the negative one that is double, by identity (2).
+  if (distinct.degree() == 3 && discriminant_sign(distinct) < 0) return Position::interiors_meet;
+  // All roots are real: by Descartes' rule they change the sign once for each that is positive.
+  switch (sign_changes(distinct)) {
+    case 0:
+      return Position::interiors_meet;
+    case 1:
+      return Position::touching;
+    default:
+      return Position::apart;
+  }
+}
+
+Containment ExactPair::containment() const {
+  const IntegerPolynomial quartic = quartic_.reflected();  // R
+  const IntegerPolynomial shapes = -shapes_.reflected();   // C
   // Then A's shape, put about B's centre, would not be inside B's.
   if (largest_root_exceeds_one(shapes)) return Containment::none;
   const int discriminant = discriminant_sign(quartic);
@@ -183,8 +165,6 @@ Containment containment(const PairPolynomials& pair) {
   }
 }
 
-bool equal(const PairPolynomials& pair) {
-  return is_binomial(pair.shapes) && is_binomial(pair.quartic);
-}
+bool ExactPair::equal() const { return is_binomial(shapes_) && is_binomial(quartic_); }
 
 }  // namespace tangency::exact

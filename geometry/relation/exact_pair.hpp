@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The characteristic quartic of a pair of ellipsoids in exact integers. Internal (GMP).
+/// What an exact question about a pair of ellipsoids is asked of: its characteristic quartic and
+/// the cubic of its shapes, in exact integers. Internal (GMP).
 ///
 /// P(l) = c det(l Q_A + Q_B) with c > 0 and Q < 0 inside. With the Perram-Wertheim form, by block
 /// elimination,  det M_A det M_B det(l Q_A + Q_B) = l N(l) - (1 + l) D(l),  which needs only 3 x 3
@@ -10,7 +11,7 @@
 /// (2) P has at least two negative roots, counted with multiplicity [WangWangKim2001].
 /// (3) The solids are apart <=> P has two distinct positive roots; they touch from outside <=> one
 ///     (double) positive root; their interiors meet <=> none [WangWangKim2001].
-/// (4) pair_polynomials(b, a) is pair_polynomials(a, b).exchanged().
+/// (4) ExactPair(b, a) is ExactPair(a, b).exchanged().
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
@@ -18,46 +19,48 @@
 
 namespace tangency::exact {
 
-/// What an exact question about a pair is asked of, each up to a factor > 0.
-struct PairPolynomials {
-  IntegerPolynomial quartic;  ///< P(l), of degree 4
-  IntegerPolynomial shapes;   ///< D(l) = det(M_A + l M_B), of degree 3
-
-  /// Those of (B, A).
-  PairPolynomials exchanged() const;
-};
-
-PairPolynomials pair_polynomials(const Ellipsoid& a, const Ellipsoid& b);
-
-inline IntegerPolynomial pair_quartic(const Ellipsoid& a, const Ellipsoid& b) {
-  return pair_polynomials(a, b).quartic;
-}
-
 enum class Position { apart, touching, interiors_meet };
 
-/// Identity (3). Requires a quartic of pair_quartic().
-Position position(const IntegerPolynomial& quartic);
-
 /// Is one solid ellipsoid inside another, with or without touching its boundary?
-///
-/// S-lemma, Q < 0 inside: A is in the interior of B <=> some t > 0 makes t Q_A - Q_B positive
-/// definite; A is in B, touching its boundary <=> semidefinite for some t > 0, never definite (and
-/// the two not proportional). With P(l) and D(l) as above, R(t) = P(-t) and
-/// C(t) = -D(-t), which up to a factor > 0 are the determinants of t Q_A - Q_B and of its block
-/// t M_A^-1 - M_B^-1, only the largest roots r of R and m of C matter:
-///
-///   r > m: interior where r is a simple root of R, touching where it is a double one;
-///   r = m: touching where it is of higher multiplicity in R than in C, else none;
-///   r < m, or R with complex roots: none.
-///
-/// docs/derivations/relation-filter.md, section 5.
 enum class Containment { none, touching, interior };
 
-/// Does B contain A? Requires the polynomials of (A, B), whose interiors meet and who are not
-/// equal.
-Containment containment(const PairPolynomials& pair);
+class ExactPair {
+ public:
+  ExactPair(const Ellipsoid& a, const Ellipsoid& b);
 
-/// Are A and B the same point set?
-bool equal(const PairPolynomials& pair);
+  /// Identity (3).
+  Position position() const;
+
+  /// Are A and B the same point set?
+  bool equal() const;
+
+  /// Does B contain A? Requires that the interiors meet and that the two are not equal.
+  ///
+  /// S-lemma, Q < 0 inside: A is in the interior of B <=> some t > 0 makes t Q_A - Q_B positive
+  /// definite; A is in B, touching its boundary <=> semidefinite for some t > 0, never definite.
+  /// With P(l) and D(l) as above, R(t) = P(-t) and C(t) = -D(-t), which up to a factor > 0 are the
+  /// determinants of t Q_A - Q_B and of its block t M_A^-1 - M_B^-1, only the largest roots r of R
+  /// and m of C matter:
+  ///
+  ///   r > m: interior where r is a simple root of R, touching where it is a double one;
+  ///   r = m: touching where it is of higher multiplicity in R than in C, else none;
+  ///   r < m, or R with complex roots: none.
+  ///
+  /// docs/derivations/relation-filter.md, section 5.
+  Containment containment() const;
+
+  /// Of (B, A).
+  ExactPair exchanged() const;
+
+  // Each up to a factor > 0.
+  const IntegerPolynomial& quartic() const noexcept { return quartic_; }  ///< P(l), of degree 4
+  /// D(l) = det(M_A + l M_B), of degree 3
+  const IntegerPolynomial& shapes() const noexcept { return shapes_; }
+
+ private:
+  ExactPair(IntegerPolynomial quartic, IntegerPolynomial shapes);
+
+  IntegerPolynomial quartic_, shapes_;
+};
 
 }  // namespace tangency::exact

@@ -74,8 +74,7 @@ struct Signs {
 Vec3 with_largest_component_near_1(const Vec3& n) {
   const double largest = n.cwiseAbs().maxCoeff();
   if (is_zero(largest) || !n.allFinite()) return Vec3::UnitX();
-  const int power = -exponent_of(largest);
-  return {scaled_by_power(n[0], power), scaled_by_power(n[1], power), scaled_by_power(n[2], power)};
+  return scaled_by_power(n, -exponent_of(largest));
 }
 
 /// diag(a) R' n

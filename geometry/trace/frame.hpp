@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where the scheme of curves starts (trace_scheme.hpp): the principal frame of A that carries
+/// Where the scheme of curves starts (scheme.hpp): the principal frame of A that carries
 /// (theta, phi), the cones about the line of centres, the pole that the cone does not hold, and the
 /// limits of theta on A in the cone. docs/derivations/trace-contact.md
 ///

@@ -10,7 +10,7 @@
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
-#include <tangency/geometry/plane/real_quartic.hpp>
+#include <tangency/geometry/plane/lens.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 
 namespace tangency {
@@ -136,7 +136,7 @@ TEST(RealQuartic, OfMoreChangesOfSignThanRootsLosesTheClosestPair) {
   const double e = 0x1p-30;
   const std::array<detail::DoubleDouble, 5> c{-18 - 6 * e, -21 - 5 * e, 1 + 2 * e, 5 + e, 1.0};
   const auto expect_roots = [&](exact::Meeting meeting, const std::vector<double>& expected) {
-    const detail::QuarticRoots roots = detail::real_quartic_roots(c, meeting);
+    const detail::MultipleRoots roots = detail::real_quartic_roots(c, meeting);
     ASSERT_EQ(roots.count, static_cast<int>(expected.size()));
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(roots.root[i].at.high, expected[i], 1e-15) << i;

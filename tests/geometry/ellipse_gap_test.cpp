@@ -68,7 +68,7 @@ TEST(PlaneGap, IsProvenForThinDeepPairs) {
 
 TEST(PlaneGap, OfASearchThatSpentItsBudgetIsNotGlobal) {
   const EllipsePair p{Ellipse(kOrigin, {1, 1e-8}, {1, 2}), Ellipse({0.3, 0.1}, {1e-7, 2}, {3, 1})};
-  const detail::PlanePair pair{p.a, p.b, p.b.centre(), kOrigin, size(p)};
+  const detail::PlanePair pair({p.a, p.b});
   EXPECT_TRUE(detail::search_plane_gap(pair, Vec2(1, 0)).global);
   EXPECT_FALSE(detail::search_plane_gap(pair, Vec2(1, 0), 3).global);
 }
@@ -110,7 +110,7 @@ RC_GTEST_PROP(PlaneGapProperty, NoNormalReachesFurther, ()) {
 /// How far the witness points where an ascent ends are from facing each other, over u L.
 double unfacing(const EllipsePair& p, const Vec2& start) {
   const Vec2 d = p.b.centre() - p.a.centre();
-  const detail::PlaneProof top = detail::climb_plane_gap({p.a, p.b, d, kOrigin, size(p)}, start);
+  const detail::PlaneProof top = detail::climb_plane_gap(detail::PlanePair({p.a, p.b, &d}), start);
   return (d + top.arm_b - top.arm_a - top.gap * top.normal).norm() / (0x1p-53 * size(p));
 }
 

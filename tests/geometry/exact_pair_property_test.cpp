@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include <tangency/geometry/plane/conic_pair.hpp>
+#include <tangency/geometry/plane/ellipse_meeting.hpp>
 #include <tangency/geometry/relation/exact_pair.hpp>
 #include <tangency/tests/support/ellipse_generators.hpp>
 #include <tangency/tests/support/generators.hpp>
@@ -35,7 +35,7 @@ int positive_roots(IntegerPolynomial p) {
 // geometry/relation/exact_pair.hpp (1) (2)
 RC_GTEST_PROP(PairQuarticProperty, EndsAreNegativeAndTwoRootsAtLeast, ()) {
   const Pair p = *tangency::testing::any_pair();
-  const IntegerPolynomial quartic = pair_quartic(p.a, p.b);
+  const IntegerPolynomial quartic = ExactPair(p.a, p.b).quartic();
   RC_ASSERT(quartic.degree() == 4);
   RC_ASSERT(quartic.leading() < 0);
   RC_ASSERT(quartic.sign_at(0) < 0);
@@ -45,29 +45,30 @@ RC_GTEST_PROP(PairQuarticProperty, EndsAreNegativeAndTwoRootsAtLeast, ()) {
 // geometry/relation/exact_pair.hpp (3)
 RC_GTEST_PROP(PairQuarticProperty, PositiveRootsTellThePosition, ()) {
   const Pair p = *tangency::testing::any_pair();
-  const IntegerPolynomial quartic = pair_quartic(p.a, p.b);
+  const ExactPair pair(p.a, p.b);
+  const IntegerPolynomial& quartic = pair.quartic();
   const int distinct = SturmSequence(quartic).roots_above(0);
   switch (verify::exact_relation(tangency::verify::to_raw(p.a), tangency::verify::to_raw(p.b))
               .relation) {
     case verify::Relation::separate:
-      RC_ASSERT(distinct == 2 && position(quartic) == Position::apart);
+      RC_ASSERT(distinct == 2 && pair.position() == Position::apart);
       break;
     case verify::Relation::external_touch:
       RC_ASSERT(distinct == 1 && positive_roots(quartic) == 2);
-      RC_ASSERT(position(quartic) == Position::touching);
+      RC_ASSERT(pair.position() == Position::touching);
       RC_TAG("touch");
       break;
     default:
-      RC_ASSERT(distinct == 0 && position(quartic) == Position::interiors_meet);
+      RC_ASSERT(distinct == 0 && pair.position() == Position::interiors_meet);
   }
 }
 
 // geometry/relation/exact_pair.hpp (4)
 RC_GTEST_PROP(PairQuarticProperty, ExchangingTheBodiesReversesThePolynomials, ()) {
   const Pair p = *tangency::testing::any_pair();
-  const PairPolynomials forth = pair_polynomials(p.a, p.b), back = pair_polynomials(p.b, p.a);
-  RC_ASSERT(back.quartic == forth.exchanged().quartic);
-  RC_ASSERT(back.shapes == forth.exchanged().shapes);
+  const ExactPair forth(p.a, p.b), back(p.b, p.a);
+  RC_ASSERT(back.quartic() == forth.exchanged().quartic());
+  RC_ASSERT(back.shapes() == forth.exchanged().shapes());
 }
 
 std::vector<int> multiplicities(Meeting meeting) {
@@ -123,7 +124,7 @@ rc::Gen<EllipsePair> touching_ellipses() {
       });
 }
 
-// geometry/plane/conic_pair.hpp (1) (2) (3) (4)
+// geometry/plane/ellipse_meeting.hpp (1) (2) (3) (4)
 RC_GTEST_PROP(ConicPairProperty, RelationAndMultiplicitiesAreTheOracles, ()) {
   const EllipsePair p = *rc::gen::oneOf(tangency::testing::any_ellipse_pair(), touching_ellipses());
   const ConicAnswer found = conic_relation(p.a, p.b);

@@ -192,7 +192,8 @@ TEST(GapStatusOfSpheres, IsOkAtEveryDepthAndAspect) {
 /// The greatest f on a fan of normals around the proof's, out to its cap's edge.
 RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   const testing::Pair p = *testing::pair_at(100, testing::uniform(0, 1));
-  const detail::Pair pair{p.a, p.b, p.b.centre() - p.a.centre(), Vec3::Zero()};
+  const Vec3 d = p.b.centre() - p.a.centre();
+  const detail::Pair pair({p.a, p.b, &d});
   const detail::FactoredPair factored(pair.a, pair.b, pair.d);
   const detail::Stationary found = factored.climb(*testing::direction());
   RC_PRE(found.accepted);
@@ -203,16 +204,17 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   const Vec3 n = off;
   const double h_a = p.a.support(n), h_b = p.b.support(n);
   const detail::DoubleDoubleSide side_a(p.a, detail::exactly(n)), side_b(p.b, detail::exactly(n));
-  const detail::Bend bend =
-      detail::bend_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
+  const detail::Hessian hessian =
+      detail::hessian_at({side_a, p.a.support_point(n)}, {side_b, p.b.support_point(n)}, n);
   const Vec3 r = pair.d - at.arm_a + at.arm_b - at.gap * n;
-  const detail::Slope slope{at.gap, {bend.tangent[0].dot(r), bend.tangent[1].dot(r)}, 1e-13};
-  const detail::Cap cap = detail::cap_around(bend, slope, 1.0);
+  const detail::Gradient gradient{
+      at.gap, {hessian.tangent[0].dot(r), hessian.tangent[1].dot(r)}, 1e-13};
+  const detail::Cap cap = detail::cap_around(hessian, gradient, 1.0);
   RC_PRE(cap.proven);
   const double slack = 64 * kU * size_of(p.a, p.b);
   for (int i = 0; i < 64; ++i) {
     const double angle = 2 * M_PI * i / 64;
-    const Vec3 e = std::cos(angle) * bend.tangent[0] + std::sin(angle) * bend.tangent[1];
+    const Vec3 e = std::cos(angle) * hessian.tangent[0] + std::sin(angle) * hessian.tangent[1];
     const auto stretch = [&](const Ellipsoid& body) {
       return body.semi_axes().cwiseProduct(body.rotation().transpose() * e).norm();
     };
@@ -240,7 +242,7 @@ TEST(GapProof, OfBodiesApartHoldsFromAPoorNormalToo) {
       const Ellipsoid a = to_ellipsoid(raw.a), b = to_ellipsoid(raw.b);
       const Vec3 d = b.centre() - a.centre();
       const Gap truth = signed_gap(a, b, d);
-      const detail::Pair pair{a, b, d, Vec3::Zero()};
+      const detail::Pair pair({a, b, &d});
       for (int k = 0; k < 10; ++k) {
         const Vec3 off(any(random), any(random), any(random)), axis = a.rotation().col(k % 3);
         const Vec3 near = (axis + std::exp2(exponent(random)) * off).normalized();
@@ -312,25 +314,25 @@ TEST(GapCap, CurvaturesOfThinFacesAreRightToTheirLoss) {
     // At the face's own normal, which no double is: h and the roots are of what is stored.
     const Vec3 n = a.rotation().col(2).normalized();
     const detail::DoubleDoubleSide side_a(a, detail::exactly(n)), side_b(b, detail::exactly(n));
-    const detail::Bend bend =
-        detail::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+    const detail::Hessian hessian =
+        detail::hessian_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
     // kappa kappa' of an ellipsoid is (h^2 / (a1 a2 a3))^2, exactly: det H_A of h's stored value.
     const double h = side_a.support.high;
     const double determinant = std::pow(0.7 * thin / (h * h), 2);
-    const double sum = bend.a.curvature[0] + bend.a.curvature[1];
+    const double sum = hessian.a.curvature[0] + hessian.a.curvature[1];
     // H = H_A + 0.4 I: its determinant is det H_A + 0.4 tr H_A + 0.16.
     const double expected = determinant + 0.4 * sum + 0.16;
-    EXPECT_LE(std::abs(bend.curvature[0] * bend.curvature[1] - expected),
-              (4 * bend.loss + 1e-12) * expected)
+    EXPECT_LE(std::abs(hessian.curvature[0] * hessian.curvature[1] - expected),
+              (4 * hessian.loss + 1e-12) * expected)
         << k;
-    EXPECT_LE(bend.loss, std::ldexp(1.0, k - 88) + 0x1p-45) << k;
+    EXPECT_LE(hessian.loss, std::ldexp(1.0, k - 88) + 0x1p-45) << k;
   }
 }
 
 TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
   // Crossed discs about one centre: four maxima, two of them best.
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
-  const detail::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const detail::Pair pair({a, b});
   const detail::FactoredPair factored(a, b, pair.d);
   const auto proof = detail::search_sphere(pair, factored, Vec3::UnitX(), 20000);
   ASSERT_TRUE(proof);
@@ -348,7 +350,7 @@ TEST(GapSearch, FindsAndProvesTheBestOfManyMaxima) {
 
 TEST(GapSearch, SaysSoWhereItsBudgetIsSpent) {
   const Ellipsoid a({0, 0, 0}, {5, 4, 1}), b({0.1, 0.05, 0.02}, {5, 1.2, 4}, {0.9, 0.2, 0.1, 0.3});
-  const detail::Pair pair{a, b, b.centre(), Vec3::Zero()};
+  const detail::Pair pair({a, b});
   const auto proof =
       detail::search_sphere(pair, detail::FactoredPair(a, b, pair.d), Vec3::UnitX(), 3);
   ASSERT_TRUE(proof);

@@ -205,10 +205,10 @@ TEST(GapAlongMotions, FollowedAnswerJumpsOnlyWhereItsBranchEndsOrTheBodiesPart) 
             const double h_a = a.support(n), h_b = b.support(n);
             const detail::DoubleDoubleSide side_a(a, detail::exactly(n)),
                 side_b(b, detail::exactly(n));
-            const detail::Bend bend =
-                detail::bend_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
+            const detail::Hessian hessian =
+                detail::hessian_at({side_a, a.support_point(n)}, {side_b, b.support_point(n)}, n);
             const double value = n.dot(b.centre()) - h_a - h_b;
-            const double sharpness = std::min(bend.curvature[0], bend.curvature[1]) + value;
+            const double sharpness = std::min(hessian.curvature[0], hessian.curvature[1]) + value;
             ASSERT_LE(sharpness, kBlunt) << "motion " << m << " step " << k;
             ++ends;
           }

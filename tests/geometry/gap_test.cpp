@@ -177,7 +177,7 @@ TEST(Gap, FastPathRefusesWhatItWouldGetWrong) {
       const Vec3 d = b.centre() - a.centre();
       const detail::Stationary found = detail::newton(a, b, d, detail::Finish::late);
       detail::GapProof proof;
-      if (found.accepted) detail::prove_gap({a, b, d, Vec3::Zero()}, found.normal, proof);
+      if (found.accepted) detail::prove_gap(detail::Pair({a, b, &d}), found.normal, proof);
       refused += !found.accepted || !(proof.high - proof.gap <= 16 * kU * c.size);
       if (!found.accepted || !proof.global) continue;
       // The truth is manufactured to second order of rounding.
