@@ -20,7 +20,7 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency {
 

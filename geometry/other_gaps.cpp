@@ -8,7 +8,7 @@
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/normals/precise_perram_wertheim.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
 namespace {

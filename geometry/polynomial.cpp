@@ -7,8 +7,8 @@
 #include <limits>
 
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
 #include <tangency/geometry/numbers/projective_quartic.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency {
 

@@ -10,7 +10,7 @@
 #include <tangency/geometry/bodies/ray_form.hpp>
 #include <tangency/geometry/bodies/surface_projection.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency {
 namespace {

@@ -26,7 +26,7 @@
 #include <string_view>
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency {
 

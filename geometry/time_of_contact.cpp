@@ -11,7 +11,7 @@
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {

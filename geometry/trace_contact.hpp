@@ -30,7 +30,7 @@
 #include <array>
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency {
 

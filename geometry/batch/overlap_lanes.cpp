@@ -2,7 +2,7 @@
 #include <cstddef>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/geometry/batch/overlap_lanes.cpp"

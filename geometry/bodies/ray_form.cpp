@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::exact {
 namespace {

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::detail {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::detail {
 namespace {

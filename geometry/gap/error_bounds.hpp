@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include <tangency/geometry/floating_point.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency::detail {
 

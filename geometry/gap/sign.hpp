@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency::detail {
 

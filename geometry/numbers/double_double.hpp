@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include <tangency/geometry/floating_point.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
 #include <tangency/geometry/numbers/vector3.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::detail {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::detail {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
 #include <tangency/geometry/numbers/running_error.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::exact {
 namespace {

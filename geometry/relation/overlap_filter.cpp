@@ -6,7 +6,7 @@
 #include <tangency/geometry/bodies/double_double_body.hpp>
 #include <tangency/geometry/normals/newton.hpp>
 #include <tangency/geometry/normals/perram_wertheim.hpp>
-#include <tangency/geometry/numbers/power_of_two.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::detail {
 namespace {

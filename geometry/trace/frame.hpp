@@ -19,7 +19,7 @@
 #include <utility>
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 
 namespace tangency::detail {
 

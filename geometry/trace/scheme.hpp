@@ -11,7 +11,7 @@
 
 #include <array>
 
-#include <tangency/geometry/status.hpp>
+#include <tangency/geometry/tier.hpp>
 #include <tangency/geometry/trace/frame.hpp>
 
 namespace tangency::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What is known of an answer, and how it was found.
+/// Which tier gave an answer, and what is known of it.
 #pragma once
 
 #include <string_view>
