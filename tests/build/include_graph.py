@@ -7,7 +7,8 @@ includes. A floor is a line of tests/build/floors, and the rooms on it stand bet
 include its own room and the floors below.
 
 Usage: include_graph.py ROOT [--floors FILE] [--closure UNIT ...] [--dot]
-Prints circles and arrows against the floors and ends with 1 where there are any.
+Prints circles, arrows against the floors, and the libraries' files that name Eigen:: and do not
+include it, and ends with 1 where there are any.
 --closure names a unit, as geometry/relation, and prints the files that its source reads, and their lines.
 --dot prints the graph of rooms for Graphviz, floor by floor: docs/architecture.dot.
 """
@@ -129,7 +130,11 @@ class Tree:
 
     def closure(self, start):
         """The source of a unit, and every file of the tree that it reads, headers alone."""
-        first = next(path for path in (start + ".cpp", start + ".hpp") if path in self.text)
+        return self.reached(
+            next(path for path in (start + ".cpp", start + ".hpp") if path in self.text))
+
+    def reached(self, first):
+        """A file, and every file of the tree that it includes, at any depth."""
         seen, waiting = set(), [first]
         while waiting:
             path = waiting.pop()
@@ -179,6 +184,18 @@ class Floors:
                     yield f"{path} includes {target}, which lies above it"
                 elif here != there and self.of[there] == self.of[here]:
                     yield f"{path} includes {target}: {here} and {there} share a floor"
+
+
+# The libraries' precompiled header holds what this header includes: CMakeLists.txt.
+EIGEN = "geometry/vectors.hpp"
+
+
+def without_eigen(tree):
+    """The libraries' files that name Eigen:: and do not reach its headers by their own includes."""
+    for path, text in sorted(tree.text.items()):
+        if path.startswith(("geometry/", "dem/")) and "Eigen::" in text:
+            if EIGEN not in tree.reached(path):
+                yield f"{path} names Eigen:: and does not reach {EIGEN} by its includes"
 
 
 def dot(tree, floors):
@@ -233,11 +250,13 @@ def main():
     for circle in circles:
         print("a circle of includes: " + ", ".join(circle))
     against = list(floors.against(tree))
-    for arrow in against:
-        print(arrow)
+    hidden = list(without_eigen(tree))
+    for line in against + hidden:
+        print(line)
     print(f"{len(tree.units)} units, {sum(map(len, tree.units.values()))} arrows, "
-          f"{len(circles)} circles, {len(against)} arrows against the floors")
-    return 1 if circles or against else 0
+          f"{len(circles)} circles, {len(against)} arrows against the floors, "
+          f"{len(hidden)} files that name Eigen unincluded")
+    return 1 if circles or against or hidden else 0
 
 
 if __name__ == "__main__":

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <tangency/dem/scene_keys.hpp>
+#include <tangency/tests/support/patterns.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
@@ -99,13 +99,10 @@ TEST(Advice, OnABodyThatStillMovesIsADurationThatIsLongEnough) {
   EXPECT_EQ(moving.status, 0);
   const std::string line = line_with(moving.err, "inertial fraction");
   expect_keys_of("servo", line);
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(
-      line, found,
-      std::regex("particles still move though nothing strains them; raise duration to (\\d+)$")))
-      << line;
-  const Finished longer =
-      run_of(folder, with(scene, "duration = 700", "duration = " + found[1].str()));
+  const auto found =
+      captured(line, "particles still move though nothing strains them; raise duration to (\\d+)$");
+  ASSERT_TRUE(found) << line;
+  const Finished longer = run_of(folder, with(scene, "duration = 700", "duration = " + *found));
   EXPECT_EQ(longer.err, "");
 }
 
@@ -169,14 +166,11 @@ TEST(Advice, OnSoftParticlesIsAStiffnessThatIsEnough) {
     const std::string line = line_with(soft.err, "stage relax ended with mean overlap");
     ASSERT_NE(line, "") << soft.err;
     expect_keys_of("relax", line);
-    std::smatch found;
-    ASSERT_TRUE(std::regex_search(
-        line, found,
-        std::regex("too soft for what they bear; raise " + std::string(key) + " to ([0-9.e+]+)$")))
-        << line;
-    const Finished stiff =
-        run_of(folder, std::regex_replace(scene, std::regex(std::string(key) + " = [0-9.e+]+"),
-                                          std::string(key) + " = " + found[1].str()));
+    const auto found = captured(
+        line, "too soft for what they bear; raise " + std::string(key) + " to ([0-9.e+]+)$");
+    ASSERT_TRUE(found) << line;
+    const Finished stiff = run_of(folder, replaced(scene, std::string(key) + " = [0-9.e+]+",
+                                                   std::string(key) + " = " + *found));
     EXPECT_EQ(line_with(stiff.err, "stage relax ended with mean overlap"), "") << stiff.err;
   }
 }
@@ -199,12 +193,10 @@ TEST(Advice, OnALongStepIsAShorterOne) {
   scene += "[[stage]]\nkind = \"servo\"\nduration = 1\ntime_step_factor = 0.3\n";
   const TemporaryFolder folder;
   const std::string line = line_with(run_of(folder, scene).err, "of the critical one");
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(line, found, std::regex("; lower time_step_factor to (0[0-9.]+)$")))
-      << line;
+  const auto found = captured(line, "; lower time_step_factor to (0[0-9.]+)$");
+  ASSERT_TRUE(found) << line;
   expect_keys_of("servo", line);
-  const Finished shorter =
-      run_of(folder, with(scene, "factor = 0.3", "factor = " + found[1].str()));
+  const Finished shorter = run_of(folder, with(scene, "factor = 0.3", "factor = " + *found));
   EXPECT_EQ(line_with(shorter.err, "of the critical one"), "") << shorter.err;
 }
 
@@ -272,7 +264,7 @@ TEST(TimeLeft, IsAtMostWhatMaxCyclesLeaves) {
              terminal, false);
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("\r[  "), run.err.npos);
-  EXPECT_FALSE(std::regex_search(run.err, std::regex("[0-9]{3,}\\.[0-9] h left"))) << run.err;
+  EXPECT_FALSE(has_pattern(run.err, "[0-9]{3,}\\.[0-9] h left")) << run.err;
 }
 
 }  // namespace
