@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Usage: golden.sh GENERATOR FILE
+# Usage: golden.sh FILE GENERATOR [ARGUMENT ...]
 # The committed file is byte for byte what its generator writes.
 set -euo pipefail
-"$1" | cmp - "$2"
+file=$1
+shift
+"$@" | cmp - "$file"
