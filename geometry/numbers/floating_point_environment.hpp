@@ -32,7 +32,7 @@ inline bool environment_is_default() noexcept;
 /// must give the smallest normal number again (else operands are). The operands are volatile and
 /// the results are compared by bits, so that neither the compiler nor the mode under test answers.
 inline bool probe_environment() noexcept {
-  constexpr double u = 0x1p-53;
+  constexpr double u = kUnitRoundoff;
   volatile double one = 1.0;
   volatile double half_u = 0.5 * u;
   volatile double three_halves_u = 1.5 * u;

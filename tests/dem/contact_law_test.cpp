@@ -86,7 +86,7 @@ TEST(ContactLaw, ShearForceTurnsWithTheNormalAtConstantLength) {
   EXPECT_NEAR(shear.dot(axis), kTangent.dot(axis), 1e-15);
 }
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 
 /// A contact that turns by anything up to a right angle and slides.
 struct Step {

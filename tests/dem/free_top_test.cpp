@@ -22,7 +22,7 @@ using tangency::verify::complete_elliptic_k;
 using tangency::verify::jacobi_elliptic;
 using tangency::verify::JacobiElliptic;
 
-constexpr double kUnit = 0x1p-53;
+constexpr double kUnit = tangency::kUnitRoundoff;
 
 /// One ellipsoid with three different moments of inertia, I_1 < I_2 < I_3, that nothing touches.
 struct Top {

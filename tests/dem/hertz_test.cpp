@@ -27,7 +27,7 @@ using namespace tangency::testing;
 using std::numbers::pi;
 using namespace tangency::verify;
 
-constexpr double kUnit = 0x1p-53;
+constexpr double kUnit = tangency::kUnitRoundoff;
 constexpr Material kGlass{70e9, 0.24};
 
 double relative(double value, double truth) { return std::abs(value / truth - 1.0); }

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Quaterniond;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 double size_of(const Ellipsoid& e, const Vec3& p) {
   return (p - e.centre()).norm() + e.largest_semi_axis();

@@ -12,7 +12,7 @@
 namespace tangency {
 namespace {
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr double kAspect = 1e8;      // chosen
 constexpr double kComparable = 0.1;  // rad; chosen: beyond it a direction is as good as any
 

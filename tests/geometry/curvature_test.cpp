@@ -19,7 +19,7 @@ using verify::Real;
 using verify::Real3;
 using verify::to_ellipsoid;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr std::uint64_t kSeed = 20261122;
 const Real kStep("1e-60");  // of differences, in units of the smallest semi-axis
 

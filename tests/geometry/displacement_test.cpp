@@ -21,7 +21,7 @@ namespace {
 using verify::DisplacementContact;
 using verify::Motion;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr double kShortOverLong = 0.7, kOverlap = 0.02;
 
 std::vector<DisplacementContact> contacts() {

@@ -18,7 +18,7 @@ namespace tangency {
 namespace {
 
 using Eigen::Quaterniond;
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 const double kInf = std::numeric_limits<double>::infinity();
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 

@@ -19,7 +19,7 @@ using testing::Family;
 using testing::Indexed;
 using testing::kSeed;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 const std::vector<std::pair<std::string, Accuracy>>& points() {
   static const std::vector<std::pair<std::string, Accuracy>> all = {

@@ -30,7 +30,7 @@ namespace {
 
 using verify::to_ellipsoid;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr std::uint64_t kSeed = 20261122;
 
 double size_of(const Ellipsoid& a, const Ellipsoid& b) {

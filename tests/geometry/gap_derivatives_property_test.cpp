@@ -13,7 +13,7 @@ namespace {
 
 using testing::Pair;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 bool exists(const GapDerivatives& d) {
   return d.status == DerivativeStatus::ok || d.status == DerivativeStatus::local;

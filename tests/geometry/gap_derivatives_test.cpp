@@ -25,7 +25,7 @@ using verify::ManufacturedContact;
 using verify::Real;
 using verify::to_ellipsoid;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr std::uint64_t kSeed = 20261122;
 const Real kStep("1e-40");  // of differences: errors of 1e-80 by truncation, 1e-65 by the oracle's
 

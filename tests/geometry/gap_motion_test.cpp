@@ -14,7 +14,7 @@
 namespace tangency {
 namespace {
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 double size_of(const Ellipsoid& a, const Ellipsoid& b) {
   return (b.centre() - a.centre()).norm() + a.largest_semi_axis() + b.largest_semi_axis();

@@ -13,7 +13,7 @@ namespace {
 
 using testing::Pair;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 /// A bound on the error of a reported gap: kOrdinaryGapErrorBound, and the doubles of moved and
 /// turned bodies are off by as much again.

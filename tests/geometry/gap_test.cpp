@@ -23,7 +23,7 @@ using verify::ContactFamily;
 using verify::ManufacturedContact;
 using verify::to_ellipsoid;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr std::uint64_t kSeed = 20261122;
 
 struct Worst {

@@ -17,7 +17,7 @@ using testing::Pair;
 
 using Definition = OtherGap (*)(const Ellipsoid&, const Ellipsoid&) noexcept;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr double kAspect = 100;
 
 double size_of(const Pair& p) {

@@ -23,7 +23,7 @@ using verify::Real;
 using verify::Real3;
 using verify::to_ellipsoid;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr std::uint64_t kSeed = 20261122;
 constexpr int kPairs = 16;  // of each family
 constexpr double kOfSize = 0x1p-6;

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Quaterniond;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 TEST(SphereGap, IsDistanceOfCentresLessRadii) {
   const Gap gap = signed_gap(Sphere{{1, 2, 3}, 2}, Sphere{{1, 2 + 12, 3 + 5}, 4});

@@ -16,7 +16,7 @@
 namespace tangency {
 namespace {
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 rc::Gen<Vec3> point() {
   const auto c = testing::uniform(-4, 4);

@@ -22,7 +22,7 @@ inline void showValue(const Ray& ray, std::ostream& os) {
 
 namespace {
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr double kEver = std::numeric_limits<double>::infinity();
 
 double size_of(const Ellipsoid& e, const Ray& ray) {

@@ -22,7 +22,7 @@
 namespace tangency {
 namespace {
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 
 /// The numbers of one row by name, and its words: what it broke and the relation that is true.
 struct Row {

@@ -16,7 +16,7 @@ namespace {
 
 using testing::Pair;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = kUnitRoundoff;
 constexpr double kAspect = 10;
 
 double size_of(const Pair& p) {

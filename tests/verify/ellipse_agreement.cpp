@@ -33,7 +33,7 @@ using tangency::verify::RawEllipse;
 using tangency::verify::Real;
 using tangency::verify::Real2;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 constexpr double kOracle = 1e-40;  // of the size: where the oracle's ascents end
 
 Ellipse to_ellipse(const RawEllipse& e) {

@@ -27,7 +27,7 @@ using namespace tangency;
 using verify::Real, verify::Real3;
 using verify::to_ellipsoid, verify::to_raw;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 
 struct Pair {
   Ellipsoid a, b;

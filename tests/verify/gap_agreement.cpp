@@ -34,7 +34,7 @@ using tangency::verify::Real;
 using tangency::verify::Real3;
 using tangency::verify::Sequence;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 
 /// What is promised of a family.
 struct Limits {

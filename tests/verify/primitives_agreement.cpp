@@ -31,7 +31,7 @@ using tangency::verify::RawEllipsoid;
 using tangency::verify::Vector120;
 using Triple = std::array<double, 3>;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 constexpr double kPromise = 8.0;  // u L
 
 Vec3 vec(const Triple& v) { return {v[0], v[1], v[2]}; }

@@ -24,7 +24,7 @@ using Polynomial = std::vector<mpz_class>;  // lowest first, the last not 0
 using tangency::QuarticRoot;
 using tangency::QuarticRoots;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 
 /// mantissa 2^exponent
 struct Dyadic {

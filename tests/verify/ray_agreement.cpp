@@ -25,7 +25,7 @@ using tangency::Ellipsoid, tangency::Ray, tangency::RayHit, tangency::RayStatus,
 using tangency::verify::Digits120;
 using Rational3 = std::array<mpq_class, 3>;
 
-constexpr double kU = 0x1p-53;
+constexpr double kU = tangency::kUnitRoundoff;
 constexpr double kPromise = 8.0;  // u L
 constexpr double kEver = std::numeric_limits<double>::infinity();
 
