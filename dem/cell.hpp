@@ -14,7 +14,7 @@
 #include <array>
 #include <cstdint>
 
-#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

@@ -10,7 +10,7 @@
 
 #include <tangency/dem/hertz.hpp>
 #include <tangency/geometry/curvature.hpp>
-#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

@@ -15,7 +15,7 @@ namespace {
 
 /// A normal that turns by more in a step has gone over to another branch: its cosine. Chosen: 26
 /// degrees, where a step turns neighbours by a hundredth of that.
-constexpr double kSameBranch = 0.9;
+constexpr double kSameBranchCosine = 0.9;
 
 std::size_t type_of(const Particles& particles, std::int32_t body, std::size_t walls) {
   const auto i = static_cast<std::size_t>(body);
@@ -71,11 +71,11 @@ double ContactLaws::largest_stiffness() const {
 ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              const NeighbourList& list, const ContactLaws& laws, double dt,
                              Branch branch) {
-  bodies_.refresh(particles);
+  narrow_phase_.refresh(particles);
   const Step step{particles, cell, list.pairs(), laws, dt, branch};
-  const std::size_t blocks = (step.pairs.size() + Bodies::block - 1) / Bodies::block;
+  const std::size_t blocks = (step.pairs.size() + NarrowPhase::kBlock - 1) / NarrowPhase::kBlock;
   work_.assign(blocks, {});
-#pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= kWorthSharing)
+#pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= kParallelThreshold)
   for (std::size_t k = 0; k < blocks; ++k) update_block(k, step);
   add_up(list, particles.size());
   ContactWork sum;
@@ -84,35 +84,36 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
 }
 
 void Contacts::update_block(std::size_t index, const Step& step) {
-  const std::size_t first = index * Bodies::block;
+  const std::size_t first = index * NarrowPhase::kBlock;
   const auto pairs = std::span(step.pairs).subspan(first);
-  const std::size_t count = std::min(Bodies::block, pairs.size());
-  std::array<Vec3, Bodies::block> normals;
-  std::array<Touch, Bodies::block> touches;
+  const std::size_t count = std::min(NarrowPhase::kBlock, pairs.size());
+  std::array<Vec3, NarrowPhase::kBlock> normals;
+  std::array<PairGeometry, NarrowPhase::kBlock> geometries;
   for (std::size_t k = 0; k < count; ++k) normals[k] = records_[first + k].normal;
-  bodies_.find(pairs.first(count), step.particles, step.cell, normals, step.branch, touches);
+  narrow_phase_.measure(pairs.first(count), step.particles, step.cell, normals, step.branch,
+                        geometries);
   for (std::size_t k = 0; k < count; ++k)
-    apply(pairs[k], touches[k], step, records_[first + k], work_[index]);
+    apply(pairs[k], geometries[k], step, records_[first + k], work_[index]);
 }
 
-/// One contact: from its touch to its force, and what that did to energy.
-void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Contact& contact,
-                     ContactWork& work) const {
+/// One contact: from where its bodies are to its force, and what that did to energy.
+void Contacts::apply(const Pair& pair, const PairGeometry& geometry, const Step& step,
+                     Contact& contact, ContactWork& work) const {
   const bool touched = contact.touches();
-  const bool touches = touch.gap < 0.0;
+  const bool touches = geometry.gap < 0.0;
   const Contact before = contact;
-  contact.branch = touch.branch;
+  contact.branch = geometry.branch;
   if (!touches && !touched) {
-    contact.normal = touch.normal;
+    contact.normal = geometry.normal;
     return;
   }
   const std::size_t walls = step.laws.types - 1;
   const ContactLaw& law = step.laws.between(type_of(step.particles, pair.a, walls),
                                             type_of(step.particles, pair.b, walls));
   contact = Contact{};
-  contact.normal = touch.normal;
-  contact.branch = touch.branch;
-  contact.arm = touches ? touch.arm : before.arm;
+  contact.normal = geometry.normal;
+  contact.branch = geometry.branch;
+  contact.arm = touches ? geometry.arm : before.arm;
   // Half way through the step, but for the strain, which move() takes from where it began.
   const Contact& from = touched ? before : contact;
   const Vec3 strained = step.dt * (step.cell.rate * from.branch);
@@ -121,10 +122,10 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
                                              0.5 * (from.branch + contact.branch));
   double sliding = before.shear.energy;  // of a spring that is let go
   if (touches) {
-    contact.overlap = -touch.gap;
+    contact.overlap = -geometry.gap;
     const NormalResponse response = law.normal_response(
         contact.overlap,
-        law.hertz ? bodies_.relative_curvature(pair, contact.normal) : PrincipalCurvatures{});
+        law.hertz ? narrow_phase_.relative_curvature(pair, contact.normal) : PrincipalCurvatures{});
     contact.normal_force = response.force;
     contact.normal_stiffness = response.stiffness;
     contact.normal_energy = response.energy;
@@ -141,7 +142,7 @@ void Contacts::apply(const Pair& pair, const Touch& touch, const Step& step, Con
   work.sliding += sliding;
   work.boundary -= mean_force.dot(strained);
   if (!touches || !touched) return;
-  if (before.normal.dot(contact.normal) < kSameBranch)
+  if (before.normal.dot(contact.normal) < kSameBranchCosine)
     work.branch += stored(contact) - stored(before) + sliding + mean_force.dot(moved);
   else if (law.hertz)
     work.branch += gained_by_curvature(before, contact);
@@ -167,7 +168,7 @@ void Contacts::restore(std::vector<Contact> records, const Particles& particles,
 void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
   resultants_.force.resize(particles);
   resultants_.moment.resize(particles);
-#pragma omp parallel for schedule(static) if (particles >= kWorthSharing)
+#pragma omp parallel for schedule(static) if (particles >= kParallelThreshold)
   for (std::size_t i = 0; i < particles; ++i) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {

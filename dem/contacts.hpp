@@ -11,9 +11,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include <tangency/dem/cell.hpp>
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/particles.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 
@@ -77,13 +80,13 @@ class Contacts {
  private:
   struct Step;
   void update_block(std::size_t first, const Step& step);
-  void apply(const Pair& pair, const Touch& touch, const Step& step, Contact& contact,
+  void apply(const Pair& pair, const PairGeometry& geometry, const Step& step, Contact& contact,
              ContactWork& work) const;
   void add_up(const NeighbourList& list, std::size_t particles);
 
   std::vector<Contact> records_;
   Resultants resultants_;
-  Bodies bodies_;
+  NarrowPhase narrow_phase_;
   std::vector<ContactWork> work_;  ///< of each block, during an update
 };
 

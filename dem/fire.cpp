@@ -10,11 +10,13 @@
 namespace tangency::dem {
 namespace {
 
-// The published values [Bitzek2006]: the mixing at the start of a stretch downhill, and what it
-// falls by a cycle once the stretch has lasted.
-constexpr double kFirstMixing = 0.1;
-constexpr double kMixingFallsBy = 0.99;
-constexpr std::int64_t kLasting = 5;
+// The published values [Bitzek2006].
+/// alpha_start: the mixing at the start of a stretch downhill.
+constexpr double kStartMixing = 0.1;
+/// f_alpha: the mixing's factor a cycle once the stretch has lasted.
+constexpr double kMixingDecay = 0.99;
+/// N_min: cycles after which it has.
+constexpr std::int64_t kLeastDownhill = 5;
 
 /// Accelerations by contacts and gravity, shift and turn, in space.
 struct Acceleration {
@@ -62,7 +64,7 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
   const std::size_t count = particles.size();
   std::vector<Acceleration> a(count);
   std::vector<Products> products(count);
-#pragma omp parallel for schedule(static) if (count >= kWorthSharing)
+#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
   for (std::size_t i = 0; i < count; ++i) {
     a[i] = acceleration_of(particles, i, resultants, motion);
     products[i] = products_of(particles, i, a[i], resultants, motion);
@@ -74,16 +76,16 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
     sum.aa += one.aa;
   }
   const bool runs_downhill = sum.va > 0.0;
-  if (!runs_downhill) *this = {kFirstMixing, 0};
+  if (!runs_downhill) *this = {kStartMixing, 0};
   const double keep = runs_downhill ? 1.0 - mixing : 0.0;
   const double push = runs_downhill ? mixing * std::sqrt(sum.vv / sum.aa) : 0.0;
-#pragma omp parallel for schedule(static) if (count >= kWorthSharing)
+#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
   for (std::size_t i = 0; i < count; ++i) {
     particles.velocity[i] = keep * particles.velocity[i] + push * a[i].shift;
     if (motion.rotation != Rotation::none)
       particles.angular_velocity[i] = keep * particles.angular_velocity[i] + push * a[i].turn;
   }
-  if (runs_downhill && ++downhill > kLasting) mixing *= kMixingFallsBy;
+  if (runs_downhill && ++downhill > kLeastDownhill) mixing *= kMixingDecay;
   const Products after{keep * keep * sum.vv + 2.0 * keep * push * sum.va + push * push * sum.aa,
                        keep * sum.va + push * sum.aa, sum.aa};
   return energy_at(sum, dt) - energy_at(after, dt);

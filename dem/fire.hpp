@@ -18,6 +18,7 @@
 #include <cstdint>
 
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/particles.hpp>
 
 namespace tangency::dem {
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <tangency/dem/observe.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

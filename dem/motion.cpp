@@ -94,7 +94,7 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
   const std::size_t count = particles.size();
   std::vector<MotionWork> work(count);
   bool finite = true;
-#pragma omp parallel for schedule(static) reduction(&& : finite) if (count >= kWorthSharing)
+#pragma omp parallel for schedule(static) reduction(&& : finite) if (count >= kParallelThreshold)
   for (std::size_t i = 0; i < count; ++i) {
     const double mass = particles.mass[i];
     Vec3& velocity = particles.velocity[i];

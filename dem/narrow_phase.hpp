@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where listed pairs touch: the one place that asks geometry. Each kind of body pays for itself
-/// alone: spheres for a square root, ellipses for the plane's solver, ellipsoids for the batch.
+/// The narrow phase: whether and where listed pairs touch, the one place that asks geometry. Each
+/// kind of body pays for itself alone: spheres for a square root, ellipses for the plane's solver,
+/// ellipsoids for the batch.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,14 @@
 #include <span>
 #include <vector>
 
+#include <tangency/dem/cell.hpp>
 #include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/particles.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 
@@ -22,45 +27,46 @@ enum class Branch {
   global,  ///< the shortest way out, at the cost of a search
 };
 
-/// A pair at the current positions.
-struct Touch {
+/// How the two bodies of a pair lie at the current positions.
+struct PairGeometry {
   Vec3 branch;  ///< c_b - c_a; to a wall: to where the wall is touched
-  double gap;   ///< signed; of pairs that are known to be apart without it: infinite
+  double gap;   ///< signed, length; of pairs that are known to be apart without it: infinite
   Vec3 normal;  ///< unit, from a to b; 0: not known
   Vec3 arm;     ///< contact point - c_a, midpoint of the witness points
 };
 
-/// The particles as bodies of geometry.
-class Bodies {
+/// The particles as bodies of geometry, and the questions that pairs of them ask.
+class NarrowPhase {
  public:
   /// Pairs that one call into geometry looks at. Measured on assembly-1000: from 32 to 256 the time
   /// differs by less than a tenth.
-  static constexpr std::size_t block = 64;
+  static constexpr std::size_t kBlock = 64;
 
-  Bodies() = default;
+  NarrowPhase() = default;
   // A copy is empty until its refresh(): the array looks at the ellipsoids where they lie.
-  Bodies(const Bodies&) {}
-  Bodies(Bodies&&) noexcept = default;
-  Bodies& operator=(Bodies&&) noexcept = default;
-  Bodies& operator=(const Bodies&) { return *this = Bodies(); }
+  NarrowPhase(const NarrowPhase&) {}
+  NarrowPhase(NarrowPhase&&) noexcept = default;
+  NarrowPhase& operator=(NarrowPhase&&) noexcept = default;
+  NarrowPhase& operator=(const NarrowPhase&) { return *this = NarrowPhase(); }
 
   /// Takes over shapes and orientations.
   void refresh(const Particles& particles);
 
-  /// Looks at pairs, side by side; at most `block`.
+  /// How pairs lie, side by side; at most kBlock of them.
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
-  void find(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
-            std::span<const Vec3> normals, Branch branch, std::span<Touch> touches) const;
+  void measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
+               std::span<const Vec3> normals, Branch branch,
+               std::span<PairGeometry> geometries) const;
 
   /// Principal curvatures of the distance between two touching bodies.
   PrincipalCurvatures relative_curvature(const Pair& pair, const Vec3& normal) const;
 
  private:
   enum class Kind { spheres, ellipses, ellipsoids };
-  void find_ellipsoids(std::span<const Pair> pairs, std::span<const Vec3> normals, Branch branch,
-                       std::span<Touch> touches) const;
-  Touch touch_wall(std::size_t i, const Wall& wall, const Particles& particles,
-                   const Cell& cell) const;
+  void measure_ellipsoids(std::span<const Pair> pairs, std::span<const Vec3> normals, Branch branch,
+                          std::span<PairGeometry> geometries) const;
+  PairGeometry measure_wall(std::size_t i, const Wall& wall, const Particles& particles,
+                            const Cell& cell) const;
 
   Kind kind_ = Kind::spheres;
   std::vector<double> radii_;  ///< of spheres

@@ -12,7 +12,7 @@ namespace tangency::dem {
 namespace {
 
 /// Most boxes along an edge: bounds the memory of a cell that is large and nearly empty.
-constexpr std::int32_t kMaxBoxes = 128;
+constexpr std::int32_t kMostBoxes = 128;
 
 /// The cell cut into equal boxes, and which particles (wrapped into the cell) each holds.
 class Boxes {
@@ -23,7 +23,7 @@ class Boxes {
     const Vec3 heights = cell.heights();
     for (std::size_t k = 0; k < static_cast<std::size_t>(cell.dimensions); ++k) {
       const double height = heights[static_cast<int>(k)];
-      count_[k] = static_cast<std::int32_t>(std::clamp(height / reach, 1.0, double{kMaxBoxes}));
+      count_[k] = static_cast<std::int32_t>(std::clamp(height / reach, 1.0, double{kMostBoxes}));
       around_[k] = static_cast<std::int32_t>(std::ceil(reach * count_[k] / height));
     }
     walled_ = cell.walled;

@@ -19,6 +19,7 @@
 
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

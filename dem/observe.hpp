@@ -14,7 +14,11 @@
 #include <variant>
 #include <vector>
 
+#include <tangency/dem/cell.hpp>
 #include <tangency/dem/contacts.hpp>
+#include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/particles.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

@@ -9,6 +9,6 @@ namespace tangency::dem {
 
 /// Below so many pairs, or particles, a loop is over before a second thread has woken up. Chosen:
 /// some 50 us of work, a few times what waking takes.
-inline constexpr std::size_t kWorthSharing = 400;
+inline constexpr std::size_t kParallelThreshold = 400;
 
 }  // namespace tangency::dem

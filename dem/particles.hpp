@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

@@ -111,7 +111,7 @@ class PlacedSpheres {
   PlacedSpheres(const Vec3& edges, double largest, int dimensions) : edges_(edges) {
     for (int k = 0; k < dimensions; ++k)
       count_[k] = std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(std::min(edges[k] / (2.0 * largest), most_boxes)));
+          1, static_cast<std::int64_t>(std::min(edges[k] / (2.0 * largest), kMostBoxes)));
     members_.resize(static_cast<std::size_t>(count_.prod()));
   }
 
@@ -129,7 +129,7 @@ class PlacedSpheres {
   void add(const Vec3& x, double radius) { members_[index(box_of(x))].push_back({x, radius}); }
 
  private:
-  static constexpr double most_boxes = 128.0;  // bounds the memory of a nearly empty cell
+  static constexpr double kMostBoxes = 128.0;  // bounds the memory of a nearly empty cell
   struct Sphere {
     Vec3 centre;
     double radius;

@@ -18,10 +18,10 @@ namespace tangency::dem {
 namespace {
 
 /// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
-constexpr double kLargestGrowthOfAnIncrement = 0.01;
+constexpr double kMostGrowthOfAnIncrement = 0.01;
 
 /// What walls are called in [contact.NAME-NAME].
-constexpr std::string_view kWall = "wall";
+constexpr std::string_view kWallName = "wall";
 
 bool is_contact_key(std::string_view name) {
   const auto keys = scene_keys();
@@ -105,7 +105,7 @@ class Reader {
       if (!is_name(name.str()))
         source_.fail(name.source(), path + ": a name of letters, digits and underscores");
       if (!node.is_table()) source_.fail(node.source(), path + " = " + text_of(node) + ": a table");
-      if (name.str() == kWall)
+      if (name.str() == kWallName)
         source_.fail(name.source(), path + ": another name: walls have it in [contact.NAME-wall]");
       const Section type(source_, *node.as_table(), path, "particles");
       check_flatness(type);
@@ -162,7 +162,7 @@ class Reader {
     const auto& types = scene_.particle_types;
     for (std::size_t k = 0; k < types.size(); ++k)
       if (types[k].name == name) return k;
-    if (scene_.has_walls() && name == kWall) return types.size();
+    if (scene_.has_walls() && name == kWallName) return types.size();
     return std::nullopt;
   }
   bool are_walls(std::size_t a, std::size_t b) const {
@@ -170,7 +170,7 @@ class Reader {
   }
   std::string type_name(std::size_t type) const {
     const auto& types = scene_.particle_types;
-    return type < types.size() ? types[type].name : std::string(kWall);
+    return type < types.size() ? types[type].name : std::string(kWallName);
   }
 
   /// [contact.a-b] and [contact.b-a] are one law: of the two, refuses that of the later line.
@@ -357,15 +357,15 @@ class Reader {
     Growth growth{section.real("elongation"), section.optional_real("flatness"),
                   section.integer("increments"), section.real("max_inertial_fraction")};
     const double change = largest_change(growth);
-    if (change > kLargestGrowthOfAnIncrement) {
+    if (change > kMostGrowthOfAnIncrement) {
       Growth enough = growth;
-      while (largest_change(enough) > kLargestGrowthOfAnIncrement)
+      while (largest_change(enough) > kMostGrowthOfAnIncrement)
         enough.increments += (enough.increments + 99) / 100;
       section.refuse("increments", growth.increments,
                      std::to_string(enough.increments) +
                          " or more: an increment would change a semi-axis by " +
                          short_text(change) + " of itself, and at most " +
-                         short_text(kLargestGrowthOfAnIncrement) + " is allowed");
+                         short_text(kMostGrowthOfAnIncrement) + " is allowed");
     }
     return growth;
   }

@@ -16,8 +16,10 @@ namespace {
 
 using enum KeyType;
 
-constexpr Range kAny{};
-constexpr Range kRatio{.low = 0.0, .high = 1.0};
+/// Of a text.
+constexpr Range kNoRange{};
+/// Without its ends.
+constexpr Range kOpenUnitInterval{.low = 0.0, .high = 1.0};
 constexpr Range between(double low, double high) { return {low, high, true, true}; }
 constexpr Range above_to(double low, double high) { return {low, high, false, true}; }
 
@@ -29,7 +31,7 @@ constexpr double kMostIncrements = 1e6;
 /// of inertia, sqrt(m/K) and its inverse are normal doubles, at most 1e200 and at least 1e-200.
 constexpr Range kPositive = between(1e-30, 1e30);
 constexpr Range kNotNegative = between(0.0, 1e30);
-constexpr Range kAnySize = between(-1e30, 1e30);
+constexpr Range kAnySign = between(-1e30, 1e30);
 /// Of semi-axes. Chosen: two of them make a needle or a disk of 1e8.
 constexpr Range kAxisRatio = between(1.0, 1e4);
 /// Measured on shear tests of one sample at steps growing from 0.05 sqrt(m/K_n): a step above
@@ -37,24 +39,25 @@ constexpr Range kAxisRatio = between(1.0, 1e4);
 /// friction angle silently falls from 44 to 33 degrees.
 constexpr double kLargestTimeStepFactor = 0.3;
 
-constexpr std::string_view kKinds = "place compress grow relax unload shear servo";
-constexpr std::string_view kMoving = "compress grow relax unload shear servo";
-constexpr std::string_view kIsotropic = "compress grow relax unload";
+/// The kinds of stages: all, those that move particles, those that load by one mean stress.
+constexpr std::string_view kStageKinds = "place compress grow relax unload shear servo";
+constexpr std::string_view kMovingKinds = "compress grow relax unload shear servo";
+constexpr std::string_view kIsotropicKinds = "compress grow relax unload";
 
-constexpr std::array kTable{
+constexpr std::array kKeys{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
 
     Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
     Key{"cell", "dimensions", integer, "-", "3", between(2, 3), "", "",
         "2: elliptic disks of unit thickness in the plane z = 0; a size then has 1 along z"},
-    Key{"cell", "walls", text, "-", "none", kAny, "none x y z xy xz yz xyz", "",
+    Key{"cell", "walls", text, "-", "none", kNoRange, "none x y z xy xz yz xyz", "",
         "Axes whose two faces are plane walls; the others are periodic"},
 
-    Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySize, "", "", "Acceleration"},
-    Key{"motion", "rotation", text, "-", "full", kAny, "none simplified full", "",
+    Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySign, "", "", "Acceleration"},
+    Key{"motion", "rotation", text, "-", "full", kNoRange, "none simplified full", "",
         "Euler's equations: full, without their quadratic terms, or none at all"},
-    Key{"motion", "contacts", text, "-", "follow", kAny, "follow global", "",
+    Key{"motion", "contacts", text, "-", "follow", kNoRange, "follow global", "",
         "Of several ways out of an overlap: that of the step before, or the shortest"},
 
     Key{"particles", "count", integer, "-", "", between(1, kMostParticles), "", "",
@@ -66,14 +69,14 @@ constexpr std::array kTable{
     Key{"particles", "density", real, "kg/m^3", "1000.0", kPositive, "", "",
         "Mass over volume; scales time, and nothing else in slow motion"},
 
-    Key{"body", "type", text, "-", "", kAny, "", "", "Name of a particle type"},
-    Key{"body", "position", real3, "m", "", kAnySize, "", "", "Centre"},
-    Key{"body", "orientation", real4, "-", "(1, 0, 0, 0)", kAnySize, "", "",
+    Key{"body", "type", text, "-", "", kNoRange, "", "", "Name of a particle type"},
+    Key{"body", "position", real3, "m", "", kAnySign, "", "", "Centre"},
+    Key{"body", "orientation", real4, "-", "(1, 0, 0, 0)", kAnySign, "", "",
         "Quaternion w, x, y, z, not 0, of any length; in the plane about z"},
-    Key{"body", "velocity", real3, "m/s", "(0)", kAnySize, "", "", "Relative to the strain"},
-    Key{"body", "angular_velocity", real3, "1/s", "(0)", kAnySize, "", "", "In space axes"},
+    Key{"body", "velocity", real3, "m/s", "(0)", kAnySign, "", "", "Relative to the strain"},
+    Key{"body", "angular_velocity", real3, "1/s", "(0)", kAnySign, "", "", "In space axes"},
 
-    Key{"contact", "law", text, "-", "linear", kAny, "linear hertz", "",
+    Key{"contact", "law", text, "-", "linear", kNoRange, "linear hertz", "",
         "hertz: elliptic contacts by Hertz and Mindlin, from curvatures and material"},
     Key{"contact", "normal_stiffness", real, "N/m", "(needed by linear)", kPositive, "", "",
         "K_n: normal force over overlap"},
@@ -90,14 +93,14 @@ constexpr std::array kTable{
     Key{"contact", "cohesion", real, "N", "0.0", kNotNegative, "", "",
         "Coulomb limit without a normal force"},
 
-    Key{"stage", "kind", text, "-", "", kAny, kKinds, kKinds, "What the stage does"},
-    Key{"stage", "name", text, "-", "(its kind)", kAny, "", kKinds,
+    Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
+    Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,
         "Name in the column stage of history.csv"},
-    Key{"stage", "arrangement", text, "-", "lattice", kAny, "lattice random explicit", "place",
+    Key{"stage", "arrangement", text, "-", "lattice", kNoRange, "lattice random explicit", "place",
         "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
         "[[body]] "
         "by [[body]]"},
-    Key{"stage", "file", path, "-", "(the scene's [[body]])", kAny, "", "place",
+    Key{"stage", "file", path, "-", "(the scene's [[body]])", kNoRange, "", "place",
         "explicit: a table of bodies instead, beside the scene: CSV with type, x, y, z and, if so "
         "wanted, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
     Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
@@ -106,7 +109,7 @@ constexpr std::array kTable{
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
     Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
         "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
-    Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kIsotropic,
+    Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kIsotropicKinds,
         "Mean stress to reach (compress) or to hold (grow, relax, unload)"},
     Key{"stage", "mean_stress", real, "Pa", "(not held)", kPositive, "", "shear servo",
         "Mean stress to hold; a shear that holds none keeps its volume"},
@@ -117,9 +120,9 @@ constexpr std::array kTable{
         "what is held"},
     Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
         "Logarithmic axial compression at which the stage ends"},
-    Key{"stage", "strain_rate", real3, "1/s", "(0)", kAnySize, "", "servo",
+    Key{"stage", "strain_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
         "Along x, y, z, compression positive; servos add to it"},
-    Key{"stage", "shear_rate", real3, "1/s", "(0)", kAnySize, "", "servo",
+    Key{"stage", "shear_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
         "Components xy, yz, zx of the strain rate, of the same sign"},
     Key{"stage", "stress_xx", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
     Key{"stage", "stress_yy", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
@@ -139,20 +142,20 @@ constexpr std::array kTable{
         "Steps in which elongation and flatness change; one changes a semi-axis by at most 0.01"},
     Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
         "Increments wait for the inertial fraction to be at most this, and so does the end"},
-    Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kIsotropic,
+    Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kIsotropicKinds,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", kPositive, "", "shear",
         "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
         "0.05, or axial_strain_rate where that is more"},
     Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", kPositive, "",
         "servo", "The same"},
-    Key{"stage", "servo_gain", real, "-", "0.5", kRatio, "", "shear servo",
+    Key{"stage", "servo_gain", real, "-", "0.5", kOpenUnitInterval, "", "shear servo",
         "Share of the stress error that the servo removes in a cycle"},
-    Key{"stage", "servo_gain", real, "-", "0.2", kRatio, "", "relax unload",
+    Key{"stage", "servo_gain", real, "-", "0.2", kOpenUnitInterval, "", "relax unload",
         "The same; slower, since cell and particles come to rest together"},
-    Key{"stage", "servo_gain", real, "-", "0.005", kRatio, "", "compress grow",
+    Key{"stage", "servo_gain", real, "-", "0.005", kOpenUnitInterval, "", "compress grow",
         "The same; still slower, since these pass through states that hardly bear stress"},
-    Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", kPositive, "", kMoving,
+    Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", kPositive, "", kMovingKinds,
         "Gain of the published servo instead: the rate grows by it times the stress error each "
         "cycle; it rings"},
     Key{"stage", "damping", real, "sqrt(K_max/m_min)", "0.5", between(0.0, 10.0), "",
@@ -163,17 +166,17 @@ constexpr std::array kTable{
         "The same; without: velocities are turned towards the forces, and taken away where they "
         "run against them, by the fast inertial relaxation engine"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
-        above_to(0.0, kLargestTimeStepFactor), "", kMoving, "Time step of a cycle"},
+        above_to(0.0, kLargestTimeStepFactor), "", kMovingKinds, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", kNotNegative, "",
         "compress relax shear servo", "Used for all contacts during this stage"},
     Key{"stage", "friction_coefficient", real, "-", "0.0", kNotNegative, "", "grow unload",
         "Used for all contacts during this stage"},
-    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", kIsotropic,
+    Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", kIsotropicKinds,
         "The stage ends with the mean stress this close to the wanted, relatively"},
     Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax unload",
         "The stage ends with every particle's unbalanced force, and moment over its largest "
         "semi-axis, below this times the mean contact force"},
-    Key{"stage", "max_cycles", integer, "-", "200000", between(1, kMostCycles), "", kMoving,
+    Key{"stage", "max_cycles", integer, "-", "200000", between(1, kMostCycles), "", kMovingKinds,
         "The run fails when the stage has not ended by then"},
 
     Key{"output", "history_interval", integer, "cycles", "50", between(1, kMostCycles), "", "",
@@ -248,7 +251,7 @@ SchemaLine schema_line(const Key& key) {
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
   std::string meaning(key.meaning);
-  if (key.section == "stage" && key.kinds != kKinds)
+  if (key.section == "stage" && key.kinds != kStageKinds)
     meaning += " [" + choices_text(key.kinds) + ']';
   return {std::string(key.name),
           std::string(type_text(key.type)),
@@ -274,7 +277,7 @@ void print_section(std::ostream& out, std::span<const Key> keys) {
 
 }  // namespace
 
-std::span<const Key> scene_keys() { return kTable; }
+std::span<const Key> scene_keys() { return kKeys; }
 
 bool is_among(std::string_view word, std::string_view words) {
   std::istringstream stream{std::string(words)};

@@ -11,7 +11,7 @@ namespace tangency::dem {
 namespace {
 
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
-constexpr double kLargestStrainOfAStep = 0.1;
+constexpr double kMostStrainOfAStep = 0.1;
 
 constexpr const char* kStressKeys[] = {"stress_xx", "stress_yy", "stress_zz"};
 
@@ -82,10 +82,10 @@ void check_step(const Section& section, const Drive& stage, const Scene& scene) 
     lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes(scene.dimensions),
                                                             scene.dimensions));
   const double largest =
-      kLargestStrainOfAStep /
+      kMostStrainOfAStep /
       (stage.time_step_factor * std::sqrt(lightest / scene.laws.largest_stiffness()));
   const std::string allowed = "a finite number < " + short_text(largest) + " (1/s), a strain of " +
-                              short_text(kLargestStrainOfAStep) + " a time step";
+                              short_text(kMostStrainOfAStep) + " a time step";
   const Servo& servo = stage.loading.servo;
   if (!(servo.max_strain_rate < largest))
     section.fail(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate", allowed);

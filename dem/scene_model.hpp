@@ -14,7 +14,10 @@
 #include <tangency/dem/growth.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/narrow_phase.hpp>
+#include <tangency/dem/particles.hpp>
 #include <tangency/dem/sample.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

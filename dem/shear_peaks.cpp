@@ -9,7 +9,7 @@ namespace tangency::dem {
 namespace {
 
 /// Relative slack of a window's width: rows at equal steps of strain lie on its end.
-constexpr double kRounding = 1e-9;
+constexpr double kWindowSlack = 1e-9;
 
 struct Slope {
   double rate, strain;
@@ -45,12 +45,12 @@ template <class Look>
 void for_each_window(std::span<const ShearRow> rows, Look&& look) {
   constexpr std::size_t fewest = 3;
   for (std::size_t first = 0, end = 0; first < rows.size(); ++first) {
-    const double reach = rows[first].axial_strain + kPeakWindow * (1.0 + kRounding);
+    const double reach = rows[first].axial_strain + kPeakWindow * (1.0 + kWindowSlack);
     end = std::max(end, first);
     while (end < rows.size() && rows[end].axial_strain <= reach) ++end;
     const std::size_t last = std::min(std::max(end, first + fewest), rows.size());
     // What is left at the end is part of the windows before.
-    const bool is_short = rows.back().axial_strain < reach - 2.0 * kRounding * kPeakWindow;
+    const bool is_short = rows.back().axial_strain < reach - 2.0 * kWindowSlack * kPeakWindow;
     if (first > 0 && (is_short || last - first < fewest)) break;
     look(rows.subspan(first, last - first));
   }

@@ -30,11 +30,11 @@ constexpr double loosest_packing(int dimensions) { return dimensions == 2 ? 0.7 
 
 /// Relative difference of two descriptions of one particle: the semi-axes of another machine's
 /// libm are a few roundings off. Chosen: far below any change that someone makes.
-constexpr double kSameParticle = 1e-9;
+constexpr double kSameRelatively = 1e-9;
 
 /// @throws CellTooThin
 void require_thickness(const Cell& cell, const LeastCell& least) {
-  if (auto thin = thin_place(cell, least, kMostSqueezed)) throw CellTooThin(std::move(*thin));
+  if (auto thin = thin_place(cell, least, kMostSqueeze)) throw CellTooThin(std::move(*thin));
 }
 
 /// Axial strain from which a shear is held to its stress: what is before it is start. Chosen: a
@@ -42,7 +42,7 @@ void require_thickness(const Cell& cell, const LeastCell& least) {
 constexpr double kSettlingStrain = 0.01;
 
 void require_equal(const std::string& key, double in_state, double in_scene) {
-  if (std::abs(in_state - in_scene) <= kSameParticle * in_scene) return;
+  if (std::abs(in_state - in_scene) <= kSameRelatively * in_scene) return;
   throw std::invalid_argument("a state with " + key + " = " + tables::rounded_text(in_state, 10) +
                               "; the scene has " + tables::rounded_text(in_scene, 10));
 }
@@ -90,7 +90,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
   std::vector<std::string> keys;
   std::string text;
   const auto compare = [&](std::size_t pair, const std::string& key, double was, double is) {
-    if (std::abs(was - is) <= kSameParticle * std::abs(is)) return;
+    if (std::abs(was - is) <= kSameRelatively * std::abs(is)) return;
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
     keys.push_back(key);
     const auto name = [&](std::size_t type) {

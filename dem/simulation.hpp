@@ -11,10 +11,18 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/cell.hpp>
+#include <tangency/dem/contacts.hpp>
 #include <tangency/dem/fire.hpp>
+#include <tangency/dem/loading.hpp>
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/observe.hpp>
+#include <tangency/dem/particles.hpp>
 #include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_model.hpp>
 #include <tangency/dem/thin_cell.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 

@@ -20,7 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
 constexpr std::string_view kMagic = "TANGSTAT";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kFormatVersion = 4;
 
 class Writer {
  public:
@@ -301,7 +301,7 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   const std::string body = bytes_of(state);
   Writer head, tail;
-  head(kVersion);
+  head(kFormatVersion);
   tail(fnv1a(body));
   write_whole(file, std::string(kMagic) + head.take() + body + tail.take());
 }
@@ -315,13 +315,13 @@ State load_state(const std::filesystem::path& file) {
     throw StateError(error.what());
   }
   const std::string_view bytes = whole;
-  constexpr std::size_t head = kMagic.size() + sizeof kVersion;
+  constexpr std::size_t head = kMagic.size() + sizeof kFormatVersion;
   if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(kMagic))
     fail("no state of tangency-dem: final.state or checkpoint.state of a run");
   const auto found = number_at<std::uint32_t>(bytes, kMagic.size());
-  if (found != kVersion)
+  if (found != kFormatVersion)
     fail("state of version " + std::to_string(found) + ": this program reads version " +
-         std::to_string(kVersion));
+         std::to_string(kFormatVersion));
   const std::size_t end = bytes.size() - sizeof(std::uint64_t);
   const std::string_view body = bytes.substr(head, end - head);
   if (number_at<std::uint64_t>(bytes, end) != fnv1a(body)) fail("damaged: its hash is wrong");

@@ -19,7 +19,11 @@
 #include <string>
 #include <utility>
 
+#include <tangency/dem/cell.hpp>
 #include <tangency/dem/contacts.hpp>
+#include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/particles.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
 
@@ -50,7 +54,7 @@ struct ThinPlace {
 
 /// Share of LeastCell::wall_distance() to which walls may squeeze particles in a run. Chosen: the
 /// overlap that a sound run has at most, a tenth of the radius, at each of the two walls.
-inline constexpr double kMostSqueezed = 0.9;
+inline constexpr double kMostSqueeze = 0.9;
 
 /// Where the cell is thinner than its particles allow, if anywhere.
 /// @param squeezed  share of LeastCell::wall_distance() that is left to walls

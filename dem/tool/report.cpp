@@ -52,7 +52,7 @@ struct Headed {
 };
 
 /// The table's columns.
-const std::array<Headed, 9> heads{{{"stage", ""},
+const std::array<Headed, 9> kHeads{{{"stage", ""},
                                    {"cycles", ""},
                                    {"mean stress", "Pa"},
                                    {"friction angle", "deg"},
@@ -61,7 +61,7 @@ const std::array<Headed, 9> heads{{{"stage", ""},
                                    {"inertial fraction", ""},
                                    {"axial strain", ""},
                                    {"energy error", "of the work done"}}};
-using Line = std::array<std::string, heads.size()>;
+using Line = std::array<std::string, kHeads.size()>;
 
 /// A run as far as its directory knows it.
 class Run {
@@ -152,9 +152,9 @@ class Run {
 
 std::string text_of(const std::vector<Line>& lines) {
   Line head;
-  std::array<std::size_t, heads.size()> wide{};
-  for (std::size_t k = 0; k < heads.size(); ++k) {
-    head[k] = heads[k].name + (heads[k].unit.empty() ? "" : " (" + heads[k].unit + ")");
+  std::array<std::size_t, kHeads.size()> wide{};
+  for (std::size_t k = 0; k < kHeads.size(); ++k) {
+    head[k] = kHeads[k].name + (kHeads[k].unit.empty() ? "" : " (" + kHeads[k].unit + ")");
     wide[k] = head[k].size();
     for (const Line& line : lines) wide[k] = std::max(wide[k], line[k].size());
   }
@@ -173,7 +173,7 @@ std::string text_of(const std::vector<Line>& lines) {
 
 std::string table_of(const std::vector<Line>& lines) {
   std::string text = "<table><tr>";
-  for (const Headed& head : heads)
+  for (const Headed& head : kHeads)
     text += "<th>" + head.name + (head.unit.empty() ? "" : "<br>" + head.unit) + "</th>";
   for (const Line& line : lines) {
     text += "</tr>\n<tr>";

@@ -10,7 +10,7 @@
 
 #include <tangency/dem/observe.hpp>
 
-#include "moving.hpp"
+#include "assembly.hpp"
 
 namespace {
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Small assemblies for the tests of the simulator, and a brute-force look at their contacts.
+/// Small assemblies for the tests of the simulator: a crowd, a brute-force look at its contacts,
+/// its motion by the simulator's own parts without a scene, and ways to look at it from another
+/// place.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
 
 #include <tangency/dem/contacts.hpp>
+#include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
 #include <tangency/geometry/gap.hpp>
 
@@ -57,5 +61,77 @@ inline std::vector<dem::Pair> meeting_pairs(const dem::Particles& particles, con
 
 /// One law for all pairs of one type.
 inline dem::ContactLaws laws(const dem::ContactLaw& law) { return {1, {law}}; }
+
+/// An assembly that moves.
+struct Moving {
+  dem::Cell cell;
+  dem::Particles particles;
+  dem::NeighbourList list{};
+  dem::Contacts contacts{};
+  dem::Branch branch = dem::Branch::global;
+
+  void update(const dem::ContactLaw& law, double dt) {
+    if (!list.is_current(particles, cell)) {
+      const std::vector<dem::Pair> before = list.pairs();
+      list.build(particles, cell, 0.3);
+      contacts.carry_over(before, list.pairs());
+    }
+    // In a walled cell the walls are a second type.
+    const std::size_t types = cell.has_walls() ? 2 : 1;
+    contacts.update(particles, cell, list, {types, std::vector(types * types, law)}, dt, branch);
+  }
+  void step(const dem::ContactLaw& law, const dem::Motion& motion, double dt) {
+    dem::move(particles, cell, contacts.resultants(), motion, dt);
+    update(law, dt);
+  }
+  void run(const dem::ContactLaw& law, int steps, double dt, double damping = 0.0) {
+    update(law, 0.0);
+    for (int k = 0; k < steps; ++k) step(law, {dem::Rotation::full, Vec3::Zero(), damping}, dt);
+  }
+
+  double largest_force() const {
+    double largest = 0.0;
+    for (const Vec3& force : contacts.resultants().force) largest = std::max(largest, force.norm());
+    return largest;
+  }
+  double largest_contact_force() const {
+    double largest = 0.0;
+    for (const dem::Contact& contact : contacts.records())
+      largest = std::max(largest, contact.force.norm());
+    return largest;
+  }
+  std::size_t touching() const {
+    const auto& all = contacts.records();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const auto& one) { return one.touches(); }));
+  }
+};
+
+/// The same assembly seen from turned axes: x becomes `turn` x.
+inline dem::Particles turned(const dem::Particles& particles, const Mat3& turn) {
+  dem::Particles seen = particles;
+  const Eigen::Quaterniond q(turn);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    seen.position[i] = turn * particles.position[i];
+    seen.velocity[i] = turn * particles.velocity[i];
+    seen.angular_velocity[i] = turn * particles.angular_velocity[i];
+    seen.orientation[i] = (q * particles.orientation[i]).normalized();
+  }
+  return seen;
+}
+
+/// The 24 rotations that take coordinate axes to coordinate axes.
+inline std::vector<Mat3> axis_rotations() {
+  std::vector<Mat3> all;
+  int order[3] = {0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Mat3 turn = Mat3::Zero();
+      for (int k = 0; k < 3; ++k) turn(order[k], k) = (signs >> k & 1) != 0 ? -1.0 : 1.0;
+      if (turn.determinant() > 0.0) all.push_back(turn);
+    }
+  } while (std::next_permutation(order, order + 3));
+  return all;
+}
 
 }  // namespace tangency::testing

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "../tool/process.hpp"
-#include "file_size_limit.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {

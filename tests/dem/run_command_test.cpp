@@ -16,7 +16,6 @@
 #include <tangency/dem/observe.hpp>
 
 #include "../tool/process.hpp"
-#include "file_size_limit.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {

@@ -9,7 +9,7 @@
 
 #include <tangency/dem/observe.hpp>
 
-#include "moving.hpp"
+#include "assembly.hpp"
 
 namespace {
 

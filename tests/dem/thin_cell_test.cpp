@@ -215,7 +215,7 @@ TEST(ThinCell, NearerWallsLeaveNoPlaceHoweverABodyIsTurned) {
     const double apart = (1.0 - 1e-9) * least.wall_distance();
     const Cell cell = Cell::box({9.0, 9.0, apart}, 3, {false, false, true});
     EXPECT_TRUE(thin_place(cell, least));
-    EXPECT_FALSE(thin_place(cell, least, kMostSqueezed));
+    EXPECT_FALSE(thin_place(cell, least, kMostSqueeze));
     Particles particles;
     particles.add({4.0, 4.0, apart * uniform(random)}, uniform_rotation(random), axes, 1.0, 0);
     const Touching seen(particles, cell);

@@ -10,7 +10,7 @@
 
 #include <tangency/dem/simulation.hpp>
 
-#include "moving.hpp"
+#include "assembly.hpp"
 
 namespace {
 

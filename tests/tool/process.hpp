@@ -3,8 +3,10 @@
 /// Runs the built `tangency` as a user does: a process with arguments, files and pipes.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -120,5 +122,25 @@ class FolderWatch {
 /// Runs to the end with the given text on standard input.
 Finished run_tool(const std::vector<std::string>& arguments, std::string_view input = "",
                   const Process::Place& place = Process::Place());
+
+/// As on a full disk: no file grows beyond `bytes` while this lives, in tools started here too.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, action_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*action_)(int);
+  rlimit before_{};
+};
 
 }  // namespace tangency::testing

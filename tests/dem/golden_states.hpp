@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Runs whose last states' hashes are committed, in tests/data/golden_states/states.csv, and what
+/// tells which of its rows are those of this machine. golden_states.cpp writes the rows; what
+/// changes them: docs/simulator.md.
+#pragma once
+
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <tangency/dem/scene.hpp>
+#include <tangency/dem/simulation.hpp>
+#include <tangency/dem/state_file.hpp>
+
+namespace tangency::testing {
+
+struct GoldenRun {
+  const char* name;
+  const char* scene;
+  int cycles;
+};
+
+/// Pairs and, but for `hertz`, particles enough to be shared among threads; at the end some
+/// hundred contacts that slide and roll.
+inline constexpr GoldenRun kGoldenRuns[] = {{"linear", R"(schema = 1
+[cell]
+[particles.grain]
+count = 512
+mean_radius = 10.0
+elongation = 1.4
+flatness = 1.2
+[contact]
+normal_stiffness = 1.5e10
+shear_stiffness = 1.2e10
+friction_coefficient = 0.5
+[[stage]]
+kind = "place"
+[[stage]]
+kind = "compress"
+mean_stress = 10e6
+max_strain_rate = 1.0
+)",
+                                             250},
+                                            {"hertz", R"(schema = 1
+[cell]
+walls = "z"
+[motion]
+gravity = [0.0, 0.0, -9.81]
+[particles.grain]
+count = 83
+mean_radius = 10.0
+elongation = 1.4
+[particles.ball]
+count = 42
+mean_radius = 12.0
+[contact]
+law = "hertz"
+young_modulus = 1e9
+friction_coefficient = 0.4
+[[stage]]
+kind = "place"
+[[stage]]
+kind = "compress"
+mean_stress = 10e6
+max_strain_rate = 1.0
+)",
+                                             200},
+                                            {"plane", R"(schema = 1
+[cell]
+dimensions = 2
+[particles.disk]
+count = 484
+mean_radius = 10.0
+[contact]
+normal_stiffness = 1.5e10
+friction_coefficient = 0.3
+[[stage]]
+kind = "place"
+[[stage]]
+kind = "grow"
+friction_coefficient = 0.3
+elongation = 1.3
+increments = 50
+mean_stress = 10e6
+max_strain_rate = 1.0
+)",
+                                             250}};
+
+inline dem::Simulation start(const GoldenRun& run) {
+  return dem::Simulation(dem::parse_scene(run.scene, run.name));
+}
+
+inline void run_cycles(dem::Simulation& simulation, int cycles) {
+  for (int cycle = 0; cycle < cycles; ++cycle) simulation.step();
+}
+
+/// 16 hexadecimal digits that tell one libm from another by the last bits of the functions that
+/// simulator and kernel call. One library holds several: glibc takes those with fused
+/// multiply-adds where the processor has them.
+inline std::string libm_of_this_machine() {
+  std::uint64_t hash = 0;
+  const auto add = [&hash](double x) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+  };
+  for (int k = 1; k <= 20000; ++k) {
+    const double x = k * 0x1.9p-11, y = 20001 - k;  // to 15.6
+    for (const double value :
+         {std::sin(x), std::cos(x), std::atan2(x, y), std::hypot(x, y), std::exp(-x), std::log(x),
+          std::log1p(x), std::cbrt(x), std::pow(y, x / 8)})
+      add(value);
+  }
+  std::array<char, 17> text;
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+/// Which of the batch's kinds of arithmetic an instruction set of Highway has: gap_batch.hpp lets
+/// last bits depend on it.
+inline std::string batch_of(std::int64_t level) {
+  if (level == HWY_AVX2) return "AVX2";
+  return (level & (HWY_SSE4 | HWY_SSSE3 | HWY_SCALAR | HWY_EMU128)) != 0
+             ? "no-FMA"
+             : std::string(hwy::TargetName(level)).substr(0, 4);
+}
+
+/// Runs with each instruction set that this machine and this build have, the best one last.
+template <class Run>
+void at_every_level(Run&& run) {
+  std::vector<std::int64_t> levels = hwy::SupportedAndGeneratedTargets();
+  std::sort(levels.rbegin(), levels.rend());
+  for (const std::int64_t level : levels) {
+    hwy::SetSupportedTargetsForTest(level);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    run(level);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+/// What a row of the file begins with: the kind of this machine, as the batch runs now.
+inline std::string kind_of_this_machine() {
+  const std::int64_t best = hwy::SupportedTargets() & -hwy::SupportedTargets();
+  return libm_of_this_machine() + ',' + batch_of(best);
+}
+
+/// "linear,250,582,65099ab460d4226f": what a row goes on with.
+inline std::string row_of(const GoldenRun& run, const dem::Simulation& simulation) {
+  return std::string(run.name) + ',' + std::to_string(simulation.state().cycle) + ',' +
+         std::to_string(simulation.observe().contacts) + ',' + state_hash(simulation.state());
+}
+
+}  // namespace tangency::testing
