@@ -53,14 +53,14 @@ struct Headed {
 
 /// The table's columns.
 const std::array<Headed, 9> kHeads{{{"stage", ""},
-                                   {"cycles", ""},
-                                   {"mean stress", "Pa"},
-                                   {"friction angle", "deg"},
-                                   {"coordination", ""},
-                                   {"porosity", ""},
-                                   {"inertial fraction", ""},
-                                   {"axial strain", ""},
-                                   {"energy error", "of the work done"}}};
+                                    {"cycles", ""},
+                                    {"mean stress", "Pa"},
+                                    {"friction angle", "deg"},
+                                    {"coordination", ""},
+                                    {"porosity", ""},
+                                    {"inertial fraction", ""},
+                                    {"axial strain", ""},
+                                    {"energy error", "of the work done"}}};
 using Line = std::array<std::string, kHeads.size()>;
 
 /// A run as far as its directory knows it.

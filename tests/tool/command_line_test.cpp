@@ -82,6 +82,7 @@ TEST(CommandLine, ReadsEveryKindOfValue) {
   EXPECT_EQ(place, "file");
 }
 
+// geometry/tables/command_line.hpp (1)
 TEST(CommandLine, EveryRefusalIsOneLineThatNamesTheOption) {
   const auto refusal = [](std::vector<const char*> arguments) {
     Program program("prog", "A program");
@@ -130,6 +131,7 @@ TEST(CommandLine, AnOptionTellsWhetherItWasGiven) {
   }
 }
 
+// geometry/tables/command_line.hpp (1)
 TEST(CommandLine, WhatTheBodyThrowsIsARefusalWithTheNameOfTheProgram) {
   const auto refusal = [](const std::function<int()>& body) {
     Program program("prog", "A program");
@@ -151,7 +153,7 @@ TEST(CommandLine, WhatTheBodyThrowsIsARefusalWithTheNameOfTheProgram) {
 }
 
 /// A program that prints through stdio and std::cout, and lets neither know of an error.
-int print_to(int standard_output) {
+int print_to(int standard_output, const char* argument = nullptr) {
   ::dup2(standard_output, STDOUT_FILENO);
   Program program("prog", "A program");
   program.runs([] {
@@ -159,16 +161,20 @@ int print_to(int standard_output) {
     std::cout << "another\n";
     return 0;
   });
-  const char* const name = "prog";
-  return program.run(1, &name);
+  const std::array<const char*, 2> arguments{"prog", argument};
+  return program.run(argument == nullptr ? 1 : 2, arguments.data());
 }
 
+// geometry/tables/command_line.hpp (2)
 TEST(CommandLineDeathTest, WhatWasPrintedToAFullDiskIsARefusal) {
-  EXPECT_EXIT(std::_Exit(print_to(::open("/dev/full", O_WRONLY | O_CLOEXEC))),
-              ::testing::ExitedWithCode(2),
-              "^<stdout>: cannot be written: No space left on device");
+  for (const char* argument : {static_cast<const char*>(nullptr), "--help"}) {
+    EXPECT_EXIT(std::_Exit(print_to(::open("/dev/full", O_WRONLY | O_CLOEXEC), argument)),
+                ::testing::ExitedWithCode(2),
+                "^<stdout>: cannot be written: No space left on device");
+  }
 }
 
+// geometry/tables/command_line.hpp (3)
 TEST(CommandLineDeathTest, WhatWasPrintedToAReaderThatHasGoneEndsTheProgramLikeSigpipe) {
   const auto print_to_nobody = [] {
     std::array<int, 2> ends{};

@@ -304,7 +304,9 @@ bool check_curvatures(Source& source, long count) {
 
 /// d2g / dv_i dv_j by differences is half of a commutator off: gap_derivatives.hpp.
 double half_commutator(const GapDerivatives& d, int i, int j) {
-  if (!testing::is_angle(i) || !testing::is_angle(j) || i / kOfBodyB != j / kOfBodyB) return 0;
+  if (!tangency::testing::is_angle(i) || !tangency::testing::is_angle(j) ||
+      i / kOfBodyB != j / kOfBodyB)
+    return 0;
   const int first = i - i % 3;
   return 0.5 *
          d.gradient.segment<3>(first).dot(Vec3::Unit(i - first).cross(Vec3(Vec3::Unit(j - first))));
@@ -312,8 +314,8 @@ double half_commutator(const GapDerivatives& d, int i, int j) {
 
 bool check_derivatives(Source& source, long count) {
   constexpr double kGradient = 128, kHessian = 16;
-  constexpr long kEvery = 8;  // pairs to a column of the Hessian
-  const Real step("1e-40");
+  constexpr long kEvery = 8;               // pairs to a column of the Hessian
+  const Real step = ldexp(Real(1), -133);  // 1e-40
   Worst centres{"gradient: centres"}, angles{"gradient: angles"}, axes{"gradient: semi-axes"};
   Worst hessian{"Hessian (measured, not derived)"};
   long answers = 0, degenerate = 0, columns = 0;
@@ -325,9 +327,9 @@ bool check_derivatives(Source& source, long count) {
       ++degenerate;
       continue;
     }
-    const testing::RealPair pair{verify::real(verify::to_raw(p.a)),
-                                 verify::real(verify::to_raw(p.b))};
-    const auto truth_of = [&](const testing::RealPair& at) {
+    const tangency::testing::RealPair pair{verify::real(verify::to_raw(p.a)),
+                                           verify::real(verify::to_raw(p.b))};
+    const auto truth_of = [&](const tangency::testing::RealPair& at) {
       return gradient_of(at,
                          stationary_gap(at.a, at.b, {gap.normal[0], gap.normal[1], gap.normal[2]}));
     };
@@ -342,10 +344,12 @@ bool check_derivatives(Source& source, long count) {
     const double beta = std::max(sharpness(p.a), sharpness(p.b));
     const double unit = kU * deep * (kappa + std::sqrt(kappa * beta));
     const auto scale = [&](int k) {
-      return k % kOfBodyB < kRotation ? 1 : testing::is_angle(k) ? size * beta : beta;
+      return k % kOfBodyB < kRotation ? 1 : tangency::testing::is_angle(k) ? size * beta : beta;
     };
     for (int k = 0; k < 18; ++k) {
-      Worst& kind = k % kOfBodyB < kRotation ? centres : testing::is_angle(k) ? angles : axes;
+      Worst& kind = k % kOfBodyB < kRotation         ? centres
+                    : tangency::testing::is_angle(k) ? angles
+                                                     : axes;
       const Real off = abs(Real(d.gradient[k]) - truth[static_cast<std::size_t>(k)]);
       kind.see(as_double(off) / (kGradient * unit * scale(k)), p, gap.normal);
     }

@@ -17,7 +17,8 @@ struct ToolLimits {
 };
 
 struct ToolRun {
-  tables::Descriptor output;  ///< a file in memory with what came on standard output; never closed yet
+  tables::Descriptor
+      output;  ///< a file in memory with what came on standard output; never closed yet
   std::string output_path;  ///< by which this process opens it again
   bool sound;               ///< ended by itself, not by a signal, a limit or an interrupt
   std::string ending;  ///< "ended with status 0", "was ended by signal 11 (Segmentation fault)",
