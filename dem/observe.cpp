@@ -10,6 +10,9 @@
 namespace tangency::dem {
 namespace {
 
+/// One type for eigenvalues of any size here: a solver takes seconds to compile.
+using UpTo6 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
 /// Touching pairs of each particle. A pair of a particle with its own image counts twice: both
 /// its ends are on the particle.
 std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& contacts,
@@ -47,11 +50,10 @@ Stress stress_of(const Contacts& contacts, const Cell& cell) {
 }
 
 double friction_angle_deg(const Mat3& stress, int dimensions) {
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
-  const Block block = stress.topLeftCorner(dimensions, dimensions);
-  const auto principal =
-      Eigen::SelfAdjointEigenSolver<Block>(block, Eigen::EigenvaluesOnly).eigenvalues().eval();
-  const double least = principal[0], most = principal[dimensions - 1];
+  const Eigen::SelfAdjointEigenSolver<UpTo6> principal(stress.topLeftCorner(dimensions, dimensions),
+                                                       Eigen::EigenvaluesOnly);
+  const double least = principal.eigenvalues()[0];
+  const double most = principal.eigenvalues()[dimensions - 1];
   if (!(least + most > 0.0)) return 0.0;
   const double sine = std::min(1.0, (most - least) / (least + most));
   return std::asin(sine) * 180.0 / std::numbers::pi;
@@ -117,7 +119,7 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
       if (particles.dimensions == 2) motion.middleCols<3>(2).setZero();
       sum += motion.transpose() * stiffness * motion;
     }
-    const Eigen::SelfAdjointEigenSolver<Mat6> modes(sum, Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<UpTo6> modes(sum, Eigen::EigenvaluesOnly);
     largest = std::max(largest, modes.eigenvalues()[5]);
   }
   return std::sqrt(2.0 / largest);

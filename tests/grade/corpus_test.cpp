@@ -20,6 +20,7 @@
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/families/draw.hpp>
+#include <tangency/verify/families/placing.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
@@ -153,7 +154,7 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
       }
       EXPECT_TRUE(row.every_normal || row.normals > 0);
       for (int i = 0; i < 20; ++i) {
-        const Real3 n = draw.direction();
+        const Real3 n = drawn_direction(draw);
         EXPECT_LE(ascent::value(pair, n).f, gap + 1e-30 * row.size)
             << corpus.name << " row " << line.index();
       }

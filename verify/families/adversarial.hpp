@@ -14,7 +14,7 @@
 #include <span>
 #include <string_view>
 
-#include <tangency/verify/families/placing.hpp>
+#include <tangency/verify/families/pair.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency::verify {

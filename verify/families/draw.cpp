@@ -28,18 +28,6 @@ double Draw::log_uniform(double from, double to) {
   return Digits(exp(low + (high - low) * unit())).convert_to<double>();
 }
 
-Real3 Draw::direction() {
-  for (;;) {
-    Real3 n;
-    for (Real& v : n) v = real(-1, 1);
-    const Real square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    if (square > 1 || square < 0.01) continue;
-    const Real length = sqrt(square);
-    for (Real& v : n) v /= length;
-    return n;
-  }
-}
-
 std::array<double, 4> Draw::orientation() {
   for (;;) {
     std::array<double, 4> q;

@@ -12,11 +12,7 @@
 #include <random>
 #include <utility>
 
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
-
 namespace tangency::verify {
-
-inline double rounded(const Real& v) { return v.convert_to<double>(); }
 
 class Draw {
  public:
@@ -28,8 +24,6 @@ class Draw {
   /// In [from, to), the product and the sum rounded to double each.
   double real(double from, double to);
   double log_uniform(double from, double to);
-  /// Uniform over the unit sphere.
-  Real3 direction();
   /// Uniform over rotations: a point of the ball, of any length.
   std::array<double, 4> orientation();
 

@@ -10,12 +10,13 @@
 
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/families/families.hpp>
+#include <tangency/verify/families/placing.hpp>
 
 namespace tangency::verify {
 namespace {
 
 std::array<double, 2> any_direction(Draw& draw) {
-  const Real3 n = draw.direction();
+  const Real3 n = drawn_direction(draw);
   const double length = draw.log_uniform(0.1, 10);
   return {rounded(n[0] * length), rounded(n[1] * length)};
 }

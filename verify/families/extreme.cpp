@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/verify/families/placing.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
@@ -35,7 +36,7 @@ RawEllipsoid extreme_body(Draw& draw, const ExtremeFamily& family, Form of_mixed
 
 // A third anywhere, a third along an axis of a body, a third at 1e-12 to 1 of it.
 Real3 contact_normal(Draw& draw, const EllipsoidPair& pair) {
-  const Real3 any = draw.direction();
+  const Real3 any = drawn_direction(draw);
   const int kind = draw.integer(0, 2);
   if (kind == 0) return any;
   const Separation<Real> shapes = separation(real(pair.a), real(pair.b));
@@ -76,7 +77,7 @@ EllipsoidPair drawn(Draw& draw, const ExtremeFamily& family) {
   EllipsoidPair pair{extreme_body(draw, family, Form::needles, family.scale), {}};
   const double ratio = draw.log_uniform(1 / family.size_ratio, family.size_ratio);
   pair.b = extreme_body(draw, family, Form::discs, family.scale * ratio);
-  const Real3 place = draw.direction();
+  const Real3 place = drawn_direction(draw);
   for (std::size_t i = 0; i < 3; ++i) {
     pair.a.centre[i] = rounded(place[i] * (family.scale * family.origin));
   }
@@ -115,7 +116,7 @@ EllipsoidPair drawn(Draw& draw, const DeepFamily& family) {
   const double aspect = draw.log_uniform(1, family.aspect);
   pair.b = body(aspect, draw.log_uniform(0.3, 3));
   const double share = draw.real(family.least_depth, family.largest_depth);
-  const Real3 n = draw.direction();
+  const Real3 n = drawn_direction(draw);
   if (family.within > 0) {
     place_b(pair, n, -share * family.within * least_axis(pair));
   } else {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <tangency/verify/families/draw.hpp>
-#include <tangency/verify/families/placing.hpp>
+#include <tangency/verify/families/pair.hpp>
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <tangency/verify/families/placing.hpp>
+
 namespace tangency::verify {
 
 std::span<const ContactFamily> contact_classes() {
@@ -41,7 +43,7 @@ ManufacturedContact drawn(Draw& draw, const ContactFamily& family) {
   const bool by_radii = family.gap_unit == ContactFamily::GapUnit::rho;
   const double most = (by_radii ? radii : contact.smallest_semi_axis) * family.largest_gap;
   const double gap = draw.real(-std::min(most, radii), most);
-  const Real3 n = draw.direction();
+  const Real3 n = drawn_direction(draw);
   contact.gap = rounded(place_b(contact, n, gap));
   Real square = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include <tangency/verify/families/draw.hpp>
-#include <tangency/verify/families/placing.hpp>
+#include <tangency/verify/families/pair.hpp>
 
 namespace tangency::verify {
 

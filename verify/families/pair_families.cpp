@@ -50,7 +50,7 @@ EllipsoidPair near_pair(Draw& draw, double gap) {
     const double wanted = (draw.coin() ? gap : -gap) * least_axis(pair);
     // Chosen: below 1e-16 one rounding in some tens falls right.
     for (int attempt = 0; attempt < 100; ++attempt) {
-      const Real ratio = place_b(pair, draw.direction(), wanted) / wanted;
+      const Real ratio = place_b(pair, drawn_direction(draw), wanted) / wanted;
       if (ratio > 1 / Real(3) && ratio < 3) return pair;
     }
   }
@@ -64,7 +64,7 @@ EllipsoidPair equal_axes(Draw& draw) {
   draw.shuffle(axes);
   EllipsoidPair pair{turned_body(draw, axes), turned_body(draw, triaxial_axes(draw, 1, 4))};
   const double gap = draw.real(-0.2, 0.2) * least_radii(pair);
-  place_b(pair, draw.direction(), gap);
+  place_b(pair, drawn_direction(draw), gap);
   return exchanged_by_chance(draw, pair);
 }
 
@@ -78,7 +78,7 @@ EllipsoidPair common_plane(Draw& draw) {
     body->orientation = {draw.real(0.1, 1), 0, 0, draw.real(-1, 1)};
     body->centre = {0, 0, height};
   }
-  Real3 n = draw.direction();
+  Real3 n = drawn_direction(draw);
   n[2] = 0;
   const Real length = sqrt(n[0] * n[0] + n[1] * n[1]);
   n[0] /= length, n[1] /= length;

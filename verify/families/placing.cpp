@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/families/placing.hpp>
 
-#include <algorithm>
 #include <cstddef>
 
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::verify {
 
-std::array<double, 3> triaxial_axes(Draw& draw, double shortest, double aspect) {
-  std::array<double, 3> axes{shortest * aspect, shortest * draw.log_uniform(1, aspect), shortest};
-  draw.shuffle(axes);
-  return axes;
-}
-
-RawEllipsoid turned_body(Draw& draw, const std::array<double, 3>& axes) {
-  return {{}, axes, draw.orientation()};
-}
-
-double least_axis(const RawEllipsoid& body) { return std::ranges::min(body.semi_axes); }
-double most_axis(const RawEllipsoid& body) { return std::ranges::max(body.semi_axes); }
-
-double least_axis(const EllipsoidPair& pair) {
-  return std::min(least_axis(pair.a), least_axis(pair.b));
-}
-
-double least_radii(const EllipsoidPair& pair) {
-  return least_axis(pair.a) * (least_axis(pair.a) / most_axis(pair.a)) +
-         least_axis(pair.b) * (least_axis(pair.b) / most_axis(pair.b));
+Real3 drawn_direction(Draw& draw) {
+  for (;;) {
+    Real3 n;
+    for (Real& v : n) v = draw.real(-1, 1);
+    const Real square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    if (square > 1 || square < 0.01) continue;
+    const Real length = sqrt(square);
+    for (Real& v : n) v /= length;
+    return n;
+  }
 }
 
 Real place_b(EllipsoidPair& pair, const Real3& n, const Real& gap, const Real& share) {

@@ -13,7 +13,7 @@ using Vector = Vector120;
 
 constexpr int kSteps = 4000;
 const Real& tiny() {
-  static const Real value("1e-110");
+  static const Real value = pow(Real(10), -110);
   return value;
 }
 
