@@ -100,6 +100,33 @@ TEST(SpherePartition, TheMiddleOfAClassIsInIt) {
     }
 }
 
+TEST(SpherePartition, DirectionsAreAtTheMiddleOfTheirClassesByAngles) {
+  for (const double angle : {1.0, 3.0, 5.0, 7.0}) {
+    const double u = angle * pi / 32.0;
+    const Vec3 n = Vec3(1.0, std::tan(u), -std::tan(pi / 32.0)).normalized();
+    const SpherePartition cube = SpherePartition::near_uniform(4);
+    EXPECT_LT((cube.direction(cube.class_of(n)) - n).norm(), 1e-15);
+    const double beta = angle * pi / 18.0, alpha = 5.0 * pi / 4.0;
+    const Vec3 m(std::sin(beta) * std::cos(alpha), std::sin(beta) * std::sin(alpha),
+                 std::cos(beta));
+    const SpherePartition rings = SpherePartition::polar(9, 4);
+    EXPECT_LT((rings.direction(rings.class_of(m)) - m).norm(), 1e-15);
+  }
+}
+
+TEST(SpherePartition, EdgesBelongToTheOuterClassAndTiesToTheFirstAxis) {
+  const SpherePartition partition = SpherePartition::near_uniform(4);
+  for (int i = 1; i < 4; ++i) {
+    const double edge = std::tan(0.25 * pi * i / 4);
+    const auto at = [&](double tangent) { return partition.class_of(Vec3(1.0, tangent, 0.1)); };
+    EXPECT_EQ(at(edge), at(edge + 1e-9));
+    EXPECT_NE(at(edge), at(std::nextafter(edge, 0.0)));
+  }
+  const std::size_t tie = partition.class_of(Vec3(1.0, 1.0, 0.3));
+  EXPECT_EQ(tie, partition.class_of(Vec3(1.0, 1.0 - 1e-9, 0.3)));
+  EXPECT_NE(tie, partition.class_of(Vec3(1.0 - 1e-9, 1.0, 0.3)));
+}
+
 TEST(SpherePartition, ClassesGetDirectionsInProportionToTheirAreas) {
   Random random(22);
   constexpr int count = 200000;
