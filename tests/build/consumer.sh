@@ -23,3 +23,4 @@ if objdump -d "$with" | grep "$fused"; then
   exit 1
 fi
 "$work/build/consumer"
+"$work/build/fabric"
