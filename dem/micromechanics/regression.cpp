@@ -2,10 +2,11 @@
 #include "regression.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 
 #include <cmath>
 #include <limits>
+
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::micromechanics {
 
