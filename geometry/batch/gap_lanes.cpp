@@ -24,8 +24,9 @@ namespace {
 constexpr double kWorthAStep = 1.0;
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
 constexpr double kSteady = 0.02;         // of l: measured, as good as one step more
-constexpr int kFirstSteps = 2;  // of Newton's, cold; following, one less: then it is proven
-constexpr int kSteps = 8;       // chosen: measured pairs need 1 to 4
+[[maybe_unused]] constexpr int kFirstSteps =
+    2;                     // of Newton's, cold; following, one less: then it is proven
+constexpr int kSteps = 8;  // chosen: measured pairs need 1 to 4
 
 struct PackBody {
   PackVec3 centre;

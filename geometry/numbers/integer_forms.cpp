@@ -227,6 +227,7 @@ IntegerForm<4> quadric_form(std::span<const double, 10> coefficients, int expone
   return form;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a template argument takes none
 #define TANGENCY_INSTANTIATE(N)                                                                 \
   template Inertia inertia<N>(const IntegerForm<N>&);                                           \
   template mpz_class determinant<N>(const IntegerForm<N>&);                                     \
@@ -237,5 +238,6 @@ TANGENCY_INSTANTIATE(2);
 TANGENCY_INSTANTIATE(3);
 TANGENCY_INSTANTIATE(4);
 #undef TANGENCY_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace tangency::exact

@@ -211,7 +211,7 @@ bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b) {
   return gcd(a, b).degree() < 1;
 }
 
-IntegerPolynomial exact_quotient(IntegerPolynomial a, const IntegerPolynomial& b) {
+IntegerPolynomial exact_quotient(const IntegerPolynomial& a, const IntegerPolynomial& b) {
   assert(!b.is_zero());
   if (a.is_zero()) return {};
   std::vector<mpz_class> remainder(a.coefficients().begin(), a.coefficients().end());
@@ -272,7 +272,7 @@ SturmSequence::SturmSequence(const IntegerPolynomial& p) {
   }
   const IntegerPolynomial common = sequence_.back();
   if (common.degree() < 1) return;
-  for (IntegerPolynomial& member : sequence_) member = exact_quotient(std::move(member), common);
+  for (IntegerPolynomial& member : sequence_) member = exact_quotient(member, common);
 }
 
 int SturmSequence::roots() const {

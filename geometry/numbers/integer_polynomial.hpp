@@ -68,7 +68,7 @@ bool coprime(const IntegerPolynomial& a, const IntegerPolynomial& b);
 
 /// a / b. Requires that b != 0 divides a in integers (by Gauss' lemma enough: b is primitive and
 /// divides a over the rationals).
-IntegerPolynomial exact_quotient(IntegerPolynomial a, const IntegerPolynomial& b);
+IntegerPolynomial exact_quotient(const IntegerPolynomial& a, const IntegerPolynomial& b);
 
 /// Primitive, a leading coefficient of p's sign; zero for zero.
 IntegerPolynomial square_free_part(const IntegerPolynomial& p);

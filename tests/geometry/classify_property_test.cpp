@@ -28,6 +28,7 @@ Classification by_descartes(const Quadric& q) {
   const auto form = exact::quadric_form(c, exact::common_exponent(c));
   const auto inertia_of = [](const auto& coefficients) {
     std::vector<int> signs;
+    signs.reserve(coefficients.size());
     for (const mpz_class& e : coefficients) signs.push_back(sgn(e));
     return exact::inertia_from_signs(signs);
   };

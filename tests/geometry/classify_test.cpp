@@ -192,7 +192,8 @@ TEST(Classify, CoefficientsThatAreAllSubnormalAreDecided) {
 // of the true product, not of the rounded one.
 TEST(Classify, TheStoredDoublesCountNotTheirDecimalNames) {
   const double a = 0.1, b = 0.01;
-  const long double determinant = static_cast<long double>(b) - static_cast<long double>(a) * a;
+  const long double determinant =
+      static_cast<long double>(b) - static_cast<long double>(a) * static_cast<long double>(a);
   ASSERT_NE(determinant, 0.0L);
   const Classification c = classify(Quadric({1, b, 1, a, 0, 0, 0, 0, 0, -1}));
   EXPECT_EQ(c.type, determinant > 0 ? real_ellipsoid : hyperboloid_one_sheet);

@@ -121,7 +121,7 @@ RC_GTEST_PROP(EllipsoidProperty, SolidDependsOnNeitherSignNorLengthOfTheQuaterni
   const Ellipsoid e = *testing::ellipsoid(100);
   const Vec3 n = *testing::direction();
   const Quaterniond q = e.orientation();
-  const Vec3 r = e.semi_axes();
+  const Vec3& r = e.semi_axes();
   const double bound = 32 * kU * e.largest_semi_axis();
   const Ellipsoid negated(e.centre(), r, Quaterniond(-q.coeffs()));
   const Ellipsoid longer(e.centre(), r, Quaterniond(64 * q.coeffs()));

@@ -201,7 +201,7 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   const Vec3 off = (found.normal + 1e-6 * *testing::direction()).normalized();
   detail::GapProof at;
   detail::prove_gap(pair, off, at);
-  const Vec3 n = off;
+  const Vec3& n = off;
   const double h_a = p.a.support(n), h_b = p.b.support(n);
   const detail::DoubleDoubleSide side_a(p.a, detail::exactly(n)), side_b(p.b, detail::exactly(n));
   const detail::Hessian hessian =

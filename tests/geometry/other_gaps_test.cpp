@@ -142,12 +142,12 @@ TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
   for (int i = 0; i < 100; ++i) {
     const auto contact = contacts.next();
     const Ellipsoid a = to_ellipsoid(contact.a), b = to_ellipsoid(contact.b);
-    const auto [x, y, z] = contact.normal;
+    const Vec3 normal(contact.normal.data());
     const double rho = a.least_radius() + b.least_radius();
     // The gap is 1/100 and 1/1000 of rho, of either sign.
     const auto off = [&](const auto& find, double share) {
       const double way = share * rho - contact.gap;
-      const Ellipsoid there = b.moved_to(b.centre() + way * Vec3(x, y, z));
+      const Ellipsoid there = b.moved_to(b.centre() + way * normal);
       return std::abs(find(a, there).gap - signed_gap(a, there).gap) / rho;
     };
     for (const auto& find : kDefinitions) {

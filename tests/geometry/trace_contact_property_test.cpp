@@ -121,7 +121,7 @@ RC_GTEST_PROP(TraceContactProperty, LabelsAndHalfTurnsOfAxesLeaveIt, ()) {
   const Pair p = *overlapping();
   // Axis k becomes axis k + 1: the same solid after a turn by a third about the body's diagonal.
   const auto relabelled = [](const Ellipsoid& e, int half_turn) {
-    const Vec3 r = e.semi_axes();
+    const Vec3& r = e.semi_axes();
     const Eigen::Quaterniond third(0.5, 0.5, 0.5, 0.5);
     Eigen::Quaterniond turn(0, 0, 0, 0);
     turn.coeffs()[half_turn] = 1;  // about x, y or z; 3: none
