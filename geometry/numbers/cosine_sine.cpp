@@ -92,6 +92,7 @@ mpz_class half_pi(mp_bitcnt_t bits) {
 mpz_class integer_series(const mpz_class& r, unsigned long first, mp_bitcnt_t bits) {
   const mpz_class square = (r * r) >> bits;
   mpz_class term = first == 0 ? mpz_class(mpz_class(1) << bits) : r, sum = term;
+  // NOLINTNEXTLINE(misc-redundant-expression): 0 is not -1
   for (unsigned long n = first + 1; term != 0 && term != -1; n += 2) {
     term = -((term * square) >> bits) / (n * (n + 1));
     sum += term;
