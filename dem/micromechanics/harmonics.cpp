@@ -2,6 +2,7 @@
 #include <tangency/dem/micromechanics/harmonics.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -154,6 +155,9 @@ const std::array<Mat3, 5>& second_basis() {
 }
 
 const std::array<SymmetricTensor4, 9>& fourth_basis() {
+  // Of the moduli below, which have no unit: what depends on those before is left with rounding,
+  // less than 1e-15, the nine others with 0.35 and more (all 15 computed).
+  constexpr double kIndependent = 1e-6;
   static const std::array<SymmetricTensor4, 9> basis = [] {
     // The harmonic parts of the 15 different components, each made orthogonal to those before.
     std::array<SymmetricTensor4, 9> made{};
@@ -165,8 +169,9 @@ const std::array<SymmetricTensor4, 9>& fourth_basis() {
       for (int twice = 0; twice < 2; ++twice)
         for (std::size_t m = 0; m < found; ++m) next += -next.contracted(made[m]) * made[m];
       const double size = next.norm();
-      if (size > 1e-6) made[found++] = 1.0 / size * next;
+      if (size > kIndependent) made[found++] = 1.0 / size * next;
     }
+    assert(found == made.size());
     return made;
   }();
   return basis;

@@ -20,8 +20,6 @@ using namespace tangency::testing;
 using tangency::Mat3;
 using tangency::Vec3;
 
-double distance(const SymmetricTensor4& a, const SymmetricTensor4& b) { return (a - b).norm(); }
-
 /// The largest distance of any component from what was planted, in standard errors.
 template <typename Model>
 double errors_off(const Model& found, const HarmonicErrors& error, const Model& planted) {

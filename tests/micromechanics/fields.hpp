@@ -28,6 +28,10 @@ Mat3 random_rotation(Random& random);
 /// Symmetric and traceless, of any axes, of the given modulus.
 Mat3 random_second(Random& random, double modulus);
 micromechanics::SymmetricTensor4 random_fourth(Random& random, double modulus);
+inline double distance(const micromechanics::SymmetricTensor4& a,
+                       const micromechanics::SymmetricTensor4& b) {
+  return (a - b).norm();
+}
 /// size diag(2, -1, -1)/sqrt(6) about an axis: of modulus |size|.
 Mat3 axisymmetric(const Vec3& axis, double size);
 

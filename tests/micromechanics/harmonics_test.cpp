@@ -17,8 +17,6 @@ using namespace tangency::testing;
 using tangency::Mat3;
 using tangency::Vec3;
 
-double distance(const SymmetricTensor4& a, const SymmetricTensor4& b) { return (a - b).norm(); }
-
 SymmetricTensor4 random_symmetric(Random& random) {
   SymmetricTensor4 t;
   for (double& component : t.components) component = normal(random);
