@@ -35,6 +35,7 @@ void Particles::add(const Vec3& centre, const Quaternion& axes, const Vec3& radi
   semi_axes.push_back(radii);
   mass.push_back(density * volume_of(radii, dimensions));
   type.push_back(type_index);
+  id.push_back(static_cast<std::int32_t>(id.size()));
 }
 
 double kinetic_energy(const Particles& particles) {

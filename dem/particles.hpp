@@ -31,7 +31,8 @@ struct Shape {
   Vec3 semi_axes(int dimensions = 3) const;
 };
 
-/// Arrays of one length, one entry a particle; a particle is its index for the whole run.
+/// Arrays of one length, one entry a particle, in an order that keeps neighbours near each other in
+/// memory; `id` is a particle's place in the order of the scene, in which results are reported.
 /// Positions are not wrapped into the cell: an image is chosen where two particles meet.
 struct Particles {
   int dimensions = 3;                   ///< 2 or 3, the cell's
@@ -42,9 +43,10 @@ struct Particles {
   std::vector<Vec3> semi_axes;          ///< length
   std::vector<double> mass;
   std::vector<std::int32_t> type;  ///< index into the scene's particle types
+  std::vector<std::int32_t> id;    ///< each of 0 to size() - 1 once
 
   std::size_t size() const { return position.size(); }
-  /// Appends a particle at rest.
+  /// Appends a particle at rest; its id is its index.
   void add(const Vec3& centre, const Quaternion& axes, const Vec3& radii, double density,
            std::int32_t type_index);
 };

@@ -20,7 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
 constexpr std::string_view kMagic = "TANGSTAT";
-constexpr std::uint32_t kFormatVersion = 4;
+constexpr std::uint32_t kFormatVersion = 5;
 
 class Writer {
  public:
@@ -164,6 +164,7 @@ void pass_particles(Archive& archive, P& particles) {
   pass(archive, particles.semi_axes);
   pass(archive, particles.mass);
   pass(archive, particles.type);
+  pass(archive, particles.id);
 }
 
 void pass_walls(Writer& archive, const std::array<bool, 3>& walled) {
@@ -226,9 +227,15 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   const std::size_t n = p.size();
   if (n == 0 || p.velocity.size() != n || p.angular_velocity.size() != n ||
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
-      p.type.size() != n || reference.reduced_position.size() != n ||
+      p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
       records.size() != pairs.size())
     return false;
+  std::vector<bool> seen(n);
+  for (const std::int32_t id : p.id) {
+    if (id < 0 || static_cast<std::size_t>(id) >= n || seen[static_cast<std::size_t>(id)])
+      return false;
+    seen[static_cast<std::size_t>(id)] = true;
+  }
   for (const Pair& pair : pairs) {
     if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.a) >= n) return false;
     const auto b = static_cast<std::size_t>(pair.b);
