@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -13,52 +13,58 @@
 namespace tangency::dem {
 namespace {
 
-/// A normal that turns by more in a step has gone over to another branch: its cosine. Chosen: 26
-/// degrees, where a step turns neighbours by a hundredth of that.
-constexpr double kSameBranchCosine = 0.9;
+static_assert(ContactBlock::kPairs == kPairBlock);
 
-std::size_t type_of(const Particles& particles, std::int32_t body, std::size_t walls) {
-  const auto i = static_cast<std::size_t>(body);
-  return i < particles.size() ? static_cast<std::size_t>(particles.type[i]) : walls;
-}
+/// Walls of a cell: their rows stand after those of the particles.
+constexpr std::size_t kWalls = 6;
 
-/// Velocity of b relative to a at the contact point less the cell's strain [Ouadfel1998, eq. 3.1].
-/// A wall moves with the strain alone.
-Vec3 relative_velocity(const Particles& particles, const Pair& pair, const Vec3& arm,
-                       const Vec3& branch) {
-  const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-  const Vec3 of_a = particles.velocity[a] + particles.angular_velocity[a].cross(arm);
-  if (b >= particles.size()) return -of_a;
-  const Vec3 arm_b = arm - branch;
-  return particles.velocity[b] + particles.angular_velocity[b].cross(arm_b) - of_a;
-}
+std::size_t blocks_of(std::size_t pairs) { return (pairs + kPairBlock - 1) / kPairBlock; }
 
-double stored(const Contact& contact) { return contact.normal_energy + contact.shear.energy; }
+template <class T>
+using BlockColumn = BlockGeometry::Column<T>;
 
-/// A Hertz contact stores c overlap^(5/2), where c goes with the curvatures: the mean over the step
-/// of dc overlap^(5/2).
-double gained_by_curvature(const Contact& before, const Contact& after) {
-  const double ratio = after.overlap / before.overlap, power = ratio * ratio * std::sqrt(ratio);
-  return 0.5 * (after.normal_energy - before.normal_energy * power + after.normal_energy / power -
-                before.normal_energy);
-}
+/// The laws of a block's pairs.
+struct BlockLaws {
+  BlockColumn<double> normal_stiffness, shear_stiffness, friction_coefficient, cohesion;
+
+  BlockLaws(const ContactLaws& laws, const Particles& particles, const BlockGeometry& block) {
+    const std::size_t walls = laws.types - 1;
+    const auto type_of = [&](std::uint32_t body) {
+      return body < particles.size() ? static_cast<std::size_t>(particles.type[body]) : walls;
+    };
+    for (std::size_t k = 0; k < kPairBlock; ++k) {
+      const ContactLaw& law =
+          laws.types == 1 ? laws.law.front()
+                          : laws.between(type_of(block.pairs[k].a), type_of(block.pairs[k].b));
+      normal_stiffness[k] = law.normal_stiffness;
+      shear_stiffness[k] = law.shear_stiffness;
+      friction_coefficient[k] = law.friction_coefficient;
+      cohesion[k] = law.cohesion;
+    }
+  }
+
+  LawColumns columns() const {
+    return {normal_stiffness.data(), shear_stiffness.data(), friction_coefficient.data(),
+            cohesion.data()};
+  }
+};
+
+/// What Hertz's law makes of a block's pairs that touch.
+struct BlockHertz {
+  BlockColumn<double> force{}, stiffness{}, energy{}, along{}, across{};
+  BlockColumn<Vec3> direction;
+
+  HertzColumns columns() const {
+    return {force.data(), stiffness.data(), energy.data(),
+            along.data(), across.data(),    direction[0].data()};
+  }
+};
 
 }  // namespace
 
-struct Contacts::Step {
-  const Particles& particles;
-  const Cell& cell;
-  const std::vector<Pair>& pairs;
-  const ContactLaws& laws;
-  double dt;
-  Branch branch;
-};
-
-ContactWork& ContactWork::operator+=(const ContactWork& other) {
-  sliding += other.sliding;
-  boundary += other.boundary;
-  branch += other.branch;
-  return *this;
+void ContactColumns::resize(std::size_t entries) {
+  for (const auto column : kVectors) (this->*column).resize(entries, Vec3::Zero());
+  for (const auto column : kNumbers) (this->*column).resize(entries, 0.0);
 }
 
 double ContactLaws::largest_stiffness() const {
@@ -68,123 +74,199 @@ double ContactLaws::largest_stiffness() const {
   return largest;
 }
 
+bool ContactLaws::bear_shear() const {
+  return std::any_of(law.begin(), law.end(), [](const ContactLaw& one) { return one.bears_shear(); });
+}
+
+bool ContactLaws::are_hertz() const { return law.front().hertz.has_value(); }
+
+std::size_t ContactRecords::size() const { return contacts_->size(); }
+
+Contact ContactRecords::operator[](std::size_t pair) const {
+  const ContactColumns& columns = contacts_->columns();
+  return {columns.normal[pair],
+          columns.branch[pair],
+          columns.arm[pair],
+          contacts_->force(pair),
+          {columns.shear_force[pair], columns.shear_stiffness[pair], columns.shear_energy[pair]},
+          columns.overlap[pair],
+          columns.normal_force[pair],
+          columns.normal_stiffness[pair],
+          columns.normal_energy[pair]};
+}
+
+struct Contacts::Step {
+  const Particles& particles;
+  const Cell& cell;
+  const std::vector<Pair>& pairs;
+  const ContactLaws& laws;
+  double dt;
+  Branch branch;
+  bool bears_shear, hertz;
+};
+
 ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              const NeighbourList& list, const ContactLaws& laws, double dt,
                              Branch branch) {
-  narrow_phase_.refresh(particles);
-  const Step step{particles, cell, list.pairs(), laws, dt, branch};
-  const std::size_t blocks = (step.pairs.size() + NarrowPhase::kBlock - 1) / NarrowPhase::kBlock;
-  work_.assign(blocks, {});
-#pragma omp parallel for schedule(dynamic) if (step.pairs.size() >= kParallelThreshold)
-  for (std::size_t k = 0; k < blocks; ++k) update_block(k, step);
+  const bool bear_shear = laws.bear_shear();
+  const Step step{particles, cell,   list.pairs(),
+                  laws,      dt,     branch,
+                  bear_shear || may_have_shear_, laws.are_hertz()};
+  may_have_shear_ = bear_shear;
+  if (count_ != step.pairs.size()) resize(step.pairs.size());
+  refresh(particles);
+  for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
+             [&](std::size_t first, std::size_t last) {
+               for (std::size_t k = first; k < last; ++k) update_block(k, step);
+             });
   add_up(list, particles.size());
-  ContactWork sum;
-  for (const ContactWork& one : work_) sum += one;
-  return sum;
+  return add_up_blocks();
+}
+
+void Contacts::resize(std::size_t pairs) {
+  count_ = pairs;
+  const std::size_t blocks = blocks_of(pairs), padded = blocks * kPairBlock;
+  columns_.resize(padded);
+  for (auto* column : {&force_, &moment_a_, &moment_b_}) column->resize(padded);
+  block_sums_.resize(blocks);
+}
+
+void Contacts::refresh(const Particles& particles) {
+  const std::size_t count = particles.size();
+  narrow_phase_.aim(particles);
+  motion_.resize(count + kWalls, {});
+  for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    narrow_phase_.refresh(particles, first, last);
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 &v = particles.velocity[i], &w = particles.angular_velocity[i];
+      motion_[i] = {{v[0], v[1], v[2]}, 0.0, {w[0], w[1], w[2]}, 0.0};
+    }
+  });
+}
+
+/// Contacts as they are saved, and where a block's results go.
+ContactBlock Contacts::block_at(std::size_t first, std::size_t index) {
+  ContactColumns& c = columns_;
+  ContactBlock block{};
+  block.count = std::min(kPairBlock, count_ - first);
+  block.state = {c.normal[first].data(),    c.branch[first].data(),     c.arm[first].data(),
+                 c.shear_force[first].data(), &c.overlap[first],        &c.normal_force[first],
+                 &c.normal_stiffness[first], &c.normal_energy[first],   &c.shear_stiffness[first],
+                 &c.shear_energy[first]};
+  block.force = force_[first].data();
+  block.moment_a = moment_a_[first].data();
+  block.moment_b = moment_b_[first].data();
+  block.sums = &block_sums_[index];
+  return block;
 }
 
 void Contacts::update_block(std::size_t index, const Step& step) {
-  const std::size_t first = index * NarrowPhase::kBlock;
-  const auto pairs = std::span(step.pairs).subspan(first);
-  const std::size_t count = std::min(NarrowPhase::kBlock, pairs.size());
-  std::array<Vec3, NarrowPhase::kBlock> normals;
-  std::array<PairGeometry, NarrowPhase::kBlock> geometries;
-  for (std::size_t k = 0; k < count; ++k) normals[k] = records_[first + k].normal;
-  narrow_phase_.measure(pairs.first(count), step.particles, step.cell, normals, step.branch,
-                        geometries);
-  for (std::size_t k = 0; k < count; ++k)
-    apply(pairs[k], geometries[k], step, records_[first + k], work_[index]);
+  const std::size_t first = index * kPairBlock;
+  ContactBlock block = block_at(first, index);
+  const auto pairs = std::span(step.pairs).subspan(first, block.count);
+  BlockGeometry geometry;
+  narrow_phase_.measure(pairs, step.particles, step.cell,
+                        std::span(columns_.normal).subspan(first, block.count), step.branch,
+                        geometry);
+  const BlockLaws laws(step.laws, step.particles, geometry);
+  block.pairs = geometry.pairs.data();
+  block.motion = motion_.data();
+  block.dt = step.dt;
+  std::copy_n(step.cell.rate.data(), 9, block.rate);
+  block.gap = geometry.gap.data();
+  block.normal = geometry.normal[0].data();
+  block.branch = geometry.branch[0].data();
+  block.arm = geometry.arm[0].data();
+  block.law = laws.columns();
+  block.bears_shear = step.bears_shear;
+  if (!step.hertz) return contact_lanes(block);
+  BlockHertz hertz;
+  const std::size_t walls = step.laws.types - 1;
+  for (std::size_t k = 0; k < block.count; ++k) {
+    hertz.direction[k].setZero();
+    if (!(geometry.gap[k] < 0.0)) continue;
+    const auto type_of = [&](std::uint32_t body) {
+      return body < step.particles.size() ? static_cast<std::size_t>(step.particles.type[body]) : walls;
+    };
+    const ContactLaw& law =
+        step.laws.between(type_of(geometry.pairs[k].a), type_of(geometry.pairs[k].b));
+    const NormalResponse response = law.normal_response(
+        -geometry.gap[k], narrow_phase_.relative_curvature(pairs[k], geometry.normal[k]));
+    hertz.force[k] = response.force;
+    hertz.stiffness[k] = response.stiffness;
+    hertz.energy[k] = response.energy;
+    hertz.along[k] = response.shear.along;
+    hertz.across[k] = response.shear.across;
+    hertz.direction[k] = response.shear.direction;
+  }
+  const HertzColumns columns = hertz.columns();
+  block.hertz = &columns;
+  contact_lanes(block);
 }
 
-/// One contact: from where its bodies are to its force, and what that did to energy.
-void Contacts::apply(const Pair& pair, const PairGeometry& geometry, const Step& step,
-                     Contact& contact, ContactWork& work) const {
-  const bool touched = contact.touches();
-  const bool touches = geometry.gap < 0.0;
-  const Contact before = contact;
-  contact.branch = geometry.branch;
-  if (!touches && !touched) {
-    contact.normal = geometry.normal;
-    return;
+ContactWork Contacts::add_up_blocks() {
+  sums_ = {};
+  ContactWork work;
+  for (const BlockSums& block : block_sums_) {
+    sums_.force_branch += Eigen::Map<const Mat3>(block.force_branch);
+    sums_.affine_stiffness += block.affine_stiffness;
+    sums_.force_length += block.force_length;
+    sums_.energy += block.energy;
+    sums_.contacts += static_cast<std::int64_t>(block.contacts);
+    work.sliding += block.sliding;
+    work.boundary += block.boundary;
+    work.branch += block.branch;
   }
-  const std::size_t walls = step.laws.types - 1;
-  const ContactLaw& law = step.laws.between(type_of(step.particles, pair.a, walls),
-                                            type_of(step.particles, pair.b, walls));
-  contact = Contact{};
-  contact.normal = geometry.normal;
-  contact.branch = geometry.branch;
-  contact.arm = touches ? geometry.arm : before.arm;
-  // Half way through the step, but for the strain, which move() takes from where it began.
-  const Contact& from = touched ? before : contact;
-  const Vec3 strained = step.dt * (step.cell.rate * from.branch);
-  const Vec3 moved =
-      strained + step.dt * relative_velocity(step.particles, pair, 0.5 * (from.arm + contact.arm),
-                                             0.5 * (from.branch + contact.branch));
-  double sliding = before.shear.energy;  // of a spring that is let go
-  if (touches) {
-    contact.overlap = -geometry.gap;
-    const NormalResponse response = law.normal_response(
-        contact.overlap,
-        law.hertz ? narrow_phase_.relative_curvature(pair, contact.normal) : PrincipalCurvatures{});
-    contact.normal_force = response.force;
-    contact.normal_stiffness = response.stiffness;
-    contact.normal_energy = response.energy;
-    contact.force = contact.normal_force * contact.normal;
-    if (law.bears_shear()) {
-      contact.shear = before.shear;
-      // Half of it before the normal turns, half after.
-      const Vec3 turning = 0.5 * (moved + turned_with(moved, from.normal, contact.normal));
-      sliding = law.shear(contact.shear, {from.normal, contact.normal, turning}, response);
-      contact.force += contact.shear.force;
-    }
-  }
-  const Vec3 mean_force = 0.5 * (before.force + contact.force);
-  work.sliding += sliding;
-  work.boundary -= mean_force.dot(strained);
-  if (!touches || !touched) return;
-  if (before.normal.dot(contact.normal) < kSameBranchCosine)
-    work.branch += stored(contact) - stored(before) + sliding + mean_force.dot(moved);
-  else if (law.hertz)
-    work.branch += gained_by_curvature(before, contact);
+  return work;
 }
 
 void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now) {
-  std::vector<Contact> kept(now.size());
-  auto old = before.begin();
+  ContactColumns old = std::exchange(columns_, {});
+  resize(now.size());
+  std::vector<std::array<std::size_t, 2>> kept;  // places before and now
+  auto at = before.begin();
   for (std::size_t k = 0; k < now.size(); ++k) {
-    old = std::lower_bound(old, before.end(), now[k]);
-    if (old != before.end() && *old == now[k])
-      kept[k] = records_[static_cast<std::size_t>(old - before.begin())];
+    at = std::lower_bound(at, before.end(), now[k]);
+    if (at == before.end()) break;
+    if (*at == now[k]) kept.push_back({static_cast<std::size_t>(at - before.begin()), k});
   }
-  records_ = std::move(kept);
+  const auto keep = [&](const auto& from, auto& to) {
+    for (const auto& [was, is] : kept) to[is] = from[was];
+  };
+  for (const auto column : ContactColumns::kVectors) keep(old.*column, columns_.*column);
+  for (const auto column : ContactColumns::kNumbers) keep(old.*column, columns_.*column);
 }
 
-void Contacts::restore(std::vector<Contact> records, const Particles& particles,
+void Contacts::restore(ContactColumns columns, const Particles& particles,
                        const NeighbourList& list) {
-  records_ = std::move(records);
+  columns_ = std::move(columns);
+  may_have_shear_ = true;
+  resize(list.pairs().size());
+  for (std::size_t k = 0; k < block_sums_.size(); ++k)
+    restored_lanes(block_at(k * kPairBlock, k));
   add_up(list, particles.size());
+  add_up_blocks();
 }
 
 void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
   resultants_.force.resize(particles);
   resultants_.moment.resize(particles);
-#pragma omp parallel for schedule(static) if (particles >= kParallelThreshold)
-  for (std::size_t i = 0; i < particles; ++i) {
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
-      const Contact& contact = records_[at->index];
-      if (!contact.touches()) continue;
-      if (at->as_b) {
-        force += contact.force;
-        moment += (contact.arm - contact.branch).cross(contact.force);
-      } else {
-        force -= contact.force;
-        moment -= contact.arm.cross(contact.force);
+  for_ranges(particles, kParallelThreshold, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+      for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
+        if (at->as_b) {
+          force += force_[at->index];
+          moment += moment_b_[at->index];
+        } else {
+          force -= force_[at->index];
+          moment += moment_a_[at->index];
+        }
       }
+      resultants_.force[i] = force;
+      resultants_.moment[i] = moment;
     }
-    resultants_.force[i] = force;
-    resultants_.moment[i] = moment;
-  }
+  });
 }
 
 }  // namespace tangency::dem

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The contacts of an assembly: one record a listed pair.
+/// The contacts of an assembly, one a listed pair, in columns.
 ///
 /// A pair touches where its overlap, minus the signed gap, is > 0. The contact point is the
-/// midpoint of the two witness points. Results do not depend on the number of threads: each pair
-/// writes its own record and each particle adds its own pairs in the order of the list.
+/// midpoint of the two witness points. Results do not depend on the number of threads, to the bit:
+/// pairs are taken in blocks that are the same for any number, each particle adds its own pairs in
+/// the order of the list, and sums over blocks are taken in their order.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <stdexcept>
+#include <iterator>
+#include <span>
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
+#include <tangency/dem/contact_lanes.hpp>
 #include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact_sums.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
@@ -37,6 +42,24 @@ struct Contact {
   bool touches() const { return overlap > 0.0; }
 };
 
+/// What contacts carry from step to step, a column a quantity of Contact; the force is normal_force
+/// normal + shear_force. Each column is filled up with zeros to whole blocks of pairs.
+struct ContactColumns {
+  std::vector<Vec3> normal, branch, arm, shear_force;
+  std::vector<double> overlap, normal_force, normal_stiffness, normal_energy;
+  std::vector<double> shear_stiffness, shear_energy;
+
+  /// All columns, so that whoever copies, saves or sorts them forgets none.
+  static constexpr std::array kVectors{&ContactColumns::normal, &ContactColumns::branch,
+                                       &ContactColumns::arm, &ContactColumns::shear_force};
+  static constexpr std::array kNumbers{
+      &ContactColumns::overlap,         &ContactColumns::normal_force,
+      &ContactColumns::normal_stiffness, &ContactColumns::normal_energy,
+      &ContactColumns::shear_stiffness, &ContactColumns::shear_energy};
+  /// Fills up, or cuts off.
+  void resize(std::size_t entries);
+};
+
 /// Laws by the types of the two particles, symmetric; types x types, row by row. In a walled cell
 /// the walls are the last type.
 struct ContactLaws {
@@ -46,48 +69,98 @@ struct ContactLaws {
   const ContactLaw& between(std::size_t a, std::size_t b) const { return law[a * types + b]; }
   /// The largest stiffness of any law, normal or shear.
   double largest_stiffness() const;
+  bool bear_shear() const;  ///< does any?
+  bool are_hertz() const;   ///< then all are
 };
 
-/// What contacts did to energy during an update. Work is that of the mean of the forces before and
-/// after on the displacement during the step, as leapfrog has it.
-struct ContactWork {
-  double sliding = 0.0;   ///< lost to friction, and with shear springs that were let go
-  double boundary = 0.0;  ///< done on the assembly by the straining cell
-  /// Gained where a pair went over to another branch, whose force and overlap are not the
-  /// neighbours of those before, and where a Hertz contact rolled to other curvatures: its force
-  /// does not feel that its energy changes with them.
-  double branch = 0.0;
+class Contacts;
 
-  ContactWork& operator+=(const ContactWork& other);
+/// The contacts of all listed pairs, each made from the columns when it is asked for.
+class ContactRecords {
+ public:
+  explicit ContactRecords(const Contacts& contacts) : contacts_(&contacts) {}
+  std::size_t size() const;
+  Contact operator[](std::size_t pair) const;
+  Contact front() const { return (*this)[0]; }
+
+  class Iterator;
+  Iterator begin() const;
+  Iterator end() const;
+
+ private:
+  const Contacts* contacts_;
 };
+
+class ContactRecords::Iterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = Contact;
+  using difference_type = std::ptrdiff_t;
+  using pointer = void;
+  using reference = Contact;
+
+  Iterator(const ContactRecords& records, std::size_t at) : records_(records), at_(at) {}
+  Contact operator*() const { return records_[at_]; }
+  Iterator& operator++() {
+    ++at_;
+    return *this;
+  }
+  bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+ private:
+  ContactRecords records_;
+  std::size_t at_;
+};
+
+inline ContactRecords::Iterator ContactRecords::begin() const { return {*this, 0}; }
+inline ContactRecords::Iterator ContactRecords::end() const { return {*this, size()}; }
 
 class Contacts {
  public:
-  /// Brings every record to the current positions and velocities and renews the resultants.
+  /// Brings every contact to the current positions and velocities and renews resultants and sums.
   /// @param dt  time since the last update: the shear displacement is velocity times dt
   ContactWork update(const Particles& particles, const Cell& cell, const NeighbourList& list,
                      const ContactLaws& laws, double dt, Branch branch = Branch::follow);
 
-  /// Keeps the records of pairs that are in both lists.
+  /// Keeps the contacts of pairs that are in both lists.
   void carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now);
 
-  /// Adds the saved records' forces up again: after a restore.
-  void restore(std::vector<Contact> records, const Particles& particles, const NeighbourList& list);
+  /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds their forces
+  /// up again.
+  void restore(ContactColumns columns, const Particles& particles, const NeighbourList& list);
 
-  const std::vector<Contact>& records() const { return records_; }
+  std::size_t size() const { return count_; }
+  /// As long as size(); the columns go on.
+  const ContactColumns& columns() const { return columns_; }
+  bool touches(std::size_t pair) const { return columns_.overlap[pair] > 0.0; }
+  Vec3 force(std::size_t pair) const {
+    return columns_.normal_force[pair] * columns_.normal[pair] + columns_.shear_force[pair];
+  }
+  ContactRecords records() const { return ContactRecords(*this); }
+
   const Resultants& resultants() const { return resultants_; }
+  const ContactSums& sums() const { return sums_; }
 
  private:
   struct Step;
-  void update_block(std::size_t first, const Step& step);
-  void apply(const Pair& pair, const PairGeometry& geometry, const Step& step, Contact& contact,
-             ContactWork& work) const;
+  void refresh(const Particles& particles);
+  void update_block(std::size_t index, const Step& step);
+  ContactBlock block_at(std::size_t first, std::size_t index);
+  void resize(std::size_t pairs);
+  ContactWork add_up_blocks();
   void add_up(const NeighbourList& list, std::size_t particles);
 
-  std::vector<Contact> records_;
+  std::size_t count_ = 0;
+  ContactColumns columns_;
+  bool may_have_shear_ = false;  ///< else shear forces are all 0
   Resultants resultants_;
+  ContactSums sums_;
+
+  // Made anew in every update.
   NarrowPhase narrow_phase_;
-  std::vector<ContactWork> work_;  ///< of each block, during an update
+  std::vector<MotionRow> motion_;                    ///< of particles and walls
+  std::vector<Vec3> force_, moment_a_, moment_b_;    ///< of each pair, filled up like the columns
+  std::vector<BlockSums> block_sums_;
 };
 
 }  // namespace tangency::dem

@@ -64,11 +64,12 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
   const std::size_t count = particles.size();
   std::vector<Acceleration> a(count);
   std::vector<Products> products(count);
-#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
-  for (std::size_t i = 0; i < count; ++i) {
-    a[i] = acceleration_of(particles, i, resultants, motion);
-    products[i] = products_of(particles, i, a[i], resultants, motion);
-  }
+  for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      a[i] = acceleration_of(particles, i, resultants, motion);
+      products[i] = products_of(particles, i, a[i], resultants, motion);
+    }
+  });
   Products sum;
   for (const Products& one : products) {
     sum.vv += one.vv;
@@ -79,12 +80,13 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
   if (!runs_downhill) *this = {kStartMixing, 0};
   const double keep = runs_downhill ? 1.0 - mixing : 0.0;
   const double push = runs_downhill ? mixing * std::sqrt(sum.vv / sum.aa) : 0.0;
-#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
-  for (std::size_t i = 0; i < count; ++i) {
-    particles.velocity[i] = keep * particles.velocity[i] + push * a[i].shift;
-    if (motion.rotation != Rotation::none)
-      particles.angular_velocity[i] = keep * particles.angular_velocity[i] + push * a[i].turn;
-  }
+  for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      particles.velocity[i] = keep * particles.velocity[i] + push * a[i].shift;
+      if (motion.rotation != Rotation::none)
+        particles.angular_velocity[i] = keep * particles.angular_velocity[i] + push * a[i].turn;
+    }
+  });
   if (runs_downhill && ++downhill > kLeastDownhill) mixing *= kMixingDecay;
   const Products after{keep * keep * sum.vv + 2.0 * keep * push * sum.va + push * push * sum.aa,
                        keep * sum.va + push * sum.aa, sum.aa};

@@ -2,6 +2,7 @@
 #include <tangency/dem/motion.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -93,9 +94,8 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
   const auto [keep, push] = Step(motion.damping, dt);
   const std::size_t count = particles.size();
   std::vector<MotionWork> work(count);
-  bool finite = true;
-#pragma omp parallel for schedule(static) reduction(&& : finite) if (count >= kParallelThreshold)
-  for (std::size_t i = 0; i < count; ++i) {
+  std::atomic<bool> finite = true;
+  const auto move_one = [&](std::size_t i) {
     const double mass = particles.mass[i];
     Vec3& velocity = particles.velocity[i];
     const Vec3 before = velocity;
@@ -107,8 +107,11 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
     x += dt * (velocity + cell.rate * x);
     if (motion.rotation != Rotation::none)
       work[i].damping += turn(particles, i, resultants.moment[i], motion, dt);
-    finite = finite && x.allFinite() && particles.orientation[i].coeffs().allFinite();
-  }
+    if (!x.allFinite() || !particles.orientation[i].coeffs().allFinite()) finite = false;
+  };
+  for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) move_one(i);
+  });
   cell.strain(dt);
   if (!finite || !(cell.volume() > 0.0))
     throw Diverged("the run blew up: a particle's velocity is no longer finite");

@@ -2,13 +2,14 @@
 #include <tangency/dem/narrow_phase.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
-#include <tangency/dem/parallel.hpp>
+#include <tangency/dem/contact_lanes.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/primitives.hpp>
 
 namespace tangency::dem {
@@ -27,158 +28,135 @@ Ellipse ellipse_of(const Particles& particles, std::size_t i) {
   return Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
 }
 
-/// Spheres that touch concentrically have no normal: that of geometry/primitives.hpp.
-void measure_spheres(double a, double b, PairGeometry& geometry) {
-  const double distance = geometry.branch.norm();
-  geometry.gap = distance - (a + b);
-  geometry.normal = distance > 0.0 ? Vec3(geometry.branch / distance) : Vec3::UnitX();
-  geometry.arm = (a + 0.5 * geometry.gap) * geometry.normal;
-}
-
-/// Are two bodies apart because their bounding spheres are? The normal is then forgotten.
-template <class Body>
-bool spheres_apart(const Body& a, const Body& b, PairGeometry& geometry) {
+/// Are two bodies apart because their bounding circles are?
+bool circles_apart(const Ellipse& a, const Ellipse& b, const Vec3& branch) {
   const double reach = a.largest_semi_axis() + b.largest_semi_axis();
-  geometry.gap = kFarApart;
-  geometry.normal.setZero();
-  return geometry.branch.squaredNorm() >= reach * reach;
+  return branch.squaredNorm() >= reach * reach;
 }
 
 void measure_ellipses(const Ellipse& a, const Ellipse& b, const Vec2& last_normal, Branch branch,
-                      PairGeometry& geometry) {
-  if (spheres_apart(a, b, geometry)) return;
-  const Vec2 d = geometry.branch.head<2>();
+                      BlockGeometry& block, std::size_t k) {
+  block.gap[k] = kFarApart;
+  block.normal[k].setZero();
+  if (circles_apart(a, b, block.branch[k])) return;
+  const Vec2 d = block.branch[k].head<2>();
   if (!last_normal.isZero(0.0)) {
     // For any unit n, n.d - h_a - h_b is at most the gap: while the plane across the last normal
     // parts the bodies nothing else is asked. The normal is kept as a start for next time.
-    geometry.normal = in_space(last_normal);
+    block.normal[k] = in_space(last_normal);
     if (last_normal.dot(d) - a.support(last_normal) - b.support(last_normal) > 0.0) return;
   }
   const PlaneGap gap = branch == Branch::global || last_normal.isZero(0.0)
                            ? signed_gap(a, b, d)
                            : follow_gap(a, b, d, last_normal);
-  geometry.gap = gap.gap;
-  geometry.normal = in_space(gap.normal);
-  geometry.arm = 0.5 * (in_space(gap.arm_a) + geometry.branch + in_space(gap.arm_b));
+  block.gap[k] = gap.gap;
+  block.normal[k] = in_space(gap.normal);
+  block.arm[k] = 0.5 * (in_space(gap.arm_a) + block.branch[k] + in_space(gap.arm_b));
 }
 
-/// The pairs of a block that one call into geometry takes, in columns.
-struct PairBatch {
-  std::array<IndexedPair, NarrowPhase::kBlock> pairs;
-  std::array<Vec3, NarrowPhase::kBlock> separations, normals, arms_a, arms_b;
-  std::array<double, NarrowPhase::kBlock> gaps;
-  std::array<std::uint32_t, NarrowPhase::kBlock> place;  ///< in the block
-  std::size_t count = 0;
-
-  void add(const Pair& pair, const PairGeometry& geometry, const Vec3& last_normal, std::size_t k) {
-    pairs[count] = {static_cast<std::uint32_t>(pair.a), static_cast<std::uint32_t>(pair.b)};
-    separations[count] = geometry.branch;
-    normals[count] = last_normal;
-    place[count++] = static_cast<std::uint32_t>(k);
-  }
-  template <class T>
-  std::span<T> first(std::array<T, NarrowPhase::kBlock>& column) {
-    return {column.data(), count};
-  }
-  PairList list() { return {first(pairs), first(separations)}; }
-  GapColumns columns() {
-    GapColumns columns;
-    columns.gap = first(gaps);
-    columns.normal = first(normals);
-    columns.arm_a = first(arms_a);
-    columns.arm_b = first(arms_b);
-    return columns;
-  }
-  void write_to(std::span<PairGeometry> geometries) const {
-    for (std::size_t k = 0; k < count; ++k) {
-      PairGeometry& geometry = geometries[place[k]];
-      geometry.gap = gaps[k];
-      geometry.normal = normals[k];
-      geometry.arm = 0.5 * (arms_a[k] + geometry.branch + arms_b[k]);
-    }
-  }
-};
+Ellipsoid ellipsoid_of(const Particles& particles, std::size_t i) {
+  return Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
+}
 
 }  // namespace
 
-void NarrowPhase::refresh(const Particles& particles) {
-  const std::size_t count = particles.size();
+void NarrowPhase::aim(const Particles& particles) {
   const bool round = std::all_of(particles.semi_axes.begin(), particles.semi_axes.end(),
                                  [](const Vec3& axes) { return axes == Vec3::Constant(axes[0]); });
   kind_ = particles.dimensions == 2 ? Kind::ellipses : round ? Kind::spheres : Kind::ellipsoids;
-  const bool first = ellipsoids_.size() != count;
-  if (kind_ == Kind::spheres) radii_.resize(count);
-  if (kind_ == Kind::ellipses) ellipses_.resize(count, Ellipse(Vec2::Zero(), Vec2::Ones()));
-  if (kind_ == Kind::ellipsoids && first)
-    ellipsoids_.resize(count, Ellipsoid(Vec3::Zero(), Vec3::Ones()));
-  if (kind_ == Kind::ellipsoids && (first || !array_)) array_.emplace(ellipsoids_);
-#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3& axes = particles.semi_axes[i];
-    if (kind_ == Kind::spheres) {
-      radii_[i] = axes[0];
-    } else if (kind_ == Kind::ellipses) {
+  if (kind_ == Kind::spheres) radii_.resize(particles.size());
+  if (kind_ == Kind::ellipses) ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
+  if (kind_ == Kind::ellipsoids) bodies_.emplace(particles.semi_axes, particles.orientation);
+}
+
+void NarrowPhase::refresh(const Particles& particles, std::size_t first, std::size_t last) {
+  if (kind_ == Kind::ellipsoids) return bodies_->refresh(first, last);
+  for (std::size_t i = first; i < last; ++i) {
+    if (kind_ == Kind::spheres)
+      radii_[i] = particles.semi_axes[i][0];
+    else
       ellipses_[i] = ellipse_of(particles, i);
-    } else {
-      ellipsoids_[i] = Ellipsoid(Vec3::Zero(), axes, particles.orientation[i]);
-      array_->refresh(i);
-    }
   }
 }
 
 void NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
                           std::span<const Vec3> normals, Branch branch,
-                          std::span<PairGeometry> geometries) const {
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
+                          BlockGeometry& block) const {
+  const std::size_t count = pairs.size();
+  bool walls = false;
+  for (std::size_t k = 0; k < count; ++k) {
     const Pair& pair = pairs[k];
-    const std::size_t a = at(pair.a), b = at(pair.b);
-    if (b >= particles.size()) {
-      geometries[k] = measure_wall(a, Wall(b - particles.size()), particles, cell);
+    block.pairs[k] = {static_cast<std::uint32_t>(pair.a), static_cast<std::uint32_t>(pair.b)};
+    if (at(pair.b) < particles.size()) {
+      block.branch[k] = branch_vector(pair, particles, cell);
       continue;
     }
-    geometries[k].branch = branch_vector(pair, particles, cell);
-    if (kind_ == Kind::spheres)
-      measure_spheres(radii_[a], radii_[b], geometries[k]);
-    else if (kind_ == Kind::ellipses)
-      measure_ellipses(ellipses_[a], ellipses_[b], normals[k].head<2>(), branch, geometries[k]);
+    // Stands in for the wall, which measure_wall() asks for afterwards: the body and its like, far
+    // apart.
+    walls = true;
+    block.pairs[k].b = block.pairs[k].a;
+    block.branch[k] = 4.0 * particles.semi_axes[at(pair.a)].maxCoeff() * Vec3::UnitX();
   }
-  if (kind_ == Kind::ellipsoids) measure_ellipsoids(pairs, normals, branch, geometries);
+  for (std::size_t k = count; k < kPairBlock; ++k) {
+    block.pairs[k] = {0, 0};
+    block.gap[k] = kFarApart;
+    block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
+  }
+  if (kind_ == Kind::spheres) measure_spheres(count, block);
+  if (kind_ == Kind::ellipsoids) measure_ellipsoids(count, normals, branch, block);
+  if (kind_ == Kind::ellipses)
+    for (std::size_t k = 0; k < count; ++k)
+      measure_ellipses(ellipses_[block.pairs[k].a], ellipses_[block.pairs[k].b],
+                       normals[k].head<2>(), branch, block, k);
+  if (!walls) return;
+  for (std::size_t k = 0; k < count; ++k)
+    if (const std::size_t b = at(pairs[k].b); b >= particles.size()) {
+      measure_wall(k, Wall(b - particles.size()), particles, cell, block);
+      block.pairs[k].b = static_cast<std::uint32_t>(b);
+    }
 }
 
-void NarrowPhase::measure_ellipsoids(std::span<const Pair> pairs, std::span<const Vec3> normals,
-                                     Branch branch, std::span<PairGeometry> geometries) const {
-  PairBatch followed, fresh;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::size_t a = at(pairs[k].a), b = at(pairs[k].b);
-    if (b >= ellipsoids_.size()) continue;  // a wall
-    if (spheres_apart(ellipsoids_[a], ellipsoids_[b], geometries[k])) continue;
-    const bool asked_afresh = branch == Branch::global || normals[k].isZero(0.0);
-    (asked_afresh ? fresh : followed).add(pairs[k], geometries[k], normals[k], k);
+void NarrowPhase::measure_spheres(std::size_t count, BlockGeometry& block) const {
+  BlockGeometry::Column<double> radius_a{}, radius_b{};
+  for (std::size_t k = 0; k < count; ++k) {
+    radius_a[k] = radii_[block.pairs[k].a];
+    radius_b[k] = radii_[block.pairs[k].b];
   }
-  if (followed.count > 0)
-    follow_gaps(*array_, followed.list(), followed.first(followed.normals), followed.columns());
-  if (fresh.count > 0) signed_gaps(*array_, fresh.list(), fresh.columns());
-  followed.write_to(geometries);
-  fresh.write_to(geometries);
+  sphere_lanes(count, radius_a.data(), radius_b.data(), block.branch[0].data(), block.gap.data(),
+               block.normal[0].data(), block.arm[0].data());
 }
 
-PairGeometry NarrowPhase::measure_wall(std::size_t i, const Wall& wall, const Particles& particles,
-                                       const Cell& cell) const {
+void NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> normals,
+                                     Branch branch, BlockGeometry& block) const {
+  BlockGeometry::Column<Vec3> arm_b;
+  const auto first = [&](auto& column) { return std::span(column.data(), count); };
+  const PairList list{first(block.pairs), first(block.branch)};
+  GapColumns columns;
+  columns.gap = first(block.gap);
+  columns.normal = first(block.normal);
+  columns.arm_a = first(block.arm);
+  columns.arm_b = first(arm_b);
+  if (branch == Branch::global)
+    signed_gaps(*bodies_, list, columns);
+  else
+    follow_gaps(*bodies_, list, normals, columns);
+  for (std::size_t k = 0; k < count; ++k)
+    block.arm[k] = 0.5 * (block.arm[k] + block.branch[k] + arm_b[k]);
+}
+
+void NarrowPhase::measure_wall(std::size_t k, const Wall& wall, const Particles& particles,
+                               const Cell& cell, BlockGeometry& block) const {
+  const std::size_t i = block.pairs[k].a;
   const double height = wall.height_of(particles.position[i], cell);
-  const Vec3& axes = particles.semi_axes[i];
-  PairGeometry geometry{Vec3::Zero(), kFarApart, Vec3::Zero(), Vec3::Zero()};
-  if (height >= axes.maxCoeff()) return geometry;
+  block.gap[k] = kFarApart;
+  block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
+  if (height >= particles.semi_axes[i].maxCoeff()) return;
   // Seen from the particle's centre the wall is the half-space normal . x <= -height.
-  const Plane seen{wall.normal(), -height};
-  const WallGap found =
-      kind_ == Kind::ellipsoids
-          ? signed_gap(ellipsoids_[i], seen)
-          : signed_gap(Ellipsoid(Vec3::Zero(), axes, particles.orientation[i]), seen);
-  geometry.gap = found.gap;
-  geometry.normal = found.normal;
-  geometry.arm = 0.5 * (found.arm_body + found.arm_wall);
-  geometry.branch = found.arm_wall;
-  return geometry;
+  const WallGap found = signed_gap(ellipsoid_of(particles, i), Plane{wall.normal(), -height});
+  block.gap[k] = found.gap;
+  block.normal[k] = found.normal;
+  block.arm[k] = 0.5 * (found.arm_body + found.arm_wall);
+  block.branch[k] = found.arm_wall;
 }
 
 PrincipalCurvatures NarrowPhase::relative_curvature(const Pair& pair, const Vec3& normal) const {
@@ -188,8 +166,8 @@ PrincipalCurvatures NarrowPhase::relative_curvature(const Pair& pair, const Vec3
     const double curvature = 1.0 / radii_[a] + other;
     return {{curvature, curvature}, {Vec3::Zero(), Vec3::Zero()}};
   }
-  if (b >= ellipsoids_.size()) return surface_curvature(ellipsoids_[a], normal);
-  return contact_curvature(ellipsoids_[a], ellipsoids_[b], normal).relative;
+  if (b >= bodies_->size()) return surface_curvature((*bodies_)[a], normal);
+  return contact_curvature((*bodies_)[a], (*bodies_)[b], normal).relative;
 }
 
 }  // namespace tangency::dem

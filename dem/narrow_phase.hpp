@@ -5,6 +5,7 @@
 /// ellipsoids for the batch.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -15,8 +16,8 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/ellipse.hpp>
-#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -27,52 +28,61 @@ enum class Branch {
   global,  ///< the shortest way out, at the cost of a search
 };
 
-/// How the two bodies of a pair lie at the current positions.
-struct PairGeometry {
-  Vec3 branch;  ///< c_b - c_a; to a wall: to where the wall is touched
-  double gap;   ///< signed, length; of pairs that are known to be apart without it: infinite
-  Vec3 normal;  ///< unit, from a to b; 0: not known
-  Vec3 arm;     ///< contact point - c_a, midpoint of the witness points
+/// Pairs that are looked at together. Measured on assembly-1000: from 32 to 256 the time differs by
+/// less than a tenth.
+inline constexpr std::size_t kPairBlock = 64;
+
+/// How the bodies of a block of pairs lie at the current positions, in columns. Entries from the
+/// number of pairs on are pairs of no extent that lie apart.
+struct BlockGeometry {
+  template <class T>
+  using Column = std::array<T, kPairBlock>;
+
+  Column<IndexedPair> pairs;  ///< particles, and after them walls
+  Column<Vec3> branch;        ///< c_b - c_a; to a wall: to where the wall is touched
+  Column<double> gap;         ///< signed, length; of pairs known to be apart without it: infinite
+  Column<Vec3> normal;        ///< unit, from a to b; 0: not known
+  Column<Vec3> arm;           ///< contact point - c_a, midpoint of the witness points
 };
 
 /// The particles as bodies of geometry, and the questions that pairs of them ask.
 class NarrowPhase {
  public:
-  /// Pairs that one call into geometry looks at. Measured on assembly-1000: from 32 to 256 the time
-  /// differs by less than a tenth.
-  static constexpr std::size_t kBlock = 64;
-
   NarrowPhase() = default;
-  // A copy is empty until its refresh(): the array looks at the ellipsoids where they lie.
+  // A copy is empty until its aim(): bodies look at the particles where they lie.
   NarrowPhase(const NarrowPhase&) {}
   NarrowPhase(NarrowPhase&&) noexcept = default;
   NarrowPhase& operator=(NarrowPhase&&) noexcept = default;
   NarrowPhase& operator=(const NarrowPhase&) { return *this = NarrowPhase(); }
 
-  /// Takes over shapes and orientations.
-  void refresh(const Particles& particles);
+  /// Looks at these particles from now on; before every refresh(), since they may have moved in
+  /// memory or changed their kind.
+  void aim(const Particles& particles);
 
-  /// How pairs lie, side by side; at most kBlock of them.
+  /// Takes over shapes and orientations of particles first to last - 1. Different ones may be
+  /// refreshed by different threads.
+  void refresh(const Particles& particles, std::size_t first, std::size_t last);
+
+  /// How pairs lie, at most kPairBlock of them.
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
   void measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
-               std::span<const Vec3> normals, Branch branch,
-               std::span<PairGeometry> geometries) const;
+               std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
 
   /// Principal curvatures of the distance between two touching bodies.
   PrincipalCurvatures relative_curvature(const Pair& pair, const Vec3& normal) const;
 
  private:
   enum class Kind { spheres, ellipses, ellipsoids };
-  void measure_ellipsoids(std::span<const Pair> pairs, std::span<const Vec3> normals, Branch branch,
-                          std::span<PairGeometry> geometries) const;
-  PairGeometry measure_wall(std::size_t i, const Wall& wall, const Particles& particles,
-                            const Cell& cell) const;
+  void measure_spheres(std::size_t count, BlockGeometry& block) const;
+  void measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
+                          BlockGeometry& block) const;
+  void measure_wall(std::size_t k, const Wall& wall, const Particles& particles, const Cell& cell,
+                    BlockGeometry& block) const;
 
   Kind kind_ = Kind::spheres;
-  std::vector<double> radii_;  ///< of spheres
-  std::vector<Ellipse> ellipses_;
-  std::vector<Ellipsoid> ellipsoids_;  ///< centred at the origin, as ellipses are
-  std::optional<BodyArray> array_;     ///< of the ellipsoids
+  std::vector<double> radii_;          ///< of spheres
+  std::vector<Ellipse> ellipses_;      ///< centred at the origin, as ellipsoids are
+  std::optional<MovingBodies> bodies_;  ///< the ellipsoids
 };
 
 }  // namespace tangency::dem

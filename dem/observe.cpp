@@ -20,7 +20,7 @@ std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& 
   std::vector<std::int64_t> counts(particles, 0);
   for (std::size_t i = 0; i < particles; ++i)
     for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at)
-      counts[i] += contacts.records()[at->index].touches() ? 1 : 0;
+      counts[i] += contacts.touches(at->index) ? 1 : 0;
   return counts;
 }
 
@@ -36,17 +36,10 @@ double standard_deviation(const std::vector<std::int64_t>& counts, double mean) 
 }  // namespace
 
 Stress stress_of(const Contacts& contacts, const Cell& cell) {
-  Mat3 sum = Mat3::Zero();
-  double stiffness = 0.0;
-  for (const Contact& contact : contacts.records()) {
-    if (!contact.touches()) continue;
-    sum += contact.force * contact.branch.transpose();
-    const double along = contact.normal.dot(contact.branch);
-    stiffness += contact.normal_stiffness * along * along;
-  }
+  const ContactSums& sums = contacts.sums();
   const double volume = cell.volume();
-  return {0.5 / volume * (sum + sum.transpose()), stiffness / (cell.dimensions * volume),
-          cell.dimensions};
+  return {0.5 / volume * (sums.force_branch + sums.force_branch.transpose()),
+          sums.affine_stiffness / (cell.dimensions * volume), cell.dimensions};
 }
 
 double friction_angle_deg(const Mat3& stress, int dimensions) {
@@ -62,13 +55,6 @@ double friction_angle_deg(const Mat3& stress, int dimensions) {
 Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list,
                    const Vec3& gravity) {
   Balance balance;
-  double contact_sum = 0.0;
-  std::int64_t touching = 0;
-  for (const Contact& contact : contacts.records()) {
-    if (!contact.touches()) continue;
-    contact_sum += contact.force.norm();
-    ++touching;
-  }
   const auto counts = contact_counts(particles.size(), contacts, list);
   double sum = 0.0;
   std::int64_t with_contacts = 0;
@@ -86,8 +72,9 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const N
     sum += force;
     ++with_contacts;
   }
-  if (touching == 0) return balance;
-  balance.mean_contact_force = contact_sum / static_cast<double>(touching);
+  const ContactSums& sums = contacts.sums();
+  if (sums.contacts == 0) return balance;
+  balance.mean_contact_force = sums.force_length / static_cast<double>(sums.contacts);
   balance.inertial_fraction = sum / static_cast<double>(with_contacts) / balance.mean_contact_force;
   balance.largest_unbalanced_ratio /= balance.mean_contact_force;
   balance.largest_unbalanced_moment_ratio /= balance.mean_contact_force;
@@ -106,8 +93,8 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
                        inertia.cwiseSqrt().cwiseInverse().asDiagonal();
     Mat6 sum = Mat6::Zero();
     for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
-      const Contact& contact = contacts.records()[at->index];
-      if (!contact.touches()) continue;
+      if (!contacts.touches(at->index)) continue;
+      const Contact contact = contacts.records()[at->index];
       const Vec3& n = contact.normal;
       const double shear = contact.shear.stiffness;
       const Mat3 stiffness =
@@ -125,13 +112,6 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
   return std::sqrt(2.0 / largest);
 }
 
-double elastic_energy(const Contacts& contacts) {
-  double sum = 0.0;
-  for (const Contact& contact : contacts.records())
-    sum += contact.normal_energy + contact.shear.energy;
-  return sum;
-}
-
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
                     const NeighbourList& list, const Vec3& gravity) {
   Observation seen{};
@@ -140,11 +120,10 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.axial_strain = 0.0 - strain(axial, axial);  // not -0 of an unstrained cell
   seen.volumetric_strain = strain.trace();
   seen.stress = stress_of(contacts, cell);
-  for (const Contact& contact : contacts.records()) {
-    if (!contact.touches()) continue;
-    ++seen.contacts;
-    seen.mean_normal_force += contact.normal_force;
-    seen.mean_overlap += contact.overlap;
+  seen.contacts = contacts.sums().contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    seen.mean_normal_force += contacts.columns().normal_force[k];
+    seen.mean_overlap += contacts.columns().overlap[k];
   }
   if (seen.contacts > 0) {
     seen.mean_normal_force /= static_cast<double>(seen.contacts);
@@ -159,7 +138,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.porosity = 1.0 - solid / cell.volume();
   seen.balance = balance_of(particles, contacts, list, gravity);
   seen.kinetic_energy = kinetic_energy(particles);
-  seen.elastic_energy = elastic_energy(contacts);
+  seen.elastic_energy = contacts.sums().energy;
   return seen;
 }
 

@@ -81,9 +81,6 @@ struct EnergyAccount {
   double sum() const { return start + boundary + gravity + growth + branch - sliding - damping; }
 };
 
-/// Energy stored by the contacts.
-double elastic_energy(const Contacts& contacts);
-
 /// One row of a history: everything but cycle, time, stage and its cycle.
 struct Observation {
   double axial_strain, volumetric_strain;

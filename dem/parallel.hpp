@@ -1,14 +1,43 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// When a loop is shared among threads.
+/// Loops that are shared among threads: oneTBB's, whose threads sleep when there is nothing to do,
+/// and take back the share of one that the machine does not let run (docs/decisions/0012).
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 namespace tangency::dem {
 
-/// Below so many pairs, or particles, a loop is over before a second thread has woken up. Chosen:
-/// some 50 us of work, a few times what waking takes.
+/// Sets how many threads loops use from now on, for the whole process; 0: as many as the machine
+/// lets this process run at once, which is where it starts. Not while a loop is running. No result
+/// depends on it, to the bit.
+void set_threads(int count);
+
+/// How many threads loops use.
+int threads();
+
+/// Below so many pairs, or particles, a loop is over before a second thread has begun. Chosen: some
+/// 20 us of work, a few times what a loop costs to share.
 inline constexpr std::size_t kParallelThreshold = 400;
+
+namespace detail {
+void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::size_t),
+                 const void* what);
+}  // namespace detail
+
+/// Calls what(first, last) for ranges that make up [0, count), one after the other or at once.
+/// `what` does not throw.
+/// @param least  in one call where count is less
+template <class F>
+void for_ranges(std::size_t count, std::size_t least, const F& what) {
+  if (count < least) return what(std::size_t{0}, count);
+  detail::share_range(
+      count,
+      [](const void* f, std::size_t first, std::size_t last) {
+        (*static_cast<const F*>(f))(first, last);
+      },
+      &what);
+}
 
 }  // namespace tangency::dem

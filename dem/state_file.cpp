@@ -88,17 +88,6 @@ void pass(Archive& archive, P& pair) {
   for (auto& k : pair.image) archive(k);
 }
 
-template <class Archive, class C>
-requires std::is_same_v<std::remove_const_t<C>, Contact>
-void pass(Archive& archive, C& contact) {
-  for (auto* v :
-       {&contact.normal, &contact.branch, &contact.arm, &contact.force, &contact.shear.force})
-    pass(archive, *v);
-  for (auto* x : {&contact.shear.stiffness, &contact.shear.energy, &contact.overlap,
-                  &contact.normal_force, &contact.normal_stiffness, &contact.normal_energy})
-    archive(*x);
-}
-
 template <class Archive, class M>
 requires std::is_same_v<std::remove_const_t<M>, Mat3>
 void pass(Archive& archive, M& m) {
@@ -211,24 +200,44 @@ void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.reduced_position);
 }
 
+void pass_contacts(Writer& archive, const Contacts& contacts) {
+  const std::size_t count = contacts.size();
+  const auto pass_column = [&](const auto& column) {
+    for (std::size_t k = 0; k < count; ++k) pass(archive, column[k]);
+  };
+  for (const auto column : ContactColumns::kVectors) pass_column(contacts.columns().*column);
+  for (const auto column : ContactColumns::kNumbers) pass_column(contacts.columns().*column);
+}
+
+ContactColumns contacts_of(ByteReader& archive, std::size_t count) {
+  ContactColumns columns;
+  if (count > archive.left()) throw kNotWhole;
+  columns.resize(count);
+  const auto pass_column = [&](auto& column) {
+    for (auto& entry : column) pass(archive, entry);
+  };
+  for (const auto column : ContactColumns::kVectors) pass_column(columns.*column);
+  for (const auto column : ContactColumns::kNumbers) pass_column(columns.*column);
+  return columns;
+}
+
 std::string bytes_of(const State& state) {
   Writer archive;
   pass_plain(archive, state);
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
-  pass(archive, state.contacts.records());
+  pass_contacts(archive, state.contacts);
   return archive.take();
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
 bool is_whole(const State& state, const NeighbourList::Reference& reference,
-              const std::vector<Pair>& pairs, const std::vector<Contact>& records) {
+              const std::vector<Pair>& pairs) {
   const Particles& p = state.particles;
   const std::size_t n = p.size();
   if (n == 0 || p.velocity.size() != n || p.angular_velocity.size() != n ||
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
-      p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
-      records.size() != pairs.size())
+      p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n)
     return false;
   std::vector<bool> seen(n);
   for (const std::int32_t id : p.id) {
@@ -259,12 +268,11 @@ State state_of(std::string_view bytes) {
   State state;
   NeighbourList::Reference reference;
   std::vector<Pair> pairs;
-  std::vector<Contact> records;
   pass_plain(archive, state);
   pass_reference(archive, reference);
   pass(archive, pairs);
-  pass(archive, records);
-  if (!archive.at_end() || !is_whole(state, reference, pairs, records)) throw kNotWhole;
+  ContactColumns contacts = contacts_of(archive, pairs.size());
+  if (!archive.at_end() || !is_whole(state, reference, pairs)) throw kNotWhole;
   if (!lengths_are_positive(state, reference)) throw Damaged{"it holds a length that is not > 0"};
   const std::vector<double>& mass = state.particles.mass;
   if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
@@ -277,7 +285,7 @@ State state_of(std::string_view bytes) {
   state.particles.dimensions = state.cell.dimensions;
   if (state.stage == 0) throw Damaged{"its stage is 0, and a run's are counted from 1"};
   state.list.restore(std::move(reference), std::move(pairs));
-  state.contacts.restore(std::move(records), state.particles, state.list);
+  state.contacts.restore(std::move(contacts), state.particles, state.list);
   return state;
 }
 

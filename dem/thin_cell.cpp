@@ -81,7 +81,7 @@ std::optional<ThinPlace> doubled_contact(const Contacts& contacts, const Neighbo
   const Pair* last = nullptr;  // that touches: images of one pair follow each other
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
-    if (!contacts.records()[k].touches() ||
+    if (!contacts.touches(k) ||
         static_cast<std::size_t>(pair.b) >= list.reference().reduced_position.size())
       continue;  // apart, or a wall
     const bool its_own = pair.a == pair.b;

@@ -42,7 +42,7 @@ std::vector<int> contact_counts(const State& state) {
   std::vector<int> counts(state.particles.size(), 0);
   for (std::size_t i = 0; i < counts.size(); ++i)
     for (const auto* at = state.list.begin_of(i); at != state.list.end_of(i); ++at)
-      counts[i] += state.contacts.records()[at->index].touches() ? 1 : 0;
+      counts[i] += state.contacts.touches(at->index) ? 1 : 0;
   return counts;
 }
 

@@ -121,19 +121,6 @@ Exit status:
 /// DIR where none is given: the scene's name without its ending, in the working directory.
 fs::path default_directory(const fs::path& scene) { return scene.stem().string() + "-out"; }
 
-/// Starts the program again with OpenMP's threads sleeping while they wait, unless the user chose:
-/// libgomp reads the choice when it is loaded. A cycle is so short that threads which wait busily
-/// on a machine with other work slow it by a factor of ten and more (measured: assembly-125 with 2
-/// threads on 2 cores under load, 47 s against 3 s).
-void let_idle_threads_sleep(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  std::error_code error;
-  // Resolved: the process is called after the path that it was started by.
-  const auto program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) execv(program.c_str(), argv);  // returns only where it failed: then go on, slower
-}
-
 void add_run(tables::Program& program) {
   struct Words {
     RunOptions options;
@@ -182,7 +169,6 @@ void add_schema(tables::Program& program) {
 
 int main(int argc, char** argv) {
   using namespace tangency::dem;
-  let_idle_threads_sleep(argv);
   tangency::tables::Program program("tangency-dem", kProgramDescription, TANGENCY_VERSION);
   program.footer(kProgramHelp);
   add_run(program);

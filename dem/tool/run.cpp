@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/run.hpp>
 
-#include <omp.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
@@ -91,7 +90,7 @@ class Run {
         results_(options, simulation_),
         progress_(options.quiet ? tables::Progress::Shown::nothing
                                 : tables::Progress::Shown::everywhere) {
-    cost_.threads = omp_get_max_threads();
+    cost_.threads = threads();
   }
 
   int execute() {
@@ -359,7 +358,7 @@ Simulation simulation_of(const RunOptions& options) {
 }  // namespace
 
 int run(const RunOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
   Simulation simulation = simulation_of(options);
   if (caught_signal != 0) {

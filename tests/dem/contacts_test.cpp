@@ -48,7 +48,7 @@ TEST(Contacts, OfTwoSpheresPushAlongTheLineOfCentres) {
   two.particles.add({4.0, 2.0, 2.0}, Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
   two.update(kFrictionless);  // they meet through the boundary at x = 0: 1.5 apart
   const auto& records = two.contacts.records();
-  ASSERT_EQ(std::count_if(records.begin(), records.end(), [](auto& c) { return c.touches(); }), 1);
+  ASSERT_EQ(std::count_if(records.begin(), records.end(), [](const Contact& c) { return c.touches(); }), 1);
   EXPECT_LT((two.contacts.resultants().force[0] - Vec3(50.0, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_LT((two.contacts.resultants().force[1] + Vec3(50.0, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_LT(two.contacts.resultants().moment[0].norm(), 1e-12);
@@ -149,7 +149,8 @@ TEST(Contacts, ShearForcesSurviveARenewedList) {
   Assembly crowd_of;
   for (int step = 0; step < 5; ++step) crowd_of.update(kFrictional);
   const std::vector<Pair> before = crowd_of.list.pairs();
-  const std::vector<Contact> kept = crowd_of.contacts.records();
+  const ContactRecords then = crowd_of.contacts.records();
+  const std::vector<Contact> kept(then.begin(), then.end());
   crowd_of.list.build(crowd_of.particles, crowd_of.cell, 0.6);
   crowd_of.contacts.carry_over(before, crowd_of.list.pairs());
   ASSERT_GT(crowd_of.list.pairs().size(), before.size());

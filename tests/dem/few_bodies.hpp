@@ -53,7 +53,7 @@ struct FewBodies {
     return count;
   }
   /// The first pair's record.
-  const dem::Contact& contact() const { return contacts.records().front(); }
+  dem::Contact contact() const { return contacts.records().front(); }
   double mass(std::size_t i) const { return particles.mass[i]; }
   /// Tensor of inertia in space.
   Mat3 inertia(std::size_t i) const {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
-#include <omp.h>
 
 #include <cstdint>
 #include <fstream>
 #include <ostream>
 #include <string>
+
+#include <tangency/dem/parallel.hpp>
 
 #include "../tool/process.hpp"
 #include "golden_states.hpp"
@@ -32,7 +33,7 @@ class GoldenState : public ::testing::TestWithParam<GoldenRun> {
       GTEST_SKIP() << "no row of tests/data/golden_states/states.csv is of this machine's kind, "
                    << kind_of_this_machine() << "; golden_states writes one";
   }
-  void TearDown() override { omp_set_num_threads(1); }
+  void TearDown() override { dem::set_threads(0); }
 
   const GoldenRun& run_ = GetParam();
 };
@@ -40,7 +41,7 @@ class GoldenState : public ::testing::TestWithParam<GoldenRun> {
 // dem/simulation.hpp (1)
 TEST_P(GoldenState, IsTheCommittedOneAtEveryThreadCount) {
   for (const int threads : {1, 2, 4}) {
-    omp_set_num_threads(threads);
+    dem::set_threads(threads);
     dem::Simulation simulation = start(run_);
     run_cycles(simulation, run_.cycles);
     EXPECT_EQ(row_of(run_, simulation), committed(run_)) << threads << " threads";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Assemblies of ellipses in the plane.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/state_file.hpp>
 
 #include "assembly.hpp"
@@ -287,14 +287,14 @@ TEST(PlaneSimulation, HasTheSameStateAtEveryThreadCount) {
                 "arrangement = \"random\"\nbounding_fraction = 0.450000\n", ""),
            "max_strain_rate = 0.1", "max_strain_rate = 2.0");
   for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Simulation simulation(parse_scene(text, "scene.toml"));
     while (simulation.observe().contacts < 600) simulation.step();
     simulation.next_stage();
     for (int k = 0; k < 50; ++k) simulation.step();
     hash[threads - 1] = state_hash(simulation.state());
   }
-  omp_set_num_threads(1);
+  set_threads(0);
   EXPECT_EQ(hash[0], hash[1]);
   EXPECT_EQ(hash[0], hash[2]);
 }

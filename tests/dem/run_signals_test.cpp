@@ -48,7 +48,6 @@ class Started {
 
  private:
   static std::vector<std::string> arguments(const TemporaryFolder& folder) {
-    ::unsetenv("OMP_WAIT_POLICY");
     return {"run", make_pipe(folder.path("scene.toml")), "--out", folder.path("out"), "--quiet"};
   }
   static Process::Place place(bool ignores_hangup) {
@@ -105,13 +104,6 @@ TEST(RunSignals, ThatTheParentIgnoredStayIgnored) {
   run.process().send(SIGTERM);
   run.give_scene(small_scene());
   EXPECT_EQ(run.process().wait().status, 128 + SIGTERM);
-}
-
-TEST(RunSignals, FindTheProcessUnderItsName) {
-  const TemporaryFolder folder;
-  Started run(folder);
-  EXPECT_EQ(run.of_proc("comm"), "tangency-dem\n");
-  EXPECT_NE(run.of_proc("environ").find("OMP_WAIT_POLICY"), std::string::npos) << "started again";
 }
 
 }  // namespace

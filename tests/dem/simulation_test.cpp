@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
@@ -51,13 +51,13 @@ Simulation dense(std::size_t count) {
 TEST(Simulation, HasTheSameStateAtEveryThreadCount) {
   std::string hash[3];
   for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Simulation simulation = dense(512);
     run_cycles(simulation, 250);
     ASSERT_GT(simulation.observe().contacts, 400);
     hash[threads - 1] = state_hash(simulation.state());
   }
-  omp_set_num_threads(1);
+  set_threads(0);
   EXPECT_EQ(hash[0], hash[1]);
   EXPECT_EQ(hash[0], hash[2]);
 }
@@ -209,14 +209,14 @@ TEST(Relaxation, HasTheSameStateAtEveryThreadCountAndFromASavedState) {
   save_state(relaxing().state(), folder.path("a.state"));
   std::string hash[3];
   for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Simulation simulation = relaxing();
     if (threads == 3)
       simulation = Simulation(simulation.scene(), load_state(folder.path("a.state")));
     run_cycles(simulation, 100);
     hash[threads - 1] = state_hash(simulation.state());
   }
-  omp_set_num_threads(1);
+  set_threads(0);
   EXPECT_EQ(hash[0], hash[1]);
   EXPECT_EQ(hash[0], hash[2]);
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The contact laws of contact_law.hpp for a block of pairs at once, one pair in each lane of a
+/// vector register: from where the bodies of each pair are, what force acts between them before and
+/// how they move to the force after, with the sums over the block that every step needs. Free
+/// functions that own nothing. The instruction set is chosen when the program runs.
+///
+/// (1) Each pair's results are those of contact_law.hpp to rounding, and to the bit they do not
+///     depend on its neighbours in the block or on its place there. The sums are added up lane by
+///     lane: their last bits depend on the instruction set.
+/// (2) A pair that does not touch, and did not before, gets zeros and keeps its normal.
+#pragma once
+
+#include <cstddef>
+
+#include <tangency/geometry/indexed_pair.hpp>
+
+namespace tangency::dem {
+
+/// A particle's motion, half a step ago, as the lanes read it: a line of cache, for random access.
+struct alignas(64) MotionRow {
+  double velocity[3];
+  double unused;
+  double spin[3];  ///< in space coordinates
+  double unused_too;
+};
+static_assert(sizeof(MotionRow) == 8 * sizeof(double));
+
+/// What a block's contacts carry from step to step: the columns of ContactColumns at the block's
+/// first pair. Vectors are x y z of one pair after the other.
+struct ContactState {
+  double *normal, *branch, *arm, *shear_force;
+  double *overlap, *normal_force, *normal_stiffness, *normal_energy;
+  double *shear_stiffness, *shear_energy;
+};
+
+/// The parameters of the law of each pair, as ContactLaw has them.
+struct LawColumns {
+  const double *normal_stiffness, *shear_stiffness, *friction_coefficient, *cohesion;
+};
+
+/// What Hertz's law makes of each pair that touches (hertz_lanes.hpp); of the others finite.
+struct HertzColumns {
+  const double *force, *stiffness, *energy, *along, *across;
+  const double* direction;  ///< x y z of each
+};
+
+/// Sums over the contacts of a block, as the lanes write them (ContactSums, ContactWork).
+struct BlockSums {
+  double force_branch[9];  ///< column after column
+  double affine_stiffness, force_length, energy, contacts;
+  double sliding, boundary, branch;
+};
+
+/// Up to kPairs pairs. Every array has kPairs entries; those from `count` on are pairs of any
+/// particles that lie apart.
+struct ContactBlock {
+  static constexpr std::size_t kPairs = 64;
+
+  std::size_t count;
+  const IndexedPair* pairs;  ///< into `motion`; the walls, which do not move, follow the particles
+  const MotionRow* motion;
+  double dt;       ///< time since the last update
+  double rate[9];  ///< velocity gradient of the cell, column after column
+
+  // Where the pairs are now (PairGeometry).
+  const double *gap, *normal, *branch, *arm;
+
+  LawColumns law;
+  const HertzColumns* hertz;  ///< null: the linear law
+  bool bears_shear;           ///< may any pair have a shear force, before or after?
+  ContactState state;         ///< from the last step's to this one's
+
+  // Results for the bodies: the force of a on b and the moments of it on a and on b.
+  double *force, *moment_a, *moment_b;
+  BlockSums* sums;
+};
+
+/// One step. Reads and writes what the block names.
+void contact_lanes(const ContactBlock& block) noexcept;
+
+/// Forces, moments and sums of contacts as they are saved, to the bit as contact_lanes() gave
+/// them: of the block it reads count and state, and writes force, moments and sums.
+void restored_lanes(const ContactBlock& block) noexcept;
+
+/// Gap, normal and arm of pairs of spheres. Concentric ones have the normal of
+/// geometry/primitives.hpp. Arrays of ContactBlock::kPairs entries.
+void sphere_lanes(std::size_t count, const double* radius_a, const double* radius_b,
+                  const double* branch, double* gap, double* normal, double* arm) noexcept;
+
+}  // namespace tangency::dem
