@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
@@ -53,27 +54,50 @@ void fill(LaneShape& lane, const Ellipsoid& body) {
 
 /// The pairs of one call, wherever their bodies are.
 struct Task {
-  const BodyArray* bodies = nullptr;  ///< null: plain pairs
+  const BodyArray* bodies = nullptr;     ///< null: moving bodies or plain pairs
+  const MovingBodies* moving = nullptr;  ///< null: the bodies above or plain pairs
+  const LaneBody* lanes = nullptr;       ///< of the bodies
+  std::size_t body_count = 0;
   const IndexedPair* pairs = nullptr;
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
   const char* call = nullptr;
   const Vec3* separations = nullptr;
   const Vec3* previous_normals = nullptr;
+  bool answers_over_normals = false;  ///< else what a lane leaves open is still there
   std::size_t count = 0;
   Accuracy accuracy;
 
+  bool indexed() const { return bodies != nullptr || moving != nullptr; }
   const Ellipsoid& a(std::size_t i) const { return bodies ? (*bodies)[pairs[i].a] : plain_a[i]; }
   const Ellipsoid& b(std::size_t i) const { return bodies ? (*bodies)[pairs[i].b] : plain_b[i]; }
 
   /// What a lane cannot prove: a separation that is not finite is never proven by one.
+  /// @param previous_normal  null, or 0: the pair is asked afresh
   Gap single(std::size_t i, const Vec3* previous_normal) const {
     require_finite_separation(i);
-    if (previous_normal != nullptr) {
-      const Vec3 d = separations ? separations[i] : Vec3(b(i).centre() - a(i).centre());
-      if (!d.allFinite()) return signed_gap(a(i), b(i));  // that of the centres, which overflows
-      return follow_gap(a(i), b(i), d, *previous_normal);
+    if (moving != nullptr)
+      return single(made(pairs[i].a), made(pairs[i].b), separations + i, previous_normal);
+    if (separations != nullptr || previous_normal == nullptr)
+      return single(a(i), b(i), separations ? separations + i : nullptr, previous_normal);
+    const Vec3 d = b(i).centre() - a(i).centre();
+    if (!d.allFinite()) return signed_gap(a(i), b(i));  // that of the centres, which overflows
+    return single(a(i), b(i), &d, previous_normal);
+  }
+
+  static Gap single(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
+                    const Vec3* previous_normal) {
+    if (separation == nullptr) return signed_gap(a, b);
+    if (previous_normal == nullptr || *previous_normal == Vec3::Zero())
+      return signed_gap(a, b, *separation);
+    return follow_gap(a, b, *separation, *previous_normal);
+  }
+
+  Ellipsoid made(std::size_t body) const {
+    try {
+      return (*moving)[body];
+    } catch (const InvalidEllipsoid& invalid) {
+      contract::no_ellipsoid(call, body, invalid.what());
     }
-    return separations ? signed_gap(a(i), b(i), separations[i]) : signed_gap(a(i), b(i));
   }
 
   bool overlaps(std::size_t i) const {
@@ -98,7 +122,7 @@ struct Task {
   void require_indices(std::size_t first, std::size_t n) const {
     static_assert(sizeof(IndexedPair) == sizeof(std::uint64_t));
     constexpr std::uint64_t kHalf = std::uint64_t{1} << 31, kBoth = (kHalf << 1) + 1;
-    const std::size_t size = bodies->size();
+    const std::size_t size = body_count;
     if (size > kHalf) return find_outside(first, n);
     const std::uint64_t room = kBoth * (kHalf - size);
     std::uint64_t outside = 0;
@@ -112,7 +136,7 @@ struct Task {
     if ((outside & (kBoth * kHalf)) != 0) find_outside(first, n);
   }
   void find_outside(std::size_t first, std::size_t n) const {
-    const std::size_t size = bodies->size();
+    const std::size_t size = body_count;
     for (std::size_t i = first; i < first + n; ++i) {
       if (pairs[i].a >= size) contract::outside(call, i, 'a', pairs[i].a, size);
       if (pairs[i].b >= size) contract::outside(call, i, 'b', pairs[i].b, size);
@@ -140,14 +164,23 @@ struct Workspace {
   }
 };
 
-/// What stands at `first` of an array where that is a full block; else a copy of it, filled up with
-/// its first entry.
-template <class T>
-const T* block_of(const T* from, std::size_t first, std::size_t count, T* copy) {
-  if (count == kBlock) return from + first;
+/// A copy of what stands at `first` of an array, filled up with its first entry.
+const IndexedPair* copied(const IndexedPair* from, std::size_t first, std::size_t count,
+                          IndexedPair* copy) {
   std::copy_n(from + first, count, copy);
   std::fill(copy + count, copy + kBlock, from[first]);
   return copy;
+}
+/// As numbers, which a compiler copies by whole registers.
+const Vec3* copied(const Vec3* from, std::size_t first, std::size_t count, Vec3* copy) {
+  std::copy_n(from[first].data(), 3 * count, copy->data());
+  std::fill(copy + count, copy + kBlock, from[first]);
+  return copy;
+}
+/// What stands there itself where that is a full block.
+template <class T>
+const T* block_of(const T* from, std::size_t first, std::size_t count, T* copy) {
+  return count == kBlock ? from + first : copied(from, first, count, copy);
 }
 
 void aim(const Task& task, LaneBlock& block) {
@@ -155,8 +188,7 @@ void aim(const Task& task, LaneBlock& block) {
   block.tolerance_of_size = accuracy.of_size;
   block.tolerance = accuracy.length;
   block.polish = accuracy.normals;
-  // A moment ago the normal was good to some 1e-4; the start of a cold search is to 1e-2.
-  block.first_steps = task.previous_normals != nullptr ? 1 : 2;
+  block.factor_error = task.moving != nullptr ? detail::kOfRotation : 0.0;
   block.coarse = kCoarse;
 }
 
@@ -164,11 +196,11 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
-  if (task.bodies != nullptr) {
-    block.bodies_a = block.bodies_b = task.bodies->lanes();
-    block.shapes_a = block.shapes_b = task.bodies->shapes();
+  if (task.indexed()) {
+    block.bodies_a = block.bodies_b = task.lanes;
+    block.shapes_a = block.shapes_b = task.bodies != nullptr ? task.bodies->shapes() : nullptr;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
-    if (task.bodies->size() > kNear && first + 2 * kBlock <= task.count)
+    if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;
   } else {
     block.bodies_a = work.plain_a;
@@ -190,11 +222,24 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
     block.separations = block_of(task.separations, first, count, work.separations)->data();
   }
   if (task.previous_normals != nullptr) {
-    // Always copied: the answers may be written where they stand.
-    std::copy_n(task.previous_normals + first, count, work.normals);
-    std::fill(work.normals + count, work.normals + kBlock, task.previous_normals[first]);
-    block.normals = work.normals[0].data();
+    const Vec3* const from = task.previous_normals;
+    const Vec3* const normals = task.answers_over_normals
+                                    ? copied(from, first, count, work.normals)
+                                    : block_of(from, first, count, work.normals);
+    block.normals = normals->data();
   }
+}
+
+/// Is any answer written where a previous normal stands?
+bool meet(const GapColumns& columns, std::span<const Vec3> normals) {
+  const auto first = reinterpret_cast<std::uintptr_t>(normals.data());
+  const std::uintptr_t last = first + normals.size_bytes();
+  const auto meets = [&](const auto& column) {
+    const auto begin = reinterpret_cast<std::uintptr_t>(column.data());
+    return begin < last && first < begin + column.size_bytes();
+  };
+  return meets(columns.gap) || meets(columns.gap_error) || meets(columns.normal) ||
+         meets(columns.arm_a) || meets(columns.arm_b);
 }
 
 /// Writes the answers of one block to columns: a full block directly.
@@ -253,7 +298,7 @@ void run_here(const Task& task, const Write& write) {
   Workspace work;
   for (std::size_t first = 0; first < task.count; first += kBlock) {
     const std::size_t count = std::min(kBlock, task.count - first);
-    if (task.bodies != nullptr) task.require_indices(first, count);
+    if (task.indexed()) task.require_indices(first, count);
     gather(task, first, count, work);
     write.aim(work, first, count);
     std::uint64_t open = ~detail::gap_lanes(work.block);
@@ -261,8 +306,10 @@ void run_here(const Task& task, const Write& write) {
     write.lanes(work, first, count);
     for (; open != 0; open &= open - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(open));
-      write.single(task.single(first + i, task.previous_normals ? work.normals + i : nullptr),
-                   first + i);
+      Vec3 previous = Vec3::Zero();
+      if (work.block.normals != nullptr) previous = Vec3::Map(work.block.normals + 3 * i);
+      const Vec3* const given = task.previous_normals != nullptr ? &previous : nullptr;
+      write.single(task.single(first + i, given), first + i);
     }
   }
 }
@@ -272,15 +319,20 @@ void run(const Task& task, const Write& write) noexcept {
   in_default_environment([&] { run_here(task, write); });
 }
 
-Task task_of(const char* call, const BodyArray& bodies, const PairList& list,
-             Accuracy accuracy = {}) {
+void bind(Task& task, const BodyArray& bodies) { task.bodies = &bodies; }
+void bind(Task& task, const MovingBodies& bodies) { task.moving = &bodies; }
+
+template <class Bodies>
+Task task_of(const char* call, const Bodies& bodies, const PairList& list, Accuracy accuracy = {}) {
   assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0);
-  if (!list.separations.empty()) {
+  if (!list.separations.empty() || std::is_same_v<Bodies, MovingBodies>) {
     contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
   }
   Task task;
   task.call = call;
-  task.bodies = &bodies;
+  bind(task, bodies);
+  task.lanes = bodies.lanes();
+  task.body_count = bodies.size();
   task.pairs = list.pairs.data();
   task.separations = list.separations.empty() ? nullptr : list.separations.data();
   task.count = list.pairs.size();
@@ -288,7 +340,8 @@ Task task_of(const char* call, const BodyArray& bodies, const PairList& list,
   return task;
 }
 
-Task task_of(const char* call, const BodyArray& bodies, const PairList& list, Accuracy accuracy,
+template <class Bodies>
+Task task_of(const char* call, const Bodies& bodies, const PairList& list, Accuracy accuracy,
              std::span<const Vec3> normals) {
   contract::require_length(call, "previous_normals", normals.size(), list.pairs.size());
   Task task = task_of(call, bodies, list, accuracy);
@@ -306,6 +359,15 @@ void require_columns(const char* call, const GapColumns& columns, std::size_t co
   require("arm_a", columns.arm_a);
   require("arm_b", columns.arm_b);
   require("status", columns.status);
+}
+
+template <class Bodies>
+void follow(const Bodies& bodies, const PairList& list, std::span<const Vec3> previous_normals,
+            const GapColumns& answers, Accuracy accuracy) noexcept {
+  require_columns("follow_gaps", answers, list.pairs.size());
+  Task task = task_of("follow_gaps", bodies, list, accuracy, previous_normals);
+  task.answers_over_normals = meet(answers, previous_normals);
+  run(task, ToColumns{answers});
 }
 
 /// What a lane proves, and doubtful(i) for the other pairs.
@@ -376,6 +438,12 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> a
   run(task_of("signed_gaps", bodies, list, accuracy), ToGaps{answers});
 }
 
+void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
+                 Accuracy accuracy) noexcept {
+  require_columns("signed_gaps", answers, list.pairs.size());
+  run(task_of("signed_gaps", bodies, list, accuracy), ToColumns{answers});
+}
+
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy) noexcept {
   contract::require_length("signed_gaps", "b", b.size(), a.size());
@@ -392,8 +460,13 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy) noexcept {
-  require_columns("follow_gaps", answers, list.pairs.size());
-  run(task_of("follow_gaps", bodies, list, accuracy, previous_normals), ToColumns{answers});
+  follow(bodies, list, previous_normals, answers, accuracy);
+}
+
+void follow_gaps(const MovingBodies& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, const GapColumns& answers,
+                 Accuracy accuracy) noexcept {
+  follow(bodies, list, previous_normals, answers, accuracy);
 }
 
 void follow_gaps(const BodyArray& bodies, const PairList& list,

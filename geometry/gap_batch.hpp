@@ -10,8 +10,8 @@
 /// (2) To the bit, an answer does not depend on its position, the order and number of the pairs,
 ///     or the thread. It may depend, within its error, on the instruction set of the machine.
 /// (3) Yes/no answers are the same everywhere.
-/// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp) and the tolerance
-///     of the Accuracy asked for.
+/// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp), of MovingBodies
+///     26 u L, and the tolerance of the Accuracy asked for.
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
@@ -27,6 +27,7 @@
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/large_pages.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
@@ -126,14 +127,20 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns
                  Accuracy accuracy = {}) noexcept;
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
                  Accuracy accuracy = {}) noexcept;
+/// The same for moving bodies. Separations have to be given, here and below.
+void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
+                 Accuracy accuracy = {}) noexcept;
 /// The same for a[i] and b[i], at the cost of reading whole bodies.
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy = {}) noexcept;
 
-/// follow_gap() of every pair; where `separations` is empty, of the rounded c_B - c_A, and
-/// signed_gap() where that overflows.
+/// follow_gap() of every pair, and signed_gap() of those whose previous normal is exactly 0; where
+/// `separations` is empty, of the rounded c_B - c_A, and signed_gap() where that overflows.
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3> previous_normals, const GapColumns& answers,
+                 Accuracy accuracy = {}) noexcept;
+void follow_gaps(const MovingBodies& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy = {}) noexcept;
 void follow_gaps(const BodyArray& bodies, const PairList& list,

@@ -24,9 +24,7 @@ namespace {
 constexpr double kWorthAStep = 1.0;
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
 constexpr double kSteady = 0.02;         // of l: measured, as good as one step more
-[[maybe_unused]] constexpr int kFirstSteps =
-    2;                     // of Newton's, cold; following, one less: then it is proven
-constexpr int kSteps = 8;  // chosen: measured pairs need 1 to 4
+constexpr int kSteps = 7;  // of Newton's with proofs; chosen: measured pairs need 1 to 4
 
 struct PackBody {
   PackVec3 centre;
@@ -40,6 +38,7 @@ struct PackPair {
   Pack d_error;  ///< of d, over u
   Pack size;     ///< L, and no more
   Pack tolerance;
+  double factor_error;  ///< LaneBlock's
 };
 
 /// What is evaluated at a normal.
@@ -89,14 +88,15 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const Pack u = all(kUnitRoundoff), above0 = all(0.0), size = absolute(at.gap);
   const Pack axes = pair.a.largest + pair.b.largest;
   // (V)
-  Pack roundings = multiply_add(all(13.0), axes, pair.d_error);
+  Pack roundings = multiply_add(all(13.0 + pair.factor_error), axes, pair.d_error);
   roundings = multiply_add(all(kOfReach), largest_component(at.beyond_a), roundings);
   const Pack value_error = u * multiply_add(all(10.8), size, roundings);
   const Pack ball = (at.gap - value_error) + (pair.a.least_radius + pair.b.least_radius);
   // (R)
   const Pack thin_a = pair.a.largest * at.inverse_h_a, thin_b = pair.b.largest * at.inverse_h_b;
   const Pack radii = multiply_add(pair.a.largest, thin_a, pair.b.largest * thin_b);
-  const Pack rest_error = u * multiply_add(all(8.01), radii, all(32.0) * (axes + size));
+  const Pack rest_error =
+      u * multiply_add(all(8.01 + 1.01 * pair.factor_error), radii, all(32.0) * (axes + size));
   const PackVec3 across = multiply_take(at.gap, n, at.rest);
   // (B), with room for the roughness of the inverse.
   const Pack error2 = all(5.1) * (rest_error * rest_error);
@@ -106,7 +106,8 @@ HWY_INLINE PackProof prove(const PackPair& pair, const PackVec3& n, const PackPo
   const auto within = [&](double roundings_of_size) HWY_ATTR {
     return multiply_add(all(roundings_of_size * kUnitRoundoff), pair.size, pair.tolerance);
   };
-  const PackMask settled = (absolute(gap) > error) & (error <= within(kLaneErrorBound)) &
+  const PackMask settled = (absolute(gap) > error) &
+                           (error <= within(kLaneErrorBound + pair.factor_error)) &
                            (ball > above0) & (larger(thin_a, thin_b) <= all(kThinnestAlongNormal));
   return {gap, error, settled, settled & (above <= within(kWorthAStep))};
 }
@@ -170,7 +171,7 @@ HWY_INLINE PackSymmetric3 shape(const PackBody& body) {
 
 HWY_INLINE PackPair load_pair(const LaneBlock& block, std::size_t i) {
   const PairRows rows = find_rows(block, i, block.bodies_a, block.bodies_b);
-  PackPair pair{load_body(rows.a), load_body(rows.b), {}, {}, {}, {}};
+  PackPair pair{load_body(rows.a), load_body(rows.b), {}, {}, {}, {}, block.factor_error};
   pair.d = separation(block, i, pair.a.centre, pair.b.centre);
   const Pack reach = largest_component(pair.d);
   pair.d_error = block.centres_are_exact ? all(1.75) * reach : all(0.0);
@@ -179,9 +180,8 @@ HWY_INLINE PackPair load_pair(const LaneBlock& block, std::size_t i) {
   return pair;
 }
 
-HWY_INLINE PackVec3 first_normal(const LaneBlock& block, std::size_t i, const PackPair& pair,
-                                 const PackSymmetric3& shape_a, const PackSymmetric3& shape_b) {
-  if (block.normals != nullptr) return normalised(load_vectors(block.normals + 3 * i));
+HWY_INLINE PackVec3 perram_wertheim_normal(const PackPair& pair, const PackSymmetric3& shape_a,
+                                           const PackSymmetric3& shape_b) {
   const PackPerramWertheim form(shape_a, shape_b, pair.d);
   Pack l = form.first_guess();
   PackMask moving = absolute(l) >= all(0.0);
@@ -197,6 +197,25 @@ HWY_INLINE PackVec3 first_normal(const LaneBlock& block, std::size_t i, const Pa
   return normalised(direction * rough_inverse(largest_component(direction)));
 }
 
+/// Where the search starts, and which lanes have no normal of a moment ago.
+struct PackStart {
+  PackVec3 normal;
+  PackMask fresh;
+};
+
+HWY_INLINE PackStart first_normal(const LaneBlock& block, std::size_t i, const PackPair& pair,
+                                  const PackSymmetric3& shape_a, const PackSymmetric3& shape_b) {
+  if (block.normals == nullptr)
+    return {perram_wertheim_normal(pair, shape_a, shape_b), all(0.0) <= all(0.0)};
+  const PackVec3 previous = load_vectors(block.normals + 3 * i);
+  PackStart start{normalised(previous), is_nothing(previous)};
+  if (!none(start.fresh)) {
+    const PackVec3 normal = perram_wertheim_normal(pair, shape_a, shape_b);
+    start.normal = chosen(start.fresh, normal, start.normal);
+  }
+  return start;
+}
+
 /// A lane that is done keeps its normal, so that no answer depends on its neighbours.
 HWY_INLINE void move(const PackStep& step, PackMask& going, PackVec3& n) {
   going = going & step.definite;
@@ -207,25 +226,31 @@ HWY_INLINE void move(const PackStep& step, PackMask& going, PackVec3& n) {
 HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   const PackPair pair = load_pair(block, i);
   const PackSymmetric3 shape_a = shape(pair.a), shape_b = shape(pair.b);
-  PackVec3 n = first_normal(block, i, pair, shape_a, shape_b);
+  const PackStart start = first_normal(block, i, pair, shape_a, shape_b);
+  PackVec3 n = start.normal;
   // False for NaN, which is how bodies that are not moderate() stay out.
   PackMask going =
       (pair.size <= all(kLargestModerate)) & (largest_component(pair.d) >= all(kSmallestModerate));
   const PackMask in_range = going;
   const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
-  for (int k = 0; k < block.first_steps; ++k) {
-    PackMask moving = k == 0 ? without(going, coarse) : going;
-    if (none(moving)) continue;
+  const auto first_step = [&](const PackMask& asked) HWY_ATTR {
+    if (none(asked)) return;
     const PackPoint at = point_of(pair, n, glance(shape_a, n), glance(shape_b, n));
+    PackMask moving = asked;
     move(newton_step(shape_a, shape_b, pair.size, n, at), moving, n);
-    going = moving | (k == 0 ? going & coarse : moving);
-  }
+    going = moving | without(going, asked);
+  };
+  // A moment ago the normal was good to some 1e-4, the start of a cold search is to 1e-2: one step
+  // more. A coarse answer takes one less.
+  first_step(without(going & start.fresh, coarse));
+  first_step(without(going, without(coarse, start.fresh)));
   PackPoint at;
   PackProof proof;
-  for (int k = block.first_steps;; ++k) {
+  for (int k = 0;; ++k) {
     at = point_of(pair, n, support(pair.a, n), support(pair.b, n));
     proof = prove(pair, n, at);
     going = without(going, proof.best);
+    if (k == kSteps - 1) going = without(going, start.fresh);  // which had one before
     if (none(going) || k == kSteps) break;
     move(newton_step(shape_a, shape_b, pair.size, n, at), going, n);
   }

@@ -12,7 +12,7 @@ struct alignas(64) LaneBody {
   double centre[3];
   double largest;       ///< semi-axis; NaN where the body is not moderate(): no lane then settles
   double least_radius;  ///< of curvature, rounded down
-  double factor[9];     ///< the columns a_k R e_k, one after the other, each product rounded once
+  double factor[9];     ///< the columns a_k R e_k, one after the other: see LaneBlock
   double unused[2];
 };
 static_assert(sizeof(LaneBody) == 16 * sizeof(double) && alignof(LaneBody) == 64);
@@ -29,6 +29,10 @@ static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 
+/// In u a_max: what the factor of a body of moving_lanes.hpp may do to its support beyond what
+/// that of an Ellipsoid does, (Q) of docs/derivations/gap-batch.md.
+inline constexpr double kOfRotation = 10.0;
+
 /// Up to 64 pairs, and where their answers go. Every array has kPairs entries, of which those from
 /// `count` on must be readable numbers or indices of some body, and may be written to.
 struct LaneBlock {
@@ -42,14 +46,17 @@ struct LaneBlock {
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;
   const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
-  const double* normals;      ///< where to start, not 0, |n| in [2^-60, 2^60]; null: anywhere
+  /// Where to start, |n| in [2^-60, 2^60] or 0, which is anywhere; null: all are.
+  const double* normals;
   /// Is the true separation that of the centres, not their rounded difference?
   bool centres_are_exact;
   /// What gap_error may be beyond rounding: a part of L, and a length.
   double tolerance_of_size, tolerance;
-  int first_steps;  ///< of Newton's method before anything is proven
-  double coarse;    ///< of L: pairs of a tolerance from here on take one of them less
-  bool polish;      ///< one step more than the gap needs, for the normal's sake
+  /// 0 where each entry of `factor` is one of Ellipsoid::rotation() times a semi-axis, rounded
+  /// once; kOfRotation where it is what moving_lanes.hpp makes.
+  double factor_error;
+  double coarse;  ///< of L: pairs of a tolerance from here on take one step less at first
+  bool polish;    ///< one step more than the gap needs, for the normal's sake
 
   double* gap;  ///< null, here and below: not wanted
   double* gap_error;

@@ -71,6 +71,7 @@ TANGENCY_PACK_2(Pack, operator-, Sub)
 TANGENCY_PACK_2(Pack, operator*, Mul)
 TANGENCY_PACK_2(Pack, operator/, Div)
 TANGENCY_PACK_2(Pack, larger, Max)
+TANGENCY_PACK_2(Pack, smaller, Min)
 TANGENCY_PACK_2(PackMask, operator<, Lt)
 TANGENCY_PACK_2(PackMask, operator>, Gt)
 TANGENCY_PACK_2(PackMask, operator<=, Le)
@@ -260,6 +261,9 @@ HWY_INLINE void store(const Pack& p, double* to) {
   hn::StoreU(p.high, D(), to + register_lanes());
 #endif
 }
+/// Are all components 0, of either sign?
+HWY_INLINE PackMask is_nothing(const PackVec3& v) { return largest_component(v) <= all(0.0); }
+
 /// x y z of one pair after the other
 HWY_INLINE PackVec3 load_vectors(const double* from) {
   PackVec3 v;

@@ -25,6 +25,18 @@ void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept {
   std::abort();
 }
 
+void wrong_column(const char* call, const char* what, std::size_t length,
+                  std::size_t bodies) noexcept {
+  std::fprintf(stderr, "tangency: %s: %s: %zu entries, and there are %zu bodies\n", call, what,
+               length, bodies);
+  std::abort();
+}
+
+void no_ellipsoid(const char* call, std::size_t index, const char* why) noexcept {
+  std::fprintf(stderr, "tangency: %s: body %zu: %s\n", call, index, why);
+  std::abort();
+}
+
 void not_finite(const char* call, const char* what, const Vec3& value) noexcept {
   std::fprintf(stderr, "tangency: %s: %s = (%g, %g, %g): must be finite\n", call, what, value[0],
                value[1], value[2]);

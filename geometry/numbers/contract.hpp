@@ -21,6 +21,9 @@ namespace tangency::contract {
 /// "tangency: BodyArray::refresh: body 9, and there are 9 bodies"
 [[noreturn]] void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept;
 /// "tangency: signed_gap: separation = (1, nan, 0): must be finite"
+[[noreturn]] void wrong_column(const char* call, const char* what, std::size_t length,
+                               std::size_t bodies) noexcept;
+[[noreturn]] void no_ellipsoid(const char* call, std::size_t index, const char* why) noexcept;
 [[noreturn]] void not_finite(const char* call, const char* what, const Vec3& value) noexcept;
 
 inline void require_length(const char* call, const char* what, std::size_t length,

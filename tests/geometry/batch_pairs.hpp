@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,31 @@ struct Indexed {
   std::vector<IndexedPair> pairs;
   std::vector<Vec3> separations;
 };
+
+/// Answers by columns, each also as a whole of tier fast, which columns do not tell.
+struct Columns {
+  explicit Columns(std::size_t pairs)
+      : gap(pairs), gap_error(pairs), normal(pairs), arm_a(pairs), arm_b(pairs), status(pairs) {}
+  GapColumns all() { return {gap, gap_error, normal, arm_a, arm_b, status}; }
+  Gap operator[](std::size_t i) const {
+    return {gap[i], normal[i], arm_a[i], arm_b[i], gap_error[i], status[i], GapTier::fast};
+  }
+  std::vector<double> gap, gap_error;
+  std::vector<Vec3> normal, arm_a, arm_b;
+  std::vector<GapStatus> status;
+};
+
+inline bool same_bits(double x, double y) {
+  return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+}
+inline bool same_bits(const Vec3& v, const Vec3& w) {
+  return same_bits(v[0], w[0]) && same_bits(v[1], w[1]) && same_bits(v[2], w[2]);
+}
+inline bool same_bits(const Gap& g, const Gap& h) {
+  return same_bits(g.gap, h.gap) && same_bits(g.gap_error, h.gap_error) &&
+         same_bits(g.normal, h.normal) && same_bits(g.arm_a, h.arm_a) &&
+         same_bits(g.arm_b, h.arm_b) && g.status == h.status && g.tier == h.tier;
+}
 
 /// Runs with each instruction set that this machine and this build have, one after the other.
 inline void at_every_level(const std::function<void()>& run) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -31,6 +30,7 @@ using testing::contacts;
 using testing::Family;
 using testing::Indexed;
 using testing::kSeed;
+using testing::same_bits;
 
 /// Coinciding centres, nests, spheres, extreme scales and shapes, far origins.
 Family extremes() {
@@ -100,18 +100,6 @@ std::vector<Gap> batch_answers(const Family& f) {
   std::vector<Gap> gaps(f.a.size());
   signed_gaps(f.a, f.b, gaps);
   return gaps;
-}
-
-bool same_bits(double x, double y) {
-  return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-}
-bool same_bits(const Vec3& v, const Vec3& w) {
-  return same_bits(v[0], w[0]) && same_bits(v[1], w[1]) && same_bits(v[2], w[2]);
-}
-bool same_bits(const Gap& g, const Gap& h) {
-  return same_bits(g.gap, h.gap) && same_bits(g.gap_error, h.gap_error) &&
-         same_bits(g.normal, h.normal) && same_bits(g.arm_a, h.arm_a) &&
-         same_bits(g.arm_b, h.arm_b) && g.status == h.status && g.tier == h.tier;
 }
 
 int sign(double x) { return (x > 0) - (x < 0); }

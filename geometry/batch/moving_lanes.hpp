@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Rows of bodies for the lanes from their semi-axes and orientations, several bodies at once. The
+/// instruction set is chosen when the program runs. Internal.
+#pragma once
+
+#include <cstddef>
+
+#include <tangency/geometry/batch/lane_block.hpp>
+
+namespace tangency::detail {
+
+/// The rows of bodies centred at the origin, whose factors are right to kOfRotation. A body that is
+/// not moderate(), or no ellipsoid, or whose |q|^2 is not within [2^-60, 2^60], has a row that no
+/// lane settles. Each row depends on its body alone. Assumes rounding to nearest.
+/// @param semi_axes     3 of each body
+/// @param orientations  x y z w of each, of any length
+/// @param count         at least 1
+void fill_moving_lanes(const double* semi_axes, const double* orientations, std::size_t count,
+                       LaneBody* to) noexcept;
+
+}  // namespace tangency::detail
