@@ -66,11 +66,11 @@ void NarrowPhase::aim(const Particles& particles) {
   kind_ = particles.dimensions == 2 ? Kind::ellipses : round ? Kind::spheres : Kind::ellipsoids;
   if (kind_ == Kind::spheres) radii_.resize(particles.size());
   if (kind_ == Kind::ellipses) ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
-  if (kind_ == Kind::ellipsoids) bodies_.emplace(particles.semi_axes, particles.orientation);
+  if (kind_ == Kind::ellipsoids) bodies_.look_at(particles.semi_axes, particles.orientation);
 }
 
 void NarrowPhase::refresh(const Particles& particles, std::size_t first, std::size_t last) {
-  if (kind_ == Kind::ellipsoids) return bodies_->refresh(first, last);
+  if (kind_ == Kind::ellipsoids) return bodies_.refresh(first, last);
   for (std::size_t i = first; i < last; ++i) {
     if (kind_ == Kind::spheres)
       radii_[i] = particles.semi_axes[i][0];
@@ -137,9 +137,9 @@ void NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> no
   columns.arm_a = first(block.arm);
   columns.arm_b = first(arm_b);
   if (branch == Branch::global)
-    signed_gaps(*bodies_, list, columns);
+    signed_gaps(bodies_, list, columns);
   else
-    follow_gaps(*bodies_, list, normals, columns);
+    follow_gaps(bodies_, list, normals, columns);
   for (std::size_t k = 0; k < count; ++k)
     block.arm[k] = 0.5 * (block.arm[k] + block.branch[k] + arm_b[k]);
 }
@@ -166,8 +166,8 @@ PrincipalCurvatures NarrowPhase::relative_curvature(const Pair& pair, const Vec3
     const double curvature = 1.0 / radii_[a] + other;
     return {{curvature, curvature}, {Vec3::Zero(), Vec3::Zero()}};
   }
-  if (b >= bodies_->size()) return surface_curvature((*bodies_)[a], normal);
-  return contact_curvature((*bodies_)[a], (*bodies_)[b], normal).relative;
+  if (b >= bodies_.size()) return surface_curvature((bodies_)[a], normal);
+  return contact_curvature((bodies_)[a], (bodies_)[b], normal).relative;
 }
 
 }  // namespace tangency::dem

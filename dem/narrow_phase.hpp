@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,13 +47,6 @@ struct BlockGeometry {
 /// The particles as bodies of geometry, and the questions that pairs of them ask.
 class NarrowPhase {
  public:
-  NarrowPhase() = default;
-  // A copy is empty until its aim(): bodies look at the particles where they lie.
-  NarrowPhase(const NarrowPhase&) {}
-  NarrowPhase(NarrowPhase&&) noexcept = default;
-  NarrowPhase& operator=(NarrowPhase&&) noexcept = default;
-  NarrowPhase& operator=(const NarrowPhase&) { return *this = NarrowPhase(); }
-
   /// Looks at these particles from now on; before every refresh(), since they may have moved in
   /// memory or changed their kind.
   void aim(const Particles& particles);
@@ -82,7 +74,7 @@ class NarrowPhase {
   Kind kind_ = Kind::spheres;
   std::vector<double> radii_;          ///< of spheres
   std::vector<Ellipse> ellipses_;      ///< centred at the origin, as ellipsoids are
-  std::optional<MovingBodies> bodies_;  ///< the ellipsoids
+  MovingBodies bodies_;            ///< the ellipsoids
 };
 
 }  // namespace tangency::dem
