@@ -9,12 +9,9 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/particle_lanes.hpp>
 
 namespace tangency::dem {
-
-/// Particles of one chunk. Chosen: a multiple of the lanes of every instruction set, and work
-/// enough (1 to 4 us) that calls and sums of chunks are no part of it.
-inline constexpr std::size_t kChunk = 64;
 
 /// work(first, last) for the chunks [first, last) of [0, count). Threads call it, each for other
 /// chunks; it may not throw.

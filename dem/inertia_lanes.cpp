@@ -3,8 +3,6 @@
 
 #include <cstddef>
 
-#include <tangency/dem/chunks.hpp>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/dem/inertia_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -32,8 +30,8 @@ struct PackProducts {
   Pack vv, va, aa;
 };
 
-HWY_INLINE PackProducts products_of(const ParticleColumns& c, std::size_t at,
-                                    const double* gravity, bool turns) {
+HWY_INLINE PackProducts products_of(const ParticleColumns& c, std::size_t at, const double* gravity,
+                                    bool turns) {
   const Pack mass = load_numbers(c.mass + at);
   const PackVec3 velocity = load_vectors(c.velocity + 3 * at), a = shift_of(c, at, gravity);
   PackProducts p{mass * unfused_dot(velocity, velocity), mass * unfused_dot(velocity, a),
@@ -56,13 +54,13 @@ HWY_ATTR InertiaProducts inertia_products_lanes(const ParticleColumns& columns,
   constexpr std::size_t most = dem::kChunk + kMostLanes;
   double vv[most], va[most], aa[most];
   for_each_pack(columns, {}, first, last,
-                [&](const ParticleColumns& c, const MovedColumns&, std::size_t at,
-                    std::size_t k) HWY_ATTR {
-                  const PackProducts p = products_of(c, at, gravity, turns);
-                  store(p.vv, vv + k);
-                  store(p.va, va + k);
-                  store(p.aa, aa + k);
-                });
+                [&](const ParticleColumns& c, const MovedColumns&, std::size_t at, std::size_t k)
+                    HWY_ATTR {
+                      const PackProducts p = products_of(c, at, gravity, turns);
+                      store(p.vv, vv + k);
+                      store(p.va, va + k);
+                      store(p.aa, aa + k);
+                    });
   InertiaProducts sum;
   for (std::size_t k = 0; k < last - first; ++k) {
     sum.vv += vv[k];
@@ -75,20 +73,19 @@ HWY_ATTR InertiaProducts inertia_products_lanes(const ParticleColumns& columns,
 HWY_ATTR void steer_lanes(const ParticleColumns& columns, const MovedColumns& moved, double keep,
                           double push, const double* gravity, bool turns, std::size_t first,
                           std::size_t last) {
-  for_each_pack(columns, moved, first, last,
-                [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at,
-                    std::size_t) HWY_ATTR {
-                  const PackVec3 v = load_vectors(c.velocity + 3 * at);
-                  const PackVec3 a = shift_of(c, at, gravity);
-                  store(v * all(keep) + a * all(push), m.velocity + 3 * at);
-                  if (!turns) return;
-                  const PackRotation rotation(load_quaternions(c.orientation + 4 * at));
-                  const PackVec3 moment = rotation.to_body(load_vectors(c.moment + 3 * at));
-                  const PackVec3 turn =
-                      rotation.to_space(times(moment, inertia_at(c, at).inverse));
-                  const PackVec3 spin = load_vectors(c.angular_velocity + 3 * at);
-                  store(spin * all(keep) + turn * all(push), m.angular_velocity + 3 * at);
-                });
+  for_each_pack(
+      columns, moved, first, last,
+      [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at, std::size_t) HWY_ATTR {
+        const PackVec3 v = load_vectors(c.velocity + 3 * at);
+        const PackVec3 a = shift_of(c, at, gravity);
+        store(v * all(keep) + a * all(push), m.velocity + 3 * at);
+        if (!turns) return;
+        const PackRotation rotation(load_quaternions(c.orientation + 4 * at));
+        const PackVec3 moment = rotation.to_body(load_vectors(c.moment + 3 * at));
+        const PackVec3 turn = rotation.to_space(times(moment, inertia_at(c, at).inverse));
+        const PackVec3 spin = load_vectors(c.angular_velocity + 3 * at);
+        store(spin * all(keep) + turn * all(push), m.angular_velocity + 3 * at);
+      });
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
   const detail::ParticleColumns columns = detail::columns_of(particles, resultants);
   const detail::MovedColumns moved = detail::moved_columns_of(particles);
   const detail::MotionStep step = step_of(motion, cell.rate, dt);
-  const auto sum = sum_by_chunks<detail::MovedSum>(
-      particles.size(), [&](std::size_t first, std::size_t last) {
+  const auto sum =
+      sum_by_chunks<detail::MovedSum>(particles.size(), [&](std::size_t first, std::size_t last) {
         return detail::move_lanes(columns, moved, step, first, last);
       });
   cell.strain(dt);

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <tangency/dem/chunks.hpp>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/dem/motion_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -84,8 +82,8 @@ HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const 
   }
   store(turned, moved.orientation + 4 * at);
   store(spin, moved.angular_velocity + 3 * at);
-  const Pack sum = absolute(turned.w) + absolute(turned.x) + absolute(turned.y) +
-                   absolute(turned.z);
+  const Pack sum =
+      absolute(turned.w) + absolute(turned.x) + absolute(turned.y) + absolute(turned.z);
   finite = finite & (sum <= all(4.0));
   return lost;
 }
@@ -98,8 +96,8 @@ HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const
   const PackVec3 force = load_vectors(c.force + 3 * at);
   const double *g = step.gravity, *r = step.rate;
   const PackVec3 gravity{all(g[0]), all(g[1]), all(g[2])};
-  const PackVec3 velocity = before * all(step.keep) + force * (all(step.push) / mass) +
-                            gravity * all(step.push);
+  const PackVec3 velocity =
+      before * all(step.keep) + force * (all(step.push) / mass) + gravity * all(step.push);
   const PackVec3 mean = (before + velocity) * all(0.5);
   const PackVec3 x = load_vectors(moved.position + 3 * at);
   const PackVec3 affine{unfused_dot({all(r[0]), all(r[1]), all(r[2])}, x),
@@ -118,16 +116,16 @@ HWY_ATTR MovedSum move_lanes(const ParticleColumns& columns, const MovedColumns&
   double lost[dem::kChunk + kMostLanes], fallen[dem::kChunk + kMostLanes];
   PackMask all_finite = all(0.0) <= all(0.0);
   for_each_pack(columns, moved, first, last,
-                [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at,
-                    std::size_t k) HWY_ATTR {
-                  Pack weight;
-                  PackMask finite;
-                  Pack slowed = shift(c, m, step, at, weight, finite);
-                  if (step.turns) slowed = slowed + turn(c, m, step, at, finite);
-                  store(slowed, lost + k);
-                  store(weight, fallen + k);
-                  all_finite = all_finite & finite;
-                });
+                [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at, std::size_t k)
+                    HWY_ATTR {
+                      Pack weight;
+                      PackMask finite;
+                      Pack slowed = shift(c, m, step, at, weight, finite);
+                      if (step.turns) slowed = slowed + turn(c, m, step, at, finite);
+                      store(slowed, lost + k);
+                      store(weight, fallen + k);
+                      all_finite = all_finite & finite;
+                    });
   MovedSum sum;
   sum.blown_up = bits(all_finite) != (std::uint64_t{1} << pack_lanes()) - 1;
   for (std::size_t k = 0; k < last - first; ++k) {
@@ -142,7 +140,7 @@ HWY_ATTR MovedSum move_lanes(const ParticleColumns& columns, const MovedColumns&
 HWY_ATTR void cosine_sine_lanes(const double* angle, double* cosine, double* sine,
                                 std::size_t count) {
   double angles[dem::kChunk + kMostLanes] = {}, cosines[dem::kChunk + kMostLanes],
-                                     sines[dem::kChunk + kMostLanes];
+                              sines[dem::kChunk + kMostLanes];
   for (std::size_t k = 0; k < count; ++k) angles[k] = angle[k];
   for (std::size_t k = 0; k < count; k += pack_lanes()) {
     const PackAngle turned = cosine_sine(load_numbers(angles + k));

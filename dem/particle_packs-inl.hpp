@@ -118,12 +118,12 @@ HWY_INLINE Pack small_cosine(const Pack& z) {
 /// For |t| <= pi/4 and a little: terms left out are below 2^-60.
 HWY_INLINE PackAngle reduced_angle(const Pack& t) {
   // 1/n! from n = 17 and 18 down
-  constexpr double kSine[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
-                              1.0 / 362880.0,         -1.0 / 5040.0,      1.0 / 120.0,
-                              -1.0 / 6.0};
-  constexpr double kCosine[] = {1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0,
-                                -1.0 / 3628800.0,       1.0 / 40320.0,        -1.0 / 720.0,
-                                1.0 / 24.0};
+  constexpr double kSine[] = {
+      -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
+      -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+  constexpr double kCosine[] = {
+      1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0,
+      1.0 / 40320.0,          -1.0 / 720.0,         1.0 / 24.0};
   const Pack z = t * t;
   Pack sine = all(1.0 / 355687428096000.0), cosine = all(-1.0 / 6402373705728000.0);
   for (const double term : kSine) sine = sine * z + all(term);
@@ -176,10 +176,9 @@ HWY_INLINE PackQuaternion turn_by(const PackVec3& v) {
 
 /// p q
 HWY_INLINE PackQuaternion operator*(const PackQuaternion& p, const PackQuaternion& q) {
-  return {p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-          p.w * q.y + p.y * q.w + p.z * q.x - p.x * q.z,
-          p.w * q.z + p.z * q.w + p.x * q.y - p.y * q.x,
-          p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z};
+  return {
+      p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y, p.w * q.y + p.y * q.w + p.z * q.x - p.x * q.z,
+      p.w * q.z + p.z * q.w + p.x * q.y - p.y * q.x, p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z};
 }
 
 /// Fewer particles than lanes, with others beside them that are at rest.
@@ -200,8 +199,8 @@ class PaddedParticles {
     copy(from.force, 3, force_);
     copy(from.moment, 3, moment_);
     copy(moved.position, 3, position_);
-    columns = {velocity_, angular_velocity_, orientation_, semi_axes_, mass_, force_, moment_,
-               from.is_plane};
+    columns = {velocity_, angular_velocity_, orientation_, semi_axes_, mass_,
+               force_,    moment_,           from.is_plane};
     if (from.force == nullptr) columns.force = nullptr;
     if (from.moment == nullptr) columns.moment = nullptr;
     in_place = {position_, velocity_, angular_velocity_, orientation_};
