@@ -2,7 +2,11 @@
 #include <tangency/dem/particles.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+
+#include <tangency/dem/chunks.hpp>
+#include <tangency/dem/particle_lanes.hpp>
 
 namespace tangency::dem {
 
@@ -39,15 +43,13 @@ void Particles::add(const Vec3& centre, const Quaternion& axes, const Vec3& radi
 }
 
 double kinetic_energy(const Particles& particles) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3 spin = particles.orientation[i].conjugate() * particles.angular_velocity[i];
-    const Vec3 inertia =
-        principal_inertia(particles.mass[i], particles.semi_axes[i], particles.dimensions);
-    twice +=
-        particles.mass[i] * particles.velocity[i].squaredNorm() + inertia.dot(spin.cwiseAbs2());
-  }
-  return 0.5 * twice;
+  const detail::ParticleColumns columns = detail::columns_of(particles);
+  const Vec3 weightless = Vec3::Zero();
+  const auto sum = sum_by_chunks<detail::InertiaProducts>(
+      particles.size(), [&](std::size_t first, std::size_t last) {
+        return detail::inertia_products_lanes(columns, weightless.data(), true, first, last);
+      });
+  return 0.5 * sum.vv;
 }
 
 }  // namespace tangency::dem

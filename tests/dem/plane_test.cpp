@@ -109,7 +109,7 @@ TEST(Plane, ConservesMomentumAndAngularMomentum) {
   EXPECT_NEAR(angular_momentum(plane.particles), angular, 1e-11 * 60.0);
 }
 
-// dem/motion.hpp (4)
+// dem/motion.hpp (5)
 TEST(Plane, LeavesNothingOutOfIt) {
   Plane plane(80, plane_cell(9.0, 8.0), 4);
   plane.update(kFrictional, 0.0);
