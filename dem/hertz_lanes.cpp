@@ -10,9 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#ifndef TANGENCY_PACK_REGISTERS
-#define TANGENCY_PACK_REGISTERS 1
-#endif
+#define TANGENCY_PACK_REGISTERS 2
 #include <tangency/geometry/batch/pack_bodies-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
@@ -169,7 +167,7 @@ HWY_INLINE std::uint64_t answer(const HertzBlock& block, std::size_t i) {
   const Pack both = give_along * give_across, inverse = all(1.0) / (f_under * both);
 
   // 3/2 f sqrt(overlap / mean curvature): dP / d overlap over E*.
-  const PackMask touching = overlap > zero;
+  const PackMask touching = overlap > zero, apart = overlap <= zero;
   const Pack radius = root(larger(overlap * k.inverse_mean, zero));
   const Pack slope = all(1.5) * radius * f_over * (inverse * both);
   const Pack shear = load(block.shear_modulus + i) * slope * g_under * (inverse * f_under);
@@ -185,7 +183,7 @@ HWY_INLINE std::uint64_t answer(const HertzBlock& block, std::size_t i) {
 
   const PackMask in_range = (k.product >= all(kLeastProduct)) &
                             (k.product <= all(kLargestProduct)) & (k.sum <= all(kMostMean));
-  return bits(without(touching, in_range)) ^ ((std::uint64_t{1} << pack_lanes()) - 1);
+  return bits(apart | (touching & in_range));
 }
 
 HWY_ATTR std::uint64_t hertz_lanes(const HertzBlock& block) {
