@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include <tangency/dem/hertz_lanes.hpp>
 #include <tangency/dem/parallel.hpp>
 
 namespace tangency::dem {
@@ -25,6 +27,7 @@ using BlockColumn = BlockGeometry::Column<T>;
 
 /// The laws of a block's pairs.
 struct BlockLaws {
+  BlockColumn<const ContactLaw*> law;
   BlockColumn<double> normal_stiffness, shear_stiffness, friction_coefficient, cohesion;
 
   BlockLaws(const ContactLaws& laws, const Particles& particles, const BlockGeometry& block) {
@@ -33,13 +36,14 @@ struct BlockLaws {
       return body < particles.size() ? static_cast<std::size_t>(particles.type[body]) : walls;
     };
     for (std::size_t k = 0; k < kPairBlock; ++k) {
-      const ContactLaw& law =
+      const ContactLaw& one =
           laws.types == 1 ? laws.law.front()
                           : laws.between(type_of(block.pairs[k].a), type_of(block.pairs[k].b));
-      normal_stiffness[k] = law.normal_stiffness;
-      shear_stiffness[k] = law.shear_stiffness;
-      friction_coefficient[k] = law.friction_coefficient;
-      cohesion[k] = law.cohesion;
+      law[k] = &one;
+      normal_stiffness[k] = one.normal_stiffness;
+      shear_stiffness[k] = one.shear_stiffness;
+      friction_coefficient[k] = one.friction_coefficient;
+      cohesion[k] = one.cohesion;
     }
   }
 
@@ -50,14 +54,58 @@ struct BlockLaws {
 };
 
 /// What Hertz's law makes of a block's pairs that touch.
-struct BlockHertz {
-  BlockColumn<double> force{}, stiffness{}, energy{}, along{}, across{};
-  BlockColumn<Vec3> direction;
+class BlockHertz {
+ public:
+  BlockHertz(const BlockLaws& laws, const NarrowPhase& narrow_phase, const BlockGeometry& block,
+             std::size_t count) {
+    BlockColumn<double> overlap{}, contact_modulus, shear_modulus, poisson_ratio;
+    for (std::size_t k = 0; k < count; ++k) overlap[k] = block.gap[k] < 0.0 ? -block.gap[k] : 0.0;
+    for (std::size_t k = 0; k < kPairBlock; ++k) {
+      const Material& material = *laws.law[k]->hertz;
+      contact_modulus[k] = material.contact_modulus();
+      shear_modulus[k] = material.shear_modulus();
+      poisson_ratio[k] = material.poisson_ratio;
+    }
+    BlockColumn<IndexedPair> pairs = block.pairs;
+    const std::size_t bodies = narrow_phase.rows().size();
+    for (IndexedPair& pair : pairs)
+      if (pair.b >= bodies) pair.b = kFlatBody;
+    const std::uint64_t answered =
+        bodies == 0 ? 0
+                    : hertz_lanes({narrow_phase.rows().data(), pairs.data(),
+                                   static_cast<int>(count), block.normal[0].data(), overlap.data(),
+                                   contact_modulus.data(), shear_modulus.data(),
+                                   poisson_ratio.data(), force_.data(), stiffness_.data(),
+                                   energy_.data(), along_.data(), across_.data(),
+                                   direction_[0].data()});
+    for (std::size_t k = 0; k < count; ++k)
+      if ((answered >> k & 1) == 0)
+        answer(k, *laws.law[k], overlap[k],
+               narrow_phase.relative_curvature(block.pairs[k], block.normal[k]));
+  }
 
   HertzColumns columns() const {
-    return {force.data(), stiffness.data(), energy.data(),
-            along.data(), across.data(),    direction[0].data()};
+    return {force_.data(), stiffness_.data(), energy_.data(),
+            along_.data(), across_.data(),    direction_[0].data()};
   }
+
+ private:
+  void answer(std::size_t k, const ContactLaw& law, double overlap,
+              const PrincipalCurvatures& curvatures) {
+    direction_[k].setZero();
+    force_[k] = stiffness_[k] = energy_[k] = along_[k] = across_[k] = 0.0;
+    if (!(overlap > 0.0)) return;
+    const NormalResponse response = law.normal_response(overlap, curvatures);
+    force_[k] = response.force;
+    stiffness_[k] = response.stiffness;
+    energy_[k] = response.energy;
+    along_[k] = response.shear.along;
+    across_[k] = response.shear.across;
+    direction_[k] = response.shear.direction;
+  }
+
+  BlockColumn<double> force_{}, stiffness_{}, energy_{}, along_{}, across_{};
+  BlockColumn<Vec3> direction_;
 };
 
 }  // namespace
@@ -180,25 +228,7 @@ void Contacts::update_block(std::size_t index, const Step& step) {
   block.law = laws.columns();
   block.bears_shear = step.bears_shear;
   if (!step.hertz) return contact_lanes(block);
-  BlockHertz hertz;
-  const std::size_t walls = step.laws.types - 1;
-  for (std::size_t k = 0; k < block.count; ++k) {
-    hertz.direction[k].setZero();
-    if (!(geometry.gap[k] < 0.0)) continue;
-    const auto type_of = [&](std::uint32_t body) {
-      return body < step.particles.size() ? static_cast<std::size_t>(step.particles.type[body]) : walls;
-    };
-    const ContactLaw& law =
-        step.laws.between(type_of(geometry.pairs[k].a), type_of(geometry.pairs[k].b));
-    const NormalResponse response = law.normal_response(
-        -geometry.gap[k], narrow_phase_.relative_curvature(pairs[k], geometry.normal[k]));
-    hertz.force[k] = response.force;
-    hertz.stiffness[k] = response.stiffness;
-    hertz.energy[k] = response.energy;
-    hertz.along[k] = response.shear.along;
-    hertz.across[k] = response.shear.across;
-    hertz.direction[k] = response.shear.direction;
-  }
+  const BlockHertz hertz(laws, narrow_phase_, geometry, block.count);
   const HertzColumns columns = hertz.columns();
   block.hertz = &columns;
   contact_lanes(block);

@@ -4,56 +4,84 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace tangency::dem {
 namespace {
 
 using std::numbers::pi;
 
-/// K and D of modulus sqrt(1 - k^2) by the arithmetic-geometric mean (DLMF, section 19.8): with
-/// c_0^2 = 1 - k^2, c_(n+1) = c_n^2 / (4 a_(n+1)) and D / K = (1/2) sum over n of 2^n c_n^2 /
-/// c_0^2. No term cancels another, near the circle or near the line.
-std::pair<double, double> elliptic_integrals(double k) {
-  double a = 0.5 * (1.0 + k), b = std::sqrt(k);
-  double c = 0.5 * (1.0 - k);                   // c_1
-  double share = 0.25 * (1.0 - k) / (1.0 + k);  // c_1^2 / c_0^2
-  double sum = 1.0, weight = 2.0;
-  // Quadratic: c_n falls below u after eight steps from k = 1e-200.
-  while (weight * share > 0x1p-60) {
-    sum += weight * share;
-    const double mean = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = mean;
-    share *= c * c / (16.0 * a * a);
-    c = c * c / (4.0 * a);
-    weight *= 2.0;
+/// D and K - D of modulus sqrt(1 - k^2) by Bartky's transformation, as Bulirsch's cel() does it
+/// [Bulirsch1969]: sums of positive terms, near the circle and near the line.
+struct Shares {
+  double D, rest;  ///< K = D + rest; rest/D is D/rest of the ellipse turned by a right angle
+};
+
+Shares shares_of(double k) {
+  // Quadratic: what is left is the square of this, 2^-54.
+  constexpr double enough = 0x1p-27;
+  // cel(k, 1, 0, 1) and cel(k, 1, 1, 0).
+  double a_D = 0.0, b_D = 1.0, a_rest = 1.0, b_rest = 0.0;
+  double p = 1.0, e = k, m = 1.0, kc = k;
+  for (;;) {
+    const double weight = e / p;
+    const auto next = [&](double& a, double& b) {
+      const double before = a;
+      a += b / p;
+      b = 2.0 * (b + before * weight);
+    };
+    next(a_D, b_D);
+    next(a_rest, b_rest);
+    p += weight;
+    const double arithmetic = m;
+    m += kc;
+    if (std::abs(arithmetic - kc) <= arithmetic * enough) break;
+    kc = 2.0 * std::sqrt(e);
+    e = kc * m;
   }
-  const double K = pi / (a + b);
-  return {K, 0.5 * sum * K};
+  const double over = 0.5 * pi / (m * (m + p));
+  return {over * (b_D + a_D * m), over * (b_rest + a_rest * m)};
+}
+
+/// Derivatives of D and of ln(ratio) by ln k (DLMF, section 19.4).
+struct Slopes {
+  double D, ratio;
+};
+
+Slopes slopes_of(double k, const Shares& at) {
+  const double m = (1.0 - k) * (1.0 + k);
+  // Nearer to the circle the quotients are these to less than m; what they are for is smaller yet.
+  if (m < 0x1p-20) return {-3.0 / 16.0 * pi, 1.5};
+  const double smaller = k * k * at.D;
+  const double difference = (k * at.D - at.rest) * (k * at.D + at.rest);
+  return {(smaller - at.rest) / m, 2.0 + difference / (m * at.D * at.rest)};
+}
+
+/// -ln(ratio) to 0.06, of the exponent and a straight line between powers of two.
+double rough_logarithm(double ratio) {
+  int exponent = 0;
+  const double fraction = std::frexp(ratio, &exponent);
+  return std::numbers::ln2 * (2.0 - 2.0 * fraction - exponent);
 }
 
 }  // namespace
 
 ContactEllipse contact_ellipse(double ratio) {
-  // Secant method for ln k in ln(k^2 D / (K - D)) = ln(ratio), which rises with a slope between 1.5
-  // (the circle) and 2 (the line): from the circle's slope every step lands above the root or on
-  // it.
-  const double wanted = std::log(ratio);
-  double x = wanted / 1.5, slope = 1.5;
-  double before = 0.0, value_before = 0.0;
-  // Measured on 400,000 ratios down to 1e-300: at most 6.
+  // D / (K - D) is 1 + L/2 to 9 %, L = -ln(ratio). Newton's method for ln k in ln(ratio), which is
+  // nearly a straight line: an error x of ln k leaves one of 0.03 x^2.
+  double k = std::sqrt(ratio / (1.0 + 0.5 * rough_logarithm(ratio)));
+  constexpr double small = 0x1p-27;  // the square is below u
+  // Measured on 1,000,000 ratios down to 1e-300: at most 3.
   constexpr int most_steps = 20;
   for (int step = 0; step < most_steps; ++step) {
-    const double k = std::exp(x);
-    const auto [K, D] = elliptic_integrals(k);
-    const double value = 2.0 * x + std::log(D / (K - D)) - wanted;
-    // The logarithms' own rounding.
-    if (std::abs(value) <= 0x1p-51 * (1.0 + std::abs(wanted))) return {k, K, D};
-    if (step > 0 && x != before) slope = (value - value_before) / (x - before);
-    before = x;
-    value_before = value;
-    x = std::fmin(0.0, x - value / slope);
+    const Shares at = shares_of(k);
+    const Slopes slopes = slopes_of(k, at);
+    // ln(k^2 D / (K - D) / ratio) to its third power, as the exponential of the step is.
+    const double here = k * (k * at.D / at.rest);
+    const double off = 2.0 * (here - ratio) / (here + ratio), half = -0.5 * off / slopes.ratio;
+    k = std::fmin(1.0, k * ((1.0 + half) / (1.0 - half)));
+    // dK / d ln k = -(K - D)
+    if (std::abs(off) <= small)
+      return {k, at.D + at.rest - 2.0 * half * at.rest, at.D + 2.0 * half * slopes.D};
   }
   // Of a ratio that is no number: no force either, which move() reports.
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -159,8 +159,14 @@ void NarrowPhase::measure_wall(std::size_t k, const Wall& wall, const Particles&
   block.branch[k] = found.arm_wall;
 }
 
-PrincipalCurvatures NarrowPhase::relative_curvature(const Pair& pair, const Vec3& normal) const {
-  const std::size_t a = at(pair.a), b = at(pair.b);
+std::span<const tangency::detail::LaneBody> NarrowPhase::rows() const {
+  if (kind_ != Kind::ellipsoids) return {};
+  return {bodies_.lanes(), bodies_.size()};
+}
+
+PrincipalCurvatures NarrowPhase::relative_curvature(const IndexedPair& pair,
+                                                    const Vec3& normal) const {
+  const std::size_t a = pair.a, b = pair.b;
   if (kind_ == Kind::spheres) {
     const double other = b < radii_.size() ? 1.0 / radii_[b] : 0.0;
     const double curvature = 1.0 / radii_[a] + other;

@@ -60,8 +60,11 @@ class NarrowPhase {
   void measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
                std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
 
-  /// Principal curvatures of the distance between two touching bodies.
-  PrincipalCurvatures relative_curvature(const Pair& pair, const Vec3& normal) const;
+  /// Principal curvatures of the distance between two touching bodies of a block.
+  PrincipalCurvatures relative_curvature(const IndexedPair& pair, const Vec3& normal) const;
+
+  /// The ellipsoids as the lanes read them; none where the particles are of another kind.
+  std::span<const tangency::detail::LaneBody> rows() const;
 
  private:
   enum class Kind { spheres, ellipses, ellipsoids };

@@ -44,13 +44,20 @@ struct PrincipalValues {
   double cosine, sine;  ///< direction cosine e_1 + sine e_2; e_1 where the two are equal
 };
 
-/// Requires a positive trace.
+/// Requires a positive trace. Nothing but roots: no bit depends on the machine's library.
 inline PrincipalValues principal_values(double xx, double yy, double xy,
                                         double determinant) noexcept {
-  const double difference = 0.5 * (xx - yy);
-  const double larger = 0.5 * (xx + yy) + std::hypot(difference, xy);
-  const double angle = 0.5 * std::atan2(xy, difference);
-  return {larger, determinant / larger, std::cos(angle), std::sin(angle)};
+  const double mean = 0.5 * (xx + yy), difference = 0.5 * (xx - yy);
+  const double size = std::fmax(std::abs(difference), std::abs(xy));
+  if (size == 0.0) return {mean, determinant / mean, 1.0, 0.0};
+  const double d = difference / size, o = xy / size;
+  const double root = std::sqrt(d * d + o * o);
+  // Twice the direction's angle is that of (d, o); what is added has one sign.
+  const double large = root + std::abs(d), length = std::sqrt(large * large + o * o);
+  const double larger = mean + size * root;
+  return d >= 0.0 ? PrincipalValues{larger, determinant / larger, large / length, o / length}
+                  : PrincipalValues{larger, determinant / larger, std::abs(o) / length,
+                                    std::copysign(large, o) / length};
 }
 
 inline PlaneBasis tangent_basis(const Vec3& n) noexcept {
