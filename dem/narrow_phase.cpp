@@ -8,6 +8,7 @@
 #include <span>
 
 #include <tangency/dem/contact_lanes.hpp>
+#include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/primitives.hpp>

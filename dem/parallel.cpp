@@ -41,8 +41,6 @@ void set_threads(int count) {
 
 int threads() { return team()->size; }
 
-namespace detail {
-
 void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::size_t),
                  const void* what) {
   Team& all = *team();
@@ -59,5 +57,4 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
   });
 }
 
-}  // namespace detail
 }  // namespace tangency::dem

@@ -21,10 +21,9 @@ int threads();
 /// 20 us of work, a few times what a loop costs to share.
 inline constexpr std::size_t kParallelThreshold = 400;
 
-namespace detail {
+/// for_ranges() with a function and what it is called with. Internal.
 void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::size_t),
                  const void* what);
-}  // namespace detail
 
 /// Calls what(first, last) for ranges that make up [0, count), one after the other or at once.
 /// `what` does not throw.
@@ -32,7 +31,7 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
 template <class F>
 void for_ranges(std::size_t count, std::size_t least, const F& what) {
   if (count < least) return what(std::size_t{0}, count);
-  detail::share_range(
+  share_range(
       count,
       [](const void* f, std::size_t first, std::size_t last) {
         (*static_cast<const F*>(f))(first, last);
