@@ -3,7 +3,6 @@
 // Motion in lanes against the scheme in long double, particle by particle.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 
 #include <tangency/dem/fire.hpp>
 #include <tangency/dem/motion.hpp>
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/particle_lanes.hpp>
 
 #include "golden_states.hpp"
@@ -238,10 +238,10 @@ TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
       EXPECT_EQ(numbers_after_steps(crowd, dimensions), once) << hwy::TargetName(level);
     });
     for (const int threads : {2, 4}) {
-      omp_set_num_threads(threads);
+      dem::set_threads(threads);
       EXPECT_EQ(numbers_after_steps(crowd, dimensions), once) << threads << " threads";
     }
-    omp_set_num_threads(1);
+    dem::set_threads(0);
   }
 }
 
