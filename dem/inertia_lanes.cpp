@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/dem/particle_lanes.hpp>
-
 #include <cstddef>
+
+#include <tangency/dem/particle_lanes.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/dem/inertia_lanes.cpp"
@@ -14,11 +14,11 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::detail::HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE PackVec3 shift_of(const ParticleColumns& c, std::size_t at, const double* gravity) {
-  const PackVec3 falling{all(gravity[0]), all(gravity[1]), all(gravity[2])};
-  if (c.force == nullptr) return falling;
-  const Pack inverse = all(1.0) / load_numbers(c.mass + at);
-  return load_vectors(c.force + 3 * at) * inverse + falling;
+/// With the weight, which a force may balance to the last bit.
+HWY_INLINE PackVec3 force_on(const ParticleColumns& c, std::size_t at, const Pack& mass,
+                             const double* gravity) {
+  const PackVec3 weight{mass * all(gravity[0]), mass * all(gravity[1]), mass * all(gravity[2])};
+  return c.force == nullptr ? weight : load_vectors(c.force + 3 * at) + weight;
 }
 
 HWY_INLINE PackInertia inertia_at(const ParticleColumns& c, std::size_t at) {
@@ -33,9 +33,10 @@ struct PackProducts {
 HWY_INLINE PackProducts products_of(const ParticleColumns& c, std::size_t at, const double* gravity,
                                     bool turns) {
   const Pack mass = load_numbers(c.mass + at);
-  const PackVec3 velocity = load_vectors(c.velocity + 3 * at), a = shift_of(c, at, gravity);
-  PackProducts p{mass * unfused_dot(velocity, velocity), mass * unfused_dot(velocity, a),
-                 mass * unfused_dot(a, a)};
+  const PackVec3 velocity = load_vectors(c.velocity + 3 * at);
+  const PackVec3 force = force_on(c, at, mass, gravity);
+  PackProducts p{mass * unfused_dot(velocity, velocity), unfused_dot(force, velocity),
+                 unfused_dot(force, force) / mass};
   if (!turns) return p;
   const PackInertia inertia = inertia_at(c, at);
   const PackRotation rotation(load_quaternions(c.orientation + 4 * at));
@@ -77,7 +78,8 @@ HWY_ATTR void steer_lanes(const ParticleColumns& columns, const MovedColumns& mo
       columns, moved, first, last,
       [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at, std::size_t) HWY_ATTR {
         const PackVec3 v = load_vectors(c.velocity + 3 * at);
-        const PackVec3 a = shift_of(c, at, gravity);
+        const Pack mass = load_numbers(c.mass + at);
+        const PackVec3 a = force_on(c, at, mass, gravity) * (all(1.0) / mass);
         store(v * all(keep) + a * all(push), m.velocity + 3 * at);
         if (!turns) return;
         const PackRotation rotation(load_quaternions(c.orientation + 4 * at));

@@ -49,6 +49,16 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
   return {sum.damping, sum.gravity};
 }
 
+double kinetic_energy(const Particles& particles) {
+  const detail::ParticleColumns columns = detail::columns_of(particles);
+  const Vec3 weightless = Vec3::Zero();
+  const auto sum = sum_by_chunks<detail::InertiaProducts>(
+      particles.size(), [&](std::size_t first, std::size_t last) {
+        return detail::inertia_products_lanes(columns, weightless.data(), true, first, last);
+      });
+  return 0.5 * sum.vv;
+}
+
 double kinetic_energy_at(const Particles& particles, const Resultants& resultants,
                          const Motion& motion, double dt) {
   const detail::ParticleColumns columns = detail::columns_of(particles, resultants);

@@ -56,6 +56,9 @@ struct MotionWork {
 MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
                 const Motion& motion, double dt);
 
+/// Translational and rotational energy of the fluctuating velocities.
+double kinetic_energy(const Particles& particles);
+
 /// Kinetic energy of the velocities, half a step before the resultants' time, and half a step's
 /// work of contacts and gravity: with it, and damping as MotionWork has it, an account of
 /// leapfrog's energies adds up but for how far works by mean forces are from stored energies, of

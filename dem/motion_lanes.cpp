@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/dem/particle_lanes.hpp>
-
 #include <cstddef>
 #include <cstdint>
+
+#include <tangency/dem/particle_lanes.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangency/dem/motion_lanes.cpp"

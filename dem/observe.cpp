@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <tangency/dem/motion.hpp>
+
 namespace tangency::dem {
 namespace {
 

@@ -2,11 +2,7 @@
 #include <tangency/dem/particles.hpp>
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-
-#include <tangency/dem/chunks.hpp>
-#include <tangency/dem/particle_lanes.hpp>
 
 namespace tangency::dem {
 
@@ -40,16 +36,6 @@ void Particles::add(const Vec3& centre, const Quaternion& axes, const Vec3& radi
   mass.push_back(density * volume_of(radii, dimensions));
   type.push_back(type_index);
   id.push_back(static_cast<std::int32_t>(id.size()));
-}
-
-double kinetic_energy(const Particles& particles) {
-  const detail::ParticleColumns columns = detail::columns_of(particles);
-  const Vec3 weightless = Vec3::Zero();
-  const auto sum = sum_by_chunks<detail::InertiaProducts>(
-      particles.size(), [&](std::size_t first, std::size_t last) {
-        return detail::inertia_products_lanes(columns, weightless.data(), true, first, last);
-      });
-  return 0.5 * sum.vv;
 }
 
 }  // namespace tangency::dem

@@ -63,7 +63,4 @@ struct Resultants {
   std::vector<Vec3> force, moment;
 };
 
-/// Translational and rotational energy of the fluctuating velocities.
-double kinetic_energy(const Particles& particles);
-
 }  // namespace tangency::dem

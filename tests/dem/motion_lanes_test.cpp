@@ -248,7 +248,7 @@ TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
 // dem/particle_lanes.hpp (2): of a shape alone, beside others, and in lanes that are padded
 TEST(MotionLanes, WhatHappensToAParticleDoesNotDependOnThoseBesideIt) {
   const Motion motion{Rotation::full, {0.0, 0.0, -9.81}, 3.0};
-  const Crowd crowd(23, 100.0);
+  const Crowd crowd(803, 300.0);  // half angles on both sides of where the long series begins
   Crowd together = crowd;
   move(together.particles, together.cell, together.resultants, motion, 1e-3);
   for (std::size_t i = 0; i < crowd.particles.size(); ++i) {
