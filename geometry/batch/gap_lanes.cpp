@@ -154,7 +154,7 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   if (!none(local)) {
     // Asked afresh it is the global gap that is wanted; and a branch is followed, not jumped to.
     const PackMask stayed = without(dot(n, start.normal) >= all(kSameBranch), start.fresh);
-    const PackMask sound = stayed & meet(pair, shape_a, shape_b, at);
+    const PackMask sound = stayed & meet(pair, shape_a, shape_b, at, local);
     proof.settled = without(proof.settled, without(local, sound));
     local = local & sound;
     block.local |= bits(local) << i;

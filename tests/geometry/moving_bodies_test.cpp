@@ -160,7 +160,7 @@ TEST(MovingBodies, AreAskedAfreshWhereThePreviousNormalIsNothingWhateverTheirNei
         previous[i] = n + 1e-4 * Vec3(0.3, -0.5, 0.8).cross(n);
       }
       follow_gaps(m.bodies, m.list(), previous, followed.all());
-      for (const unsigned one_in : {1u, 2u, 9u, 50u}) {
+      for (const unsigned one_in : {2u, 20u}) {
         std::vector<Vec3> some = previous;
         std::vector<bool> fresh(count);
         for (std::size_t i = 0; i < count; ++i) {
