@@ -188,6 +188,7 @@ void aim(const Task& task, LaneBlock& block) {
   block.tolerance_of_size = accuracy.of_size;
   block.tolerance = accuracy.length;
   block.polish = accuracy.normals;
+  block.branches = task.moving != nullptr && task.previous_normals != nullptr;
   block.factor_error = task.moving != nullptr ? detail::kOfRotation : 0.0;
   block.coarse = kCoarse;
 }
@@ -258,7 +259,13 @@ struct ToColumns {
   }
 
   void lanes(const Workspace& work, std::size_t first, std::size_t count) const {
-    if (!to.status.empty()) std::fill_n(&to.status[first], count, GapStatus::ok);
+    if (!to.status.empty()) {
+      std::fill_n(&to.status[first], count, GapStatus::ok);
+      for (std::uint64_t local = work.block.local; local != 0; local &= local - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(local));
+        if (i < count) to.status[first + i] = GapStatus::local;
+      }
+    }
     if (count == kBlock) return;
     const auto copy = [&](const auto* from, const auto& column) {
       if (!column.empty()) std::copy_n(from, count, &column[first]);

@@ -3,6 +3,8 @@
 /// Bodies and pairs as the lanes read them, and where their answers go. Internal.
 #pragma once
 
+#include <cstdint>
+
 #include <tangency/geometry/indexed_pair.hpp>
 
 namespace tangency::detail {
@@ -57,8 +59,11 @@ struct LaneBlock {
   double factor_error;
   double coarse;  ///< of L: pairs of a tolerance from here on take one step less at first
   bool polish;    ///< one step more than the gap needs, for the normal's sake
+  /// May a normal of a moment ago be followed to where more than one of them may be best?
+  bool branches;
 
-  double* gap;  ///< null, here and below: not wanted
+  std::uint64_t local;  ///< answer: bit i, pair i is settled as the value of its branch alone
+  double* gap;          ///< null, here and below: not wanted
   double* gap_error;
   double* normal;  ///< x y z of each
   double* arm_a;
