@@ -249,9 +249,9 @@ TEST(HertzLanes, KeepWhatTwoThinBodiesThatAreNearlyParallelHave) {
     std::array<Answer, kPairs> answers;
     ASSERT_EQ(block.answer(answers), kAllAnswered) << hwy::TargetName(level);
     for (std::size_t i = 0; i < kPairs; ++i) {
-      const double* k = block.curvature(i).curvature;
+      const auto [larger, smaller] = block.curvature(i).curvature;
       // x of docs/derivations/hertz-lanes.md with beta = aspect; half of 2 x.
-      const double parallel = (k[0] + k[1]) / (2.0 * std::sqrt(k[0] * k[1]));
+      const double parallel = (larger + smaller) / (2.0 * std::sqrt(larger * smaller));
       EXPECT_LT(off(answers[i], block.one_by_one(i)), 60.0 * aspect * parallel)
           << hwy::TargetName(level) << " pair " << i;
     }
