@@ -5,31 +5,32 @@
 /// function may stand here: the file is read by code for every instruction set.
 ///
 /// Made by build/dev/tests/dem/hertz_fit (tests/dem/hertz_fit.cpp) with 70 digits; a test holds
-/// these numbers against what it makes. Coefficients of powers of z = tanh(L/8)^2, L the logarithm
-/// of the larger curvature over the smaller up to that of 2^14, the constant first.
+/// these numbers against what it makes. z = tanh(L/8)^2, L the logarithm of the larger curvature
+/// over the smaller, up to that of 2^14. The constant stands first.
 #pragma once
 
 namespace tangency::dem {
 
 /// f: the force is f E* overlap^(3/2) / sqrt(geometric mean of the curvatures); to a relative
-/// 1.0e-16.
+/// 1.0e-16. In powers of z - kForceCentre, chosen: in the middle they cancel least.
+inline constexpr double kForceCentre = 0x1.6p-2;
 inline constexpr double kForceOver[] = {
-    0x1.5555555555556p+0,  0x1.59d4923a8227dp+3, 0x1.48c8c7fa8b84cp+4, -0x1.636b128b37ab9p+4,
-    -0x1.02a629533e502p+6, 0x1.d23b7a52432a1p+4, 0x1.cd3e927d63d9ap+5, -0x1.a9e3e80a41cf1p+4,
-    -0x1.4bf39fd163f34p+3, 0x1.2b5f4692ffc5dp+2};
+    0x1.10b703c12d05cp+1, 0x1.ca89bac431f96p+1, -0x1.3cb5c85e691a6p+3, -0x1.047a70170bb21p+4,
+    0x1.eb8c4f68fff74p+3, 0x1.81b350c0e324p+4,  -0x1.1e94dd7979e39p+3, -0x1.98075e59881f9p+3,
+    0x1.7b878701d3f49p+0, 0x1.b1344e17da7dp+0};
 inline constexpr double kForceUnder[] = {0x1p+0,
-                                         0x1.b16986026dec5p+2,
-                                         0x1.728b46711e2e8p+2,
-                                         -0x1.e05c95af438acp+4,
-                                         -0x1.5cacd47e5a65ap+4,
-                                         0x1.e3209d8e4b738p+5,
-                                         0x1.04938090b499cp+2,
-                                         -0x1.49009b8a3f315p+5,
-                                         0x1.a5e7c10835737p+3,
-                                         0x1.6537c02dab26bp+1,
-                                         -0x1.0f155ed5e1d6bp+0};
+                                         0x1.6c1bb708507a1p-3,
+                                         -0x1.b193ff1e9e4d6p+2,
+                                         -0x1.209c22653e7c5p-1,
+                                         0x1.043ff5651cd8ap+4,
+                                         0x1.08eac1feb314cp-3,
+                                         -0x1.0394c90f25b36p+4,
+                                         0x1.553f7eadf256fp-1,
+                                         0x1.76ca67012ae49p+2,
+                                         -0x1.3a9b71cb208dbp-2,
+                                         -0x1.8844f57a170e2p-2};
 
-/// g: D/K = 1/2 + sqrt(z) g; to a relative 5.3e-17.
+/// g: D/K = 1/2 + sqrt(z) g; to a relative 5.3e-17. In powers of z.
 inline constexpr double kShareOver[] = {
     0x1.5555555555555p-1,  0x1.7aa10fb03a172p+2, 0x1.9a665c0c6d71dp+3, -0x1.855b2f3b98679p+3,
     -0x1.6e924734230e1p+5, 0x1.129f3d06a572cp+4, 0x1.8c0ecf3f4f0ffp+5, -0x1.55c778a78ece8p+4,

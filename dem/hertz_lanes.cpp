@@ -156,7 +156,8 @@ HWY_INLINE std::uint64_t answer(const HertzBlock& block, std::size_t i) {
   // x = tanh(L/8) by halving twice; f and g of docs/derivations/hertz-lanes.md at z = x^2.
   const Pack quarter = root(multiply_add(all(0.5), k.sum, all(0.5)));
   const Pack x = k.difference / (all(2.0) * multiply_add(quarter, quarter, quarter)), z = x * x;
-  const Pack f_over = polynomial(kForceOver, z), f_under = polynomial(kForceUnder, z);
+  const Pack t = z - all(kForceCentre);
+  const Pack f_over = polynomial(kForceOver, t), f_under = polynomial(kForceUnder, t);
   const Pack g_over = polynomial(kShareOver, z), g_under = polynomial(kShareUnder, z);
 
   // 1 - nu/2 -+ nu (D/K - 1/2), all over g_under.

@@ -51,7 +51,7 @@ struct HertzBlock {
 /// or a geometric mean outside [2^-50, 2^50], and what is no number.
 ///
 /// (1) A pair with overlap <= 0, or none, has an answer: 0 in every place.
-/// (2) Of given relative curvatures the answers are hertz_contact()'s to a relative 32 u, u =
+/// (2) Of given relative curvatures the answers are hertz_contact()'s to a relative 48 u, u =
 ///     2^-53.
 /// (3) The curvatures are contact_curvature()'s to what that promises; of the smaller one with the
 ///     error of docs/derivations/hertz-lanes.md where two thin bodies are nearly parallel.

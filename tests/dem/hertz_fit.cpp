@@ -2,6 +2,8 @@
 //
 // Makes the numbers of dem/hertz_fit.hpp again, prints them, and says with its exit status whether
 // they are those that stand there. docs/derivations/hertz-lanes.md has the formulas.
+#include <boost/multiprecision/mpfr.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -9,8 +11,6 @@
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <boost/multiprecision/mpfr.hpp>
 
 #include <tangency/dem/hertz_fit.hpp>
 #include <tangency/dem/hertz_lanes.hpp>
@@ -89,19 +89,20 @@ std::vector<Real> solve(std::vector<std::vector<Real>> rows) {
 }
 
 /// The rational function with `over` and `under` terms, the lowest of the latter 1, that is
-/// `function` at the Chebyshev points of [0, last]; prints it and compares.
+/// `function` at the Chebyshev points of [0, last], in powers of z - centre; prints it and
+/// compares.
 bool makes(const char* name, const std::function<Real(const Real&)>& function, const Real& last,
-           std::span<const double> over, std::span<const double> under) {
+           double centre, std::span<const double> over, std::span<const double> under) {
   const std::size_t n = over.size() + under.size() - 1;
   std::vector<std::vector<Real>> rows;
   for (std::size_t i = 0; i < n; ++i) {
     const Real z = last / 2 * (1 + cos(pi() * (2 * Real(i) + 1) / (2 * Real(n))));
-    const Real value = function(z);
+    const Real value = function(z), t = z - centre;
     std::vector<Real> row;
     Real power = 1;
-    for (std::size_t k = 0; k < over.size(); ++k, power *= z) row.push_back(power);
-    power = z;
-    for (std::size_t k = 1; k < under.size(); ++k, power *= z) row.push_back(-value * power);
+    for (std::size_t k = 0; k < over.size(); ++k, power *= t) row.push_back(power);
+    power = t;
+    for (std::size_t k = 1; k < under.size(); ++k, power *= t) row.push_back(-value * power);
     row.push_back(value);
     rows.push_back(row);
   }
@@ -127,8 +128,8 @@ bool makes(const char* name, const std::function<Real(const Real&)>& function, c
 int main() {
   using namespace tangency::dem;
   const Real x = tanh(-log(Real(kLeastCurvatureRatio)) / kHalvings), last = x * x;
-  const bool force_is = makes("Force", force, last, kForceOver, kForceUnder);
-  const bool share_is = makes("Share", share, last, kShareOver, kShareUnder);
+  const bool force_is = makes("Force", force, last, kForceCentre, kForceOver, kForceUnder);
+  const bool share_is = makes("Share", share, last, 0.0, kShareOver, kShareUnder);
   if (!force_is || !share_is) std::fputs("dem/hertz_fit.hpp has other numbers\n", stderr);
   return force_is && share_is ? 0 : 1;
 }

@@ -121,6 +121,62 @@ TEST(Hertz, NearLineContactsFollowTheLogarithm) {
   }
 }
 
+/// ln(k^2 D / (K - D)) in long double, by the arithmetic-geometric mean (DLMF, section 19.8): D/K =
+/// (1/2) sum over n of 2^n c_n^2 / c_0^2.
+long double logarithm_of_ratio(long double k) {
+  long double a = (1.0L + k) / 2, b = std::sqrt(k), c = (1.0L - k) / 2;
+  long double part = (1.0L - k) / (4.0L * (1.0L + k)), sum = 1.0L, weight = 2.0L;
+  while (weight * part > 0x1p-70L) {
+    sum += weight * part;
+    const long double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+    part *= c * c / (16.0L * a * a);
+    c = c * c / (4.0L * a);
+    weight *= 2.0L;
+  }
+  return 2.0L * std::log(k) + std::log(sum / (2.0L - sum));
+}
+
+TEST(Hertz, AxisRatioIsRightToAFewRoundingsDownTo1e300) {
+  std::mt19937_64 random(20261130);
+  double worst = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const double depth = i % 2 == 0 ? 690.0 : 10.0;
+    const double ratio = std::exp(-depth * std::pow(uniform(random), i % 4 < 2 ? 1 : 8));
+    const long double k = contact_ellipse(ratio).axis_ratio;
+    // ln(ratio) moves with ln k with a slope of 1.5 at least.
+    const auto off = static_cast<double>((logarithm_of_ratio(k) - std::log(1.0L * ratio)) / 1.5L);
+    EXPECT_LT(std::abs(off), 8 * kUnit) << ratio;
+    worst = std::max(worst, std::abs(off));
+  }
+  RecordProperty("worst", std::to_string(worst / kUnit) + " u");
+  EXPECT_GT(worst, 2 * kUnit);
+}
+
+// The energy is the least that any pressure gives: its slope by a curvature at a given overlap is
+// what the pressure has where the surfaces part, the integral of p x^2 / 2 with its sign turned.
+TEST(Hertz, EnergyFallsWithACurvatureAsThePressureSaysThereIs) {
+  for (const double ratio : {0.9, 0.3, 0.01, 1e-5}) {
+    const double overlap = 1e-3;
+    const double curvature[2] = {2.0, 2.0 * ratio};
+    const HertzContact at = hertz_contact(curvature, overlap, kGlass);
+    for (const int j : {0, 1}) {
+      double above[2] = {curvature[0], curvature[1]}, below[2] = {curvature[0], curvature[1]};
+      const double h = 1e-5 * curvature[j];
+      above[j] += h;
+      below[j] -= h;
+      const double slope = (hertz_contact(above, overlap, kGlass).energy -
+                            hertz_contact(below, overlap, kGlass).energy) /
+                           (2.0 * h);
+      // curvature[1] is that along the longer axis; p of an ellipse has a mean x^2 of a^2/5.
+      const double semi_axis = at.semi_axes[1 - j];
+      // Of the third derivative, and of 1e-5 roundings.
+      EXPECT_LT(relative(slope, -at.force * semi_axis * semi_axis / 10.0), 1e-8) << ratio;
+    }
+  }
+}
+
 /// Integral of f from a to b, singular at the ends at most like an inverse square root.
 double integral(const std::function<double(double)>& f, double a, double b) {
   gsl_integration_workspace* const space = gsl_integration_workspace_alloc(200);
