@@ -5,9 +5,9 @@
 /// how they move to the force after, with the sums over the block that every step needs. Free
 /// functions that own nothing. The instruction set is chosen when the program runs.
 ///
-/// (1) Each pair's results are those of contact_law.hpp to rounding, and to the bit they do not
-///     depend on its neighbours in the block or on its place there. The sums are added up lane by
-///     lane: their last bits depend on the instruction set.
+/// (1) To the bit, a pair's results do not depend on its neighbours in the block or on its place
+///     there. The sums are added up lane by lane: their last bits depend on the instruction set, as
+///     those of results do.
 /// (2) A pair that does not touch, and did not before, gets zeros and keeps its normal.
 #pragma once
 

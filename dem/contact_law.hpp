@@ -4,6 +4,18 @@
 ///
 /// Signs: a contact force is what particle a does to particle b; the normal points from a to b; so
 /// a normal force > 0 is a push. The shear force is the part in the tangent plane.
+///
+/// The shear force after a step is the old one turned with the normal by the smallest rotation that
+/// takes the one normal to the other (of opposite ones reversed), less the stiffness times the
+/// tangential part of the displacement, cut back to the Coulomb limit c + F_n tan(phi). Where a
+/// Hertz contact is unloaded its shear force shrinks with its stiffness, lest it gain energy in a
+/// closed cycle [ThorntonRandall1988]. contact_lanes.hpp computes it:
+///
+/// (1) The result is normal to the normal up to rounding.
+/// (2) Its length is at most the limit, up to rounding.
+/// (3) Without displacement, limit and change of stiffness its length is that of the old force.
+/// (4) The work done on the contact, -(old turned + new force)/2 . displacement, is the energy
+///     stored plus what is lost to sliding.
 #pragma once
 
 #include <optional>
@@ -20,14 +32,7 @@ struct ShearStiffness {
   double across = 0.0;            ///< for those normal to it
   Vec3 direction = Vec3::Zero();  ///< unit and tangent, or 0 where the two are equal
 
-  Vec3 times(const Vec3& v) const { return across * v + (along - across) * part_along(v); }
-  Vec3 solve(const Vec3& v) const {
-    return v / across + (1.0 / along - 1.0 / across) * part_along(v);
-  }
   double largest() const { return along > across ? along : across; }
-
- private:
-  Vec3 part_along(const Vec3& v) const { return direction.dot(v) * direction; }
 };
 
 /// The push of a contact, and how its shear answers.
@@ -45,13 +50,6 @@ struct ShearState {
   double energy = 0.0;        ///< stored by the shear displacement
 };
 
-/// How a contact moved during a step.
-struct ContactStep {
-  Vec3 previous_normal;  ///< unit
-  Vec3 normal;           ///< unit
-  Vec3 displacement;     ///< of b relative to a at the contact, length
-};
-
 struct ContactLaw {
   double normal_stiffness;      ///< K_n > 0, force/length; of a Hertz contact: the largest expected
   double shear_stiffness;       ///< K_s >= 0, alike
@@ -67,22 +65,6 @@ struct ContactLaw {
   /// Linear: K_n overlap. Hertz: of the relative curvatures, which the linear law does not read.
   /// @param overlap  > 0
   NormalResponse normal_response(double overlap, const PrincipalCurvatures& relative) const;
-
-  /// The shear force after a step: the old one turned with the normal, less the stiffness times
-  /// the tangential part of the displacement, cut back to the Coulomb limit c + F_n tan(phi).
-  /// Where a Hertz contact is unloaded its shear force shrinks with its stiffness, lest it gain
-  /// energy in a closed cycle [ThorntonRandall1988].
-  ///
-  /// (1) The result is normal to step.normal up to rounding.
-  /// (2) Its length is at most the limit, up to rounding.
-  /// (3) Without displacement, limit and change of stiffness its length is that of the old force.
-  /// (4) The work done on the contact, -(old turned + new force)/2 . displacement, is the energy
-  ///     stored plus what it returns: the work lost to sliding.
-  double shear(ShearState& state, const ContactStep& step, const NormalResponse& normal) const;
 };
-
-/// v turned by the smallest rotation that takes unit vector `from` to unit vector `to`; for
-/// opposite vectors, where that is not unique, reversed.
-Vec3 turned_with(const Vec3& v, const Vec3& from, const Vec3& to);
 
 }  // namespace tangency::dem

@@ -48,8 +48,10 @@ struct Wall {
 
 /// From a's centre to the centre of b's image. Not for walls.
 inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Cell& cell) {
-  return particles.position[static_cast<std::size_t>(pair.b)] + cell.translation(pair.image) -
-         particles.position[static_cast<std::size_t>(pair.a)];
+  const Vec3& a = particles.position[static_cast<std::size_t>(pair.a)];
+  const Vec3& b = particles.position[static_cast<std::size_t>(pair.b)];
+  // Of most pairs neither is an image.
+  return pair.image == Image{} ? Vec3(b - a) : Vec3(b + cell.translation(pair.image) - a);
 }
 
 class NeighbourList {
