@@ -78,9 +78,8 @@ struct PackStart {
 
 HWY_INLINE PackStart first_normal(const LaneBlock& block, std::size_t i, const PackPair& pair,
                                   const PackSymmetric3& shape_a, const PackSymmetric3& shape_b) {
-  if (block.normals == nullptr)
-    return {perram_wertheim_normal(pair, shape_a, shape_b), all(0.0) <= all(0.0)};
-  const PackVec3 previous = load_vectors(block.normals + 3 * i);
+  PackVec3 previous{all(0.0), all(0.0), all(0.0)};
+  if (block.normals != nullptr) previous = load_vectors(block.normals + 3 * i);
   PackStart start{normalised(previous), is_nothing(previous)};
   if (!none(start.fresh)) {
     const PackVec3 normal = perram_wertheim_normal(pair, shape_a, shape_b);
@@ -95,6 +94,78 @@ HWY_INLINE void move(const PackStep& step, PackMask& going, PackVec3& n) {
   n = chosen(going, normalised(n + step.move), n);
 }
 
+struct PackAnswer {
+  PackProof proof;
+  PackVec3 n;
+  PackPoint at;
+};
+
+HWY_INLINE void write(const PackAnswer& answer, const LaneBlock& to, std::size_t i) {
+  if (to.gap != nullptr) store(answer.proof.gap, to.gap + i);
+  if (to.gap_error != nullptr) store(answer.proof.error, to.gap_error + i);
+  if (to.normal != nullptr) store(answer.n, to.normal + 3 * i);
+  if (to.arm_a != nullptr) store(answer.at.point_a, to.arm_a + 3 * i);
+  if (to.arm_b != nullptr) store(-answer.at.point_b, to.arm_b + 3 * i);
+}
+
+/// The lanes of `which` alone.
+HWY_INLINE void write_some(const PackAnswer& answer, std::uint64_t which, const LaneBlock& to,
+                           std::size_t i) {
+  constexpr std::size_t kLanes = TANGENCY_PACK_REGISTERS * HWY_MAX_BYTES / sizeof(double);
+  double gap[kLanes], gap_error[kLanes], normal[3 * kLanes], arm_a[3 * kLanes], arm_b[3 * kLanes];
+  LaneBlock here = to;
+  here.gap = gap, here.gap_error = gap_error;
+  here.normal = normal, here.arm_a = arm_a, here.arm_b = arm_b;
+  write(answer, here, 0);
+  const auto copy = [](const double* from, double* column, std::size_t count) HWY_ATTR {
+    if (column == nullptr) return;
+    for (std::size_t c = 0; c < count; ++c) column[c] = from[c];
+  };
+  for (std::size_t k = 0; k < pack_lanes(); ++k) {
+    if ((which >> k & 1) == 0) continue;
+    copy(gap + k, to.gap != nullptr ? to.gap + i + k : nullptr, 1);
+    copy(gap_error + k, to.gap_error != nullptr ? to.gap_error + i + k : nullptr, 1);
+    copy(normal + 3 * k, to.normal != nullptr ? to.normal + 3 * (i + k) : nullptr, 3);
+    copy(arm_a + 3 * k, to.arm_a != nullptr ? to.arm_a + 3 * (i + k) : nullptr, 3);
+    copy(arm_b + 3 * k, to.arm_b != nullptr ? to.arm_b + 3 * (i + k) : nullptr, 3);
+  }
+}
+
+/// The branch that each of the asked lanes is on, from a normal near it; those that are settled as
+/// bits. A branch is followed and not jumped to, and bodies that are apart are never said to
+/// overlap. Out of line, as it would take registers from what every pack needs.
+HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const PackVec3& from,
+                                       const PackMask& asked) {
+  if (block.normals == nullptr) return 0;
+  const PackPair pair = load_pair(block, i);
+  const PackSymmetric3 shape_a = shape(pair.a), shape_b = shape(pair.b);
+  const auto look = [&](const PackVec3& n) HWY_ATTR {
+    return point_of(pair, n, support(pair.a, n), support(pair.b, n));
+  };
+  PackAnswer answer{{}, from, {}};
+  PackMask going = asked;
+  for (int k = 0;; ++k) {
+    answer.at = look(answer.n);
+    const PackStep step = newton_step(shape_a, shape_b, pair.size, answer.n, answer.at);
+    answer.proof = prove_branch(pair, answer.at, bounds(pair, answer.n, answer.at), step);
+    // One step more than the gap needs, where the normal is asked for.
+    const PackMask enough = block.polish && k < 2 ? none_of_them() : answer.proof.best;
+    going = without(going, enough);
+    if (none(going) || k == kSteps) break;
+    move(step, going, answer.n);
+  }
+  // 0 leads to what is no number, and so is asked afresh.
+  const PackVec3 previous = normalised(load_vectors(block.normals + 3 * i));
+  const PackMask stayed = dot(answer.n, previous) >= all(kSameBranch);
+  PackMask settled = asked & answer.proof.settled & stayed;
+  if (none(settled)) return 0;
+  settled = settled & meet(pair, shape_a, shape_b, answer.at, settled);
+  const std::uint64_t which = bits(settled);
+  write_some(answer, which, block, i);
+  block.local |= which << i;
+  return which;
+}
+
 /// All lanes from index i on; the settled ones as bits.
 HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   const PackPair pair = load_pair(block, i);
@@ -106,65 +177,52 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
       (pair.size <= all(kLargestModerate)) & (largest_component(pair.d) >= all(kSmallestModerate));
   const PackMask in_range = going;
   const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
-  const auto first_step = [&](const PackMask& asked) HWY_ATTR {
-    if (none(asked)) return;
+  // A moment ago the normal was good to some 1e-4, the start of a cold search is to 1e-2: one step
+  // more. A coarse answer takes one less.
+  for (int k = 0; k < 2; ++k) {
+    const PackMask first = without(going & start.fresh, coarse);
+    const PackMask asked = k == 0 ? first : without(going, without(coarse, start.fresh));
+    if (none(asked)) continue;
     const PackPoint at = point_of(pair, n, glance(shape_a, n), glance(shape_b, n));
     PackMask moving = asked;
     move(newton_step(shape_a, shape_b, pair.size, n, at), moving, n);
     going = moving | without(going, asked);
-  };
-  // A moment ago the normal was good to some 1e-4, the start of a cold search is to 1e-2: one step
-  // more. A coarse answer takes one less.
-  first_step(without(going & start.fresh, coarse));
-  first_step(without(going, without(coarse, start.fresh)));
-  PackMask local = all(0.0) < all(0.0);  // settled as the value of a branch, if at all
-  const auto proof_at = [&](const PackVec3& normal, const PackPoint& there) HWY_ATTR {
-    const PackBounds off = bounds(pair, normal, there);
-    PackProof found = prove(pair, there, off);
-    if (!block.branches) return found;
-    local = in_range & deep(pair, there.gap + off.value_error);
-    if (none(local)) return found;
-    const PackStep step = newton_step(shape_a, shape_b, pair.size, normal, there);
-    return chosen(local, prove_branch(pair, there, off, step), found);
-  };
+  }
   PackPoint at;
   PackProof proof;
+  PackMask too_deep = none_of_them();
   for (int k = 0;; ++k) {
     at = point_of(pair, n, support(pair.a, n), support(pair.b, n));
-    proof = proof_at(n, at);
+    const PackBounds off = bounds(pair, n, at);
+    proof = prove(pair, at, off);
     going = without(going, proof.best);
+    if (block.branches) {
+      too_deep = too_deep | (going & deep(pair, at.gap + off.value_error));
+      going = without(going, too_deep);
+    }
     if (k == kSteps - 1) going = without(going, start.fresh);  // which had one before
     if (none(going) || k == kSteps) break;
     move(newton_step(shape_a, shape_b, pair.size, n, at), going, n);
   }
   if (block.polish) {
-    const PackMask local_before = local;
     PackMask all_lanes = in_range;
     PackVec3 better = n;
     move(newton_step(shape_a, shape_b, pair.size, n, at), all_lanes, better);
     const PackPoint there =
         point_of(pair, better, support(pair.a, better), support(pair.b, better));
-    const PackProof also = proof_at(better, there);
+    const PackProof also = prove(pair, there, bounds(pair, better, there));
     n = chosen(also.settled, better, n);
     at = chosen(also.settled, there, at);
     proof = chosen(also.settled, also, proof);
-    local = chosen(also.settled, local, local_before);
   }
-  local = local & proof.settled;
-  if (!none(local)) {
-    // Asked afresh it is the global gap that is wanted; and a branch is followed, not jumped to.
-    const PackMask stayed = without(dot(n, start.normal) >= all(kSameBranch), start.fresh);
-    const PackMask sound = stayed & meet(pair, shape_a, shape_b, at, local);
-    proof.settled = without(proof.settled, without(local, sound));
-    local = local & sound;
-    block.local |= bits(local) << i;
+  write({proof, n, at}, block, i);
+  std::uint64_t settled = bits(proof.settled & in_range);
+  if (!none(too_deep)) {
+    const PackVec3 from = n;  // copies, so that only they have to be in memory
+    const PackMask asked = too_deep;
+    settled |= follow_deep(block, i, from, asked);
   }
-  if (block.gap != nullptr) store(proof.gap, block.gap + i);
-  if (block.gap_error != nullptr) store(proof.error, block.gap_error + i);
-  if (block.normal != nullptr) store(n, block.normal + 3 * i);
-  if (block.arm_a != nullptr) store(at.point_a, block.arm_a + 3 * i);
-  if (block.arm_b != nullptr) store(-at.point_b, block.arm_b + 3 * i);
-  return bits(proof.settled & in_range);
+  return settled;
 }
 
 HWY_ATTR std::uint64_t gap_lanes(LaneBlock& block) {

@@ -213,7 +213,7 @@ HWY_INLINE PackMask meet(const PackPair& pair, const PackSymmetric3& shape_a,
            (between2 <= all(0x1p-24) * (body.least_radius * body.largest)) &
            (body.largest <= all(0x1p20) * body.least_radius);
   };
-  PackMask found = without(asked, asked);
+  PackMask found = none_of_them();
   Pack ratio = at.inverse_h_a * rough_inverse(at.inverse_h_b);
   for (int k = 0; k < kPoints; ++k) {
     // The point p M_A y, seen from A, and q M_B y, seen from B the other way, for the y that makes

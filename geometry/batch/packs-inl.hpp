@@ -92,6 +92,7 @@ HWY_INLINE PackMask operator|(const PackMask& a, const PackMask& b) {
 HWY_INLINE PackMask without(const PackMask& a, const PackMask& b) {
   return {TANGENCY_PARTS(hn::AndNot(b.low, a.low), hn::AndNot(b.high, a.high))};
 }
+HWY_INLINE PackMask none_of_them() { return all(0.0) < all(0.0); }
 HWY_INLINE bool none(const PackMask& m) {
 #if TANGENCY_PACK_REGISTERS == 2
   if (!hn::AllFalse(D(), m.high)) return false;
