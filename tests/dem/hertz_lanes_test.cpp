@@ -236,7 +236,8 @@ TEST(HertzLanes, OfTwoBodiesHaveTheirRelativeCurvaturesAndDirection) {
 TEST(HertzLanes, KeepWhatTwoThinBodiesThatAreNearlyParallelHave) {
   at_every_level([](std::int64_t level) {
     Block block;
-    const double aspect = 40.0;
+    const double aspect = 100.0;
+    double worst = 0.0;
     for (std::size_t i = 0; i < kPairs; ++i) {
       const auto turned = [&](double angle) {
         return block.add({aspect, 1.0, 1.0},
@@ -249,12 +250,12 @@ TEST(HertzLanes, KeepWhatTwoThinBodiesThatAreNearlyParallelHave) {
     std::array<Answer, kPairs> answers;
     ASSERT_EQ(block.answer(answers), kAllAnswered) << hwy::TargetName(level);
     for (std::size_t i = 0; i < kPairs; ++i) {
-      const auto [larger, smaller] = block.curvature(i).curvature;
-      // x of docs/derivations/hertz-lanes.md with beta = aspect; half of 2 x.
-      const double parallel = (larger + smaller) / (2.0 * std::sqrt(larger * smaller));
-      EXPECT_LT(off(answers[i], block.one_by_one(i)), 60.0 * aspect * parallel)
-          << hwy::TargetName(level) << " pair " << i;
+      // Seen: 18 u; 1300 u where the determinant is xx yy - xy^2. The derived bound is far above.
+      const double error = off(answers[i], block.one_by_one(i));
+      EXPECT_LT(error, 64.0) << hwy::TargetName(level) << " pair " << i;
+      worst = std::max(worst, error);
     }
+    RecordProperty(hwy::TargetName(level), std::to_string(worst) + " u");
   });
 }
 
