@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the scenes of the benchmarks in a folder: NAME.toml, NAME.csv, and the samples beside them."""
 
+import dataclasses
 import os
 import shutil
 import subprocess
@@ -20,7 +21,7 @@ def named():
         "spheroid-3": (3.0, 1.0), "spheroid-5": (5.0, 1.0), "spheroid-10": (10.0, 1.0)}
     for name, (elongation, flatness) in shapes.items():
         dense = Spec(elongation=elongation, flatness=flatness)
-        change = lambda spec=dense, **keys: specs.dataclasses.replace(spec, **keys)
+        change = lambda spec=dense, **keys: dataclasses.replace(spec, **keys)
         scenes[f"{name}-1000"] = dense
         scenes[f"{name}-1000-sheared"] = change(state="sheared", pressure=50e6)
         scenes[f"{name}-1000-hertz"] = change(law="hertz")
@@ -44,7 +45,7 @@ def named():
             "ratio-20-loose": Spec(particles=8000, large=4, size_ratio=20.0, state="loose"),
             "ratio-50-loose": Spec(particles=30000, large=1, size_ratio=50.0, state="loose")}.items():
         scenes[name] = loose
-        scenes[name + "-drifting"] = specs.dataclasses.replace(loose, drift=True)
+        scenes[name + "-drifting"] = dataclasses.replace(loose, drift=True)
     return scenes
 
 

@@ -8,6 +8,7 @@
 // the program waits and takes no processor time, so that several of them can be timed by turns.
 #include <fcntl.h>
 #include <hwy/targets.h>
+#include <nlohmann/json.hpp>
 #include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,7 +22,6 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -34,6 +34,7 @@
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace {
 
@@ -82,6 +83,14 @@ void put_assembly(Json& answer, const Simulation& simulation) {
   answer["touching"] = seen.contacts;
   answer["mean_stress"] = seen.stress.mean();
   answer["mean_overlap"] = seen.mean_overlap;
+  answer["porosity"] = seen.porosity;
+}
+
+double largest_radius(const Particles& particles) {
+  double largest = 0.0;
+  for (const tangency::Vec3& axes : particles.semi_axes)
+    largest = std::max(largest, axes.maxCoeff());
+  return largest;
 }
 
 /// "AVX3" and its variants are called avx512, as processors are.
@@ -172,6 +181,16 @@ Json answer_to(const std::string& line, Simulation& simulation) {
   throw std::runtime_error(line + ": allowed are cycles N, checkpoint FILE and hash");
 }
 
+/// Runs all stages but the last to their ends.
+void run_up(Simulation& simulation) {
+  while (simulation.state().stage + 1 < simulation.scene().stages.size()) {
+    if (simulation.status() == StageStatus::done)
+      simulation.next_stage();
+    else
+      run_cycle(simulation);
+  }
+}
+
 int run(const fs::path& file, const std::string& level, int threads) {
   if (!level.empty()) use_level(level);
   if (threads > 0) omp_set_num_threads(threads);
@@ -180,18 +199,14 @@ int run(const fs::path& file, const std::string& level, int threads) {
   Scene scene = load_scene(file);
   read_bodies(scene, file);
   Simulation simulation(scene);
-  put_times_since(ready, start);
-  put_assembly(ready, simulation);  // as placed
-  ready["set_up_peak_bytes"] = peak_memory();
-  while (simulation.state().stage + 1 < simulation.scene().stages.size()) {
-    while (simulation.status() == StageStatus::running) simulation.step();
-    if (simulation.status() == StageStatus::done)
-      simulation.next_stage();
-    else
-      run_cycle(simulation);  // says which stage has run out of cycles
-  }
-  ready["stage"] = simulation.stage().name;
+  put_times_since(ready["set_up"], start);
+  ready["set_up"]["peak_bytes"] = peak_memory();
+  put_assembly(ready["placed"], simulation);
+  run_up(simulation);
+  put_assembly(ready["start"], simulation);
+  ready["shears"] = simulation.stage().drive->axial_strain.has_value();
   ready["time_step"] = simulation.time_step();
+  ready["largest_radius"] = largest_radius(simulation.state().particles);
   ready["level"] = name_of_level(hwy::SupportedAndGeneratedTargets().front());
   ready["threads"] = omp_get_max_threads();
   std::cout << ready.dump() << std::endl;
