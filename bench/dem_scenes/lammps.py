@@ -27,14 +27,18 @@ SAME_STRESS = 1e-9
 STILL_STANDS = 0.1
 
 
+def is_there():
+    """stdbuf is Debian's coreutils."""
+    return bool(shutil.which("lmp") and shutil.which("stdbuf"))
+
+
 class Lammps(sessions.Program):
     """`lmp` on the scene of a session of ours, with as many pairs a particle as `listed`."""
 
     threads = 1
 
     def __init__(self, ours, listed=None):
-        lmp = shutil.which("lmp")
-        if not lmp or not shutil.which("stdbuf"):
+        if not is_there():
             raise sessions.Failure(MISSING)
         self.scene = ours.scene
         with open(ours.scene, "rb") as file:
@@ -43,7 +47,7 @@ class Lammps(sessions.Program):
         write_data(self.data, scene, os.path.dirname(ours.scene))
         # By lines, also into a pipe: else its answers would wait in its buffer.
         super().__init__(f"lammps {name_of(ours.scene)}",
-                         ["stdbuf", "-oL", lmp, "-log", "none", "-nocite"], {"OMP_NUM_THREADS": "1"})
+                         ["stdbuf", "-oL", "lmp", "-log", "none", "-nocite"], {"OMP_NUM_THREADS": "1"})
         contact = scene["contact"]
         stiffness = contact["normal_stiffness"]
         self.commands(

@@ -59,16 +59,21 @@ class Program:
         return self.last
 
     def failure(self):
-        self.process.wait()
-        rest = self.process.stdout.read().strip().splitlines()
+        """Of a program that has ended, by its last line."""
+        rest = self.close().strip().splitlines()
         said = rest[-1] if rest else self.last
         return Failure(f"{self.label}: ended with {self.process.returncode}: {said}")
 
     def close(self):
-        self.process.stdin.close()
-        self.process.stdout.read()
+        """Lets it end; the rest of what it says."""
+        try:
+            self.process.stdin.close()
+        except BrokenPipeError:  # it has ended before
+            pass
+        rest = self.process.stdout.read()
         self.process.wait()
         self.process.stdout.close()
+        return rest
 
 
 class Ours(Program):
@@ -87,6 +92,7 @@ class Ours(Program):
         try:
             return json.loads(line)
         except ValueError:
+            self.close()
             raise Failure(f"{self.label}: {line}") from None
 
     def ask(self, command):

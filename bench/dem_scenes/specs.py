@@ -123,11 +123,10 @@ def head(spec, cell_size, shape, copies=1):
 
 
 def increments_of(spec):
-    """Of the growth: at most 0.005 of a semi-axis each, half of what is allowed."""
-    c = (spec.elongation * spec.flatness**2) ** (-1 / 3)
-    b = c * spec.flatness
-    most = max(abs(math.log(x)) for x in (c, b, b * spec.elongation))
-    return max(100, math.ceil(200 * most))
+    """Of the growth, in which a / b and b / c grow by equal steps: at most 0.008 of a semi-axis each,
+    where 0.01 is allowed. The first step is the largest, of a or of c."""
+    a_b, b_c = spec.elongation - 1.0, spec.flatness - 1.0
+    return max(100, math.ceil(max(2 * a_b + b_c, a_b + 2 * b_c) / 3 / 0.008))
 
 
 def sample_text(spec):
