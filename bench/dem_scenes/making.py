@@ -40,6 +40,7 @@ def named():
     # One large particle has room in a dense cell, which must be two of its diameters wide for two.
     for ratio, small in ((2, 1000), (5, 1000), (10, 4000), (20, 16000)):
         scenes[f"ratio-{ratio}"] = Spec(particles=small, large=1, size_ratio=float(ratio))
+    scenes["ratio-2-8008"] = dataclasses.replace(scenes["ratio-2"], copies=2)
     for name, loose in {
             "equal-8001": Spec(particles=8001, state="loose"),
             "ratio-20-loose": Spec(particles=8000, large=4, size_ratio=20.0, state="loose"),

@@ -222,7 +222,7 @@ int main(int argc, char** argv) {
   std::string scene, level;
   int threads = 0;
   program.option("SCENE", scene, "A scene, as for tangency-dem run").required();
-  program.option("--level", level, "Instruction set: sse2, ssse3, sse4, avx2, avx512 [the best]");
+  program.option("--level", level, "Instruction set: ssse3, sse4, avx2, avx512 [the best]");
   program.option("--threads", threads, "Number of threads [all]").between(1, 1024);
   program.footer(kHelp);
   program.runs([&] { return run(scene, level, threads); });

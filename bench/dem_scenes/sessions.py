@@ -85,6 +85,7 @@ class Ours(Program):
         policy = os.environ.get("OMP_WAIT_POLICY", "passive")
         super().__init__(label, command, {"OMP_WAIT_POLICY": policy})
         self.scene, self.threads = scene, threads
+        self.build = binary, level
         self.ready = self.answer()
 
     def answer(self):
@@ -113,8 +114,7 @@ class Row:
     cycle: float  # s
     pair: float  # ns a listed pair
     pair_range: tuple
-    wall_pair: float
-    share: float  # of the processor, least over the rounds: below 1 others used it too
+    share: float  # of a processor, least over the rounds: below 1 (threads) others used it too
 
 
 def by_turns(sessions, rounds, seconds, log=lambda text: None):
@@ -132,24 +132,24 @@ def by_turns(sessions, rounds, seconds, log=lambda text: None):
             cycles = max(1, round(seconds / length[s.scene, isinstance(s, Ours)]))
             blocks[id(s)].append(s.block(cycles))
         log(f"round {turn + 1} of {rounds}")
-    rows = []
-    for s in sessions:
-        some = blocks[id(s)]
-        threads = getattr(s, "threads", 1)
-        pairs = [1e9 * (b.cpu if threads == 1 else b.wall) / max(b.pair_cycles, 1.0) for b in some]
-        rows.append(Row(
-            session=s, end=some[-1].end,
-            cycle=statistics.median((b.cpu if threads == 1 else b.wall) / b.cycles for b in some),
-            pair=statistics.median(pairs), pair_range=(min(pairs), max(pairs)),
-            wall_pair=statistics.median(1e9 * b.wall / max(b.pair_cycles, 1.0) for b in some),
-            share=min(b.cpu / b.wall for b in some)))
-    return rows
+    clock = any(s.threads > 1 for s in sessions)
+    return [row_of(s, blocks[id(s)], clock) for s in sessions]
+
+
+def row_of(session, blocks, clock):
+    """Of times on the clock, or of processor time."""
+    time = [b.wall if clock else b.cpu for b in blocks]
+    pairs = [1e9 * t / max(b.pair_cycles, 1.0) for t, b in zip(time, blocks)]
+    return Row(session=session, end=blocks[-1].end,
+               cycle=statistics.median(t / b.cycles for t, b in zip(time, blocks)),
+               pair=statistics.median(pairs), pair_range=(min(pairs), max(pairs)),
+               share=min(b.cpu / b.wall for b in blocks))
 
 
 def differences(rows):
     """What answers of one scene do not agree, one line each."""
     found = []
-    first = {}
+    first, twins = {}, {}
     for row in rows:
         s, end = row.session, row.end
         if not all(math.isfinite(end[key]) for key in ("mean_stress", "touching")):
@@ -159,7 +159,10 @@ def differences(rows):
         other = first.setdefault(s.scene, row)
         if other.end["particles"] != end["particles"]:
             found.append(f"{s.label}: {end['particles']} particles, not {other.end['particles']}")
-        # Rows of one scene have run the same cycles.
+        # Rows of one scene have run the same cycles, and threads must not show.
+        twin = twins.setdefault((s.scene, s.build), row)
+        if twin is not row and twin.session.ask("hash") != s.ask("hash"):
+            found.append(f"{s.label}: its state has other bits than that of {twin.session.label}")
         limits = SHEARED if s.ready["shears"] else AT_REST
         for key, most in limits.items():
             if abs(end[key] - other.end[key]) > most * abs(other.end[key]):

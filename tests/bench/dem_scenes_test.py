@@ -121,12 +121,33 @@ class Measuring(unittest.TestCase):
         def row(stress, touching):
             session = sessions.Ours.__new__(sessions.Ours)
             session.label, session.scene, session.ready = f"{stress}", "scene", {"shears": False}
+            session.build, session.ask = object(), None
             return types.SimpleNamespace(session=session, end={
                 "particles": 27, "touching": touching, "mean_stress": stress})
         self.assertEqual(sessions.differences([row(1e8, 160), row(1e8 * (1 + 1e-9), 160)]), [])
         self.assertEqual(len(sessions.differences([row(1e8, 160), row(1e8 * (1 + 1e-5), 160)])), 1)
         self.assertEqual(len(sessions.differences([row(1e8, 160), row(1e8, 150)])), 1)
         self.assertEqual(len(sessions.differences([row(math.nan, 160)])), 1)
+
+    def test_other_bits_on_other_threads_are_said(self):
+        end = {"particles": 27, "touching": 160, "mean_stress": 1e8}
+        def rows(*hashes):
+            some = []
+            for one in hashes:
+                session = sessions.Ours.__new__(sessions.Ours)
+                session.label, session.scene, session.build = one, "scene", "build"
+                session.ready = {"shears": False}
+                session.ask = lambda command, one=one: {"state_hash": one}
+                some.append(types.SimpleNamespace(session=session, end=end))
+            return some
+        self.assertEqual(sessions.differences(rows("1", "1")), [])
+        self.assertEqual(len(sessions.differences(rows("1", "2"))), 1)
+
+    def test_threads_of_a_scene_have_the_same_bits(self):
+        scene = MAKER.scene("one", SPHEROIDS)
+        run = measure("time", scene, "--threads", "1", "2", "--rounds", "1", "--seconds", "0.01")
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        self.assertRegex(run.stdout, r"(?m)^one 1 threads +27 .*\none 2 threads +27 ")
 
     def test_a_program_that_ends_is_a_failure_with_its_reason(self):
         with self.assertRaisesRegex(sessions.Failure, "missing.toml"):
