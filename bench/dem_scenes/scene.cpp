@@ -164,7 +164,7 @@ Json checkpoint(const Simulation& simulation, const fs::path& file) {
   fs::remove(file);
   const Times plain = now();
   write_plainly(file, bytes);
-  answer["plain_seconds"] = now().wall - plain.wall;
+  put_times_since(answer["plain"], plain);
   fs::remove(file);
   answer["peak_bytes"] = peak_memory();
   return answer;
