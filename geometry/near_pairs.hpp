@@ -43,8 +43,8 @@ class NearPairSearch {
   /// @param reaches  finite, >= 0; one a centre
   /// @throws std::invalid_argument  naming what is not so; where edges are linearly dependent;
   /// where
-  ///     a body is 2^29 edges away; where a ball holds more than 2^20 of its own images along an
-  ///     axis
+  ///     a body is 2^29 edges away, or so far that rounding moves it by a cell; where a ball holds
+  ///     more than 2^20 of its own images along an axis
   NearPairSearch(std::span<const Vec3> centres, std::span<const double> reaches,
                  const Lattice& lattice);
   ~NearPairSearch();

@@ -97,8 +97,9 @@ NearGrids::NearGrids(std::span<const Vec3> centres, std::span<const double> reac
 /// numbers below the sums here.
 void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> reaches) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 most = Vec3::Zero();  // |inverse| |centre|, at least a reduced coordinate
+  const Mat3 magnitudes = inverse_.cwiseAbs();
   double size = 0.0, largest = 0.0;
-  Vec3 most = Vec3::Zero();
   for (std::size_t i = 0; i < centres.size(); ++i) {
     if (!centres[i].allFinite()) refuse(numbered("centres", i) + ": must be finite");
     if (!(reaches[i] >= 0.0) || !std::isfinite(reaches[i]))
@@ -106,27 +107,29 @@ void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> r
     const Vec3 reduced = inverse_ * centres[i];
     low = low.cwiseMin(reduced);
     high = high.cwiseMax(reduced);
-    most = most.cwiseMax(reduced.cwiseAbs());
+    most = most.cwiseMax(magnitudes * centres[i].cwiseAbs());
     size = std::max(size, centres[i].lpNorm<1>());
     largest = std::max(largest, reaches[i]);
   }
-  double periods = 0.0;
+  Vec3 images = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
-    if (!lattice_.periodic[static_cast<std::size_t>(k)]) {
-      if (centres.empty()) continue;
+    if (lattice_.periodic[static_cast<std::size_t>(k)]) {
+      const double edges = std::max(-low[k], high[k]);
+      if (edges > kFarthest)
+        refuse("centres: one is " + std::to_string(edges) + " edges away: at most 2^29");
+      images[k] = most[k] + 2.0 * largest / heights_[k] + 2.0;
+      size += images[k] * lattice_.edges.col(k).lpNorm<1>();
+    } else if (!centres.empty()) {
       low_[k] = low[k];
       extent_[k] = high[k] - low[k];
-      continue;
     }
-    if (most[k] > kFarthest)
-      refuse("centres: one is " + std::to_string(most[k]) + " edges away: at most 2^29");
-    const double images = most[k] + 2.0 * largest / heights_[k] + 2.0;
-    periods += images;
-    size += images * lattice_.edges.col(k).lpNorm<1>();
   }
   margin_ = 0x1p-48 * (size + largest);
-  const double residual = (inverse_ * lattice_.edges - Mat3::Identity()).cwiseAbs().maxCoeff();
-  slack_ = 0x1p-48 * (1.0 + most.maxCoeff() + size / heights_.minCoeff()) + residual * periods;
+  const Mat3 residual = (inverse_ * lattice_.edges - Mat3::Identity()).cwiseAbs();
+  slack_ = 0x1p-48 * (Vec3::Ones() + most + images) + residual * images;
+  for (int k = 0; k < 3; ++k)
+    if (lattice_.periodic[static_cast<std::size_t>(k)] && slack_[k] > 1.0)
+      refuse("centres: so far away that rounding moves them by a cell");
 }
 
 void NearGrids::require_few_images() const {
@@ -223,7 +226,7 @@ NearGrids::Range NearGrids::range_around(const Level& level, const Seat& seat, d
   Range range;
   for (std::size_t k = 0; k < 3; ++k) {
     const int axis = static_cast<int>(k);
-    const double half = reach / heights_[axis] * (1.0 + 0x1p-40) + slack_;
+    const double half = reach / heights_[axis] * (1.0 + 0x1p-40) + slack_[axis];
     const double at = seat.reduced[axis] - low_[axis];
     const double first = std::floor((at - half) * level.scale[axis] - 0x1p-20);
     const double last = std::floor((at + half) * level.scale[axis] + 0x1p-20);
@@ -255,7 +258,7 @@ void NearGrids::look_around(std::size_t at, const Level& level, bool own,
   const Seat& seat = seats_[at];
   const Body& body = bodies_[at];
   const double reach = body.reach + margin_;
-  const Range range = range_around(level, seat, reach + level.reach);
+  const Range range = range_around(level, seat, body.reach + level.reach);
   if (range.empty) return;
   Look look{level,       at,    own,   own ? place_of(level, seat.reduced) : range.first,
             body.centre, reach, found, {}};

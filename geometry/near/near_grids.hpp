@@ -71,7 +71,8 @@ class NearGrids {
   Vec3 heights_;  ///< distances of opposite faces
   /// Of the reduced coordinates; along open axes as found.
   Vec3 low_ = Vec3::Zero(), extent_ = Vec3::Ones();
-  double margin_ = 0.0, slack_ = 0.0;  ///< rounding of a distance, reduced coordinate
+  double margin_ = 0.0;        ///< rounding of a distance
+  Vec3 slack_ = Vec3::Zero();  ///< of reduced coordinates
   std::vector<Level> levels_;
   std::vector<std::uint32_t> starts_;  ///< of each bucket, in bodies_
   std::vector<Body> bodies_;

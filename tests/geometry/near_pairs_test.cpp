@@ -212,6 +212,17 @@ TEST(NearPairs, OfBallsThatJustTouchAreListedWhateverRounds) {
   }
 }
 
+// As of a run that blows up: coordinates along x are rounded to more than bodies and periods.
+TEST(NearPairs, AreStillFoundWhereOneEdgeIsAsLongAsDoublesGo) {
+  for (const double length : {1e20, 1e100, 1e300}) {
+    const Mat3 edges = Vec3(length, 40.0, 40.0).asDiagonal();
+    const std::vector<Vec3> centres{{0.5 * length, 1.0, 20.0}, {0.5 * length, 39.0, 20.0}};
+    const auto found = near_pairs(centres, std::vector<double>(2, 1.5), {edges});
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0], (NearPair{0, 1, {0, -1, 0}}));
+  }
+}
+
 TEST(NearPairs, OfPointsAreThoseThatCoincide) {
   const std::vector<Vec3> points{{1.0, 2.0, 3.0}, {1.0, 2.0, 3.5}, {1.0, 2.0, 3.0}};
   const std::vector<double> none(3, 0.0);
@@ -262,6 +273,10 @@ TEST(NearPairs, RefuseWhatIsNoBallOrNoLattice) {
   EXPECT_TRUE(message([&] {
                 near_pairs(far, std::span(ones).first(1), {Mat3::Identity()});
               }).ends_with("edges away: at most 2^29"));
+  Mat3 steep = Mat3::Identity();
+  steep.col(0) = Vec3(1e17, 1e17, 0.0);
+  const std::vector<Vec3> lost(2, 0.5 * steep.col(0));
+  EXPECT_TRUE(message([&] { near_pairs(lost, ones, {steep}); }).ends_with("by a cell"));
 }
 
 }  // namespace
