@@ -66,6 +66,7 @@ double rough_logarithm(double ratio) {
 }  // namespace
 
 ContactEllipse contact_ellipse(double ratio) {
+  if (ratio == 1.0) return {1.0, 0.5 * pi, 0.25 * pi};
   // D / (K - D) is 1 + L/2 to 9 %, L = -ln(ratio). Newton's method for ln k in ln(ratio), which is
   // nearly a straight line: an error x of ln k leaves one of 0.03 x^2.
   double k = std::sqrt(ratio / (1.0 + 0.5 * rough_logarithm(ratio)));

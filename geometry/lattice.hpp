@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Bodies that repeat along edge vectors, and pairs of their images.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+#include <tangency/geometry/vectors.hpp>
+
+namespace tangency {
+
+/// How many edges a body is moved by along each axis.
+using LatticeImage = std::array<std::int32_t, 3>;
+
+/// Three edge vectors, of which the periodic ones repeat the bodies.
+struct Lattice {
+  Mat3 edges = Mat3::Identity();  ///< columns, linearly independent; an open one is a direction
+  std::array<bool, 3> periodic{true, true, true};
+
+  /// Nothing repeats.
+  static Lattice open() { return {Mat3::Identity(), {false, false, false}}; }
+};
+
+/// Body a, and body b moved by edges * image.
+struct NearPair {
+  std::uint32_t a, b;
+  LatticeImage image;
+
+  auto operator<=>(const NearPair&) const = default;
+};
+
+}  // namespace tangency

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/near_pairs.hpp>
+
+#include <algorithm>
+
+#include <tangency/geometry/near/near_grids.hpp>
+
+namespace tangency {
+
+NearPairSearch::NearPairSearch(std::span<const Vec3> centres, std::span<const double> reaches,
+                               const Lattice& lattice)
+    : grids_(std::make_unique<const detail::NearGrids>(centres, reaches, lattice)) {}
+NearPairSearch::~NearPairSearch() = default;
+NearPairSearch::NearPairSearch(NearPairSearch&&) noexcept = default;
+NearPairSearch& NearPairSearch::operator=(NearPairSearch&&) noexcept = default;
+
+std::size_t NearPairSearch::size() const noexcept { return grids_->size(); }
+double NearPairSearch::margin() const noexcept { return grids_->margin(); }
+
+void NearPairSearch::find(std::size_t first, std::size_t last, std::vector<NearPair>& found) const {
+  grids_->find(first, std::min(last, size()), found);
+}
+
+std::vector<NearPair> sorted_pairs(std::span<const std::vector<NearPair>> parts,
+                                   std::size_t bodies) {
+  std::vector<std::size_t> next(bodies + 1, 0);
+  for (const auto& part : parts)
+    for (const NearPair& pair : part) ++next[pair.a + std::size_t{1}];
+  for (std::size_t i = 0; i < bodies; ++i) next[i + 1] += next[i];
+  std::vector<NearPair> pairs(next.back());
+  for (const auto& part : parts)
+    for (const NearPair& pair : part) pairs[next[pair.a]++] = pair;
+  std::size_t first = 0;  // next[i] is now where the pairs of i end
+  for (std::size_t i = 0; i < bodies; first = next[i++])
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first),
+              pairs.begin() + static_cast<std::ptrdiff_t>(next[i]));
+  return pairs;
+}
+
+std::vector<NearPair> near_pairs(std::span<const Vec3> centres, std::span<const double> reaches,
+                                 const Lattice& lattice) {
+  const NearPairSearch search(centres, reaches, lattice);
+  std::vector<std::vector<NearPair>> parts(1);
+  search.find(0, search.size(), parts.front());
+  return sorted_pairs(parts, search.size());
+}
+
+}  // namespace tangency
