@@ -281,10 +281,13 @@ void Contacts::restore(ContactColumns columns, const Particles& particles,
 void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
   resultants_.force.resize(particles);
   resultants_.moment.resize(particles);
+  resultants_.contacts.resize(particles);
   for_ranges(particles, kParallelThreshold, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+      std::int32_t contacts = 0;
       for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
+        contacts += touches(at->index) ? 1 : 0;
         if (at->as_b) {
           force += force_[at->index];
           moment += moment_b_[at->index];
@@ -295,6 +298,7 @@ void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
       }
       resultants_.force[i] = force;
       resultants_.moment[i] = moment;
+      resultants_.contacts[i] = contacts;
     }
   });
 }

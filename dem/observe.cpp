@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <tangency/dem/chunks.hpp>
+
 #include <tangency/dem/motion.hpp>
 
 namespace tangency::dem {
@@ -15,25 +17,29 @@ namespace {
 /// One type for eigenvalues of any size here: a solver takes seconds to compile.
 using UpTo6 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-/// Touching pairs of each particle. A pair of a particle with its own image counts twice: both
-/// its ends are on the particle.
-std::vector<std::int64_t> contact_counts(std::size_t particles, const Contacts& contacts,
-                                         const NeighbourList& list) {
-  std::vector<std::int64_t> counts(particles, 0);
-  for (std::size_t i = 0; i < particles; ++i)
-    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at)
-      counts[i] += contacts.touches(at->index) ? 1 : 0;
-  return counts;
-}
-
-double standard_deviation(const std::vector<std::int64_t>& counts, double mean) {
+double standard_deviation(const std::vector<std::int32_t>& counts, double mean) {
   double sum = 0.0;
-  for (const std::int64_t count : counts) {
+  for (const std::int32_t count : counts) {
     const double off = static_cast<double>(count) - mean;
     sum += off * off;
   }
   return std::sqrt(sum / static_cast<double>(counts.size()));
 }
+
+/// Over the particles of a chunk.
+struct Unbalanced {
+  double sum = 0.0, force = 0.0, moment = 0.0;  ///< of forces, and the largest
+  std::int64_t with_contacts = 0, rattlers = 0;
+
+  Unbalanced& operator+=(const Unbalanced& other) {
+    sum += other.sum;
+    force = std::max(force, other.force);
+    moment = std::max(moment, other.moment);
+    with_contacts += other.with_contacts;
+    rattlers += other.rattlers;
+    return *this;
+  }
+};
 
 }  // namespace
 
@@ -54,30 +60,33 @@ double friction_angle_deg(const Mat3& stress, int dimensions) {
   return std::asin(sine) * 180.0 / std::numbers::pi;
 }
 
-Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list,
-                   const Vec3& gravity) {
+Balance balance_of(const Particles& particles, const Contacts& contacts, const Vec3& gravity) {
+  const Resultants& resultants = contacts.resultants();
+  const std::int32_t least_contacts = gravity.isZero(0.0) ? 2 : 1;
+  const auto all =
+      sum_by_chunks<Unbalanced>(particles.size(), [&](std::size_t first, std::size_t last) {
+        Unbalanced some;
+        for (std::size_t i = first; i < last; ++i) {
+          some.rattlers += resultants.contacts[i] < least_contacts ? 1 : 0;
+          if (resultants.contacts[i] == 0) continue;
+          const double force = (resultants.force[i] + particles.mass[i] * gravity).norm();
+          some.sum += force;
+          some.force = std::max(some.force, force);
+          some.moment = std::max(some.moment, resultants.moment[i].norm() /
+                                                  particles.semi_axes[i].maxCoeff());
+          ++some.with_contacts;
+        }
+        return some;
+      });
   Balance balance;
-  const auto counts = contact_counts(particles.size(), contacts, list);
-  double sum = 0.0;
-  std::int64_t with_contacts = 0;
-  const std::int64_t least_contacts = gravity.isZero(0.0) ? 2 : 1;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    balance.rattlers += counts[i] < least_contacts ? 1 : 0;
-    if (counts[i] == 0) continue;
-    const Vec3 weight = particles.mass[i] * gravity;
-    const double force = (contacts.resultants().force[i] + weight).norm();
-    const double moment =
-        contacts.resultants().moment[i].norm() / particles.semi_axes[i].maxCoeff();
-    balance.largest_unbalanced_ratio = std::max(balance.largest_unbalanced_ratio, force);
-    balance.largest_unbalanced_moment_ratio =
-        std::max(balance.largest_unbalanced_moment_ratio, moment);
-    sum += force;
-    ++with_contacts;
-  }
+  balance.rattlers = all.rattlers;
+  balance.largest_unbalanced_ratio = all.force;
+  balance.largest_unbalanced_moment_ratio = all.moment;
   const ContactSums& sums = contacts.sums();
   if (sums.contacts == 0) return balance;
   balance.mean_contact_force = sums.force_length / static_cast<double>(sums.contacts);
-  balance.inertial_fraction = sum / static_cast<double>(with_contacts) / balance.mean_contact_force;
+  balance.inertial_fraction =
+      all.sum / static_cast<double>(all.with_contacts) / balance.mean_contact_force;
   balance.largest_unbalanced_ratio /= balance.mean_contact_force;
   balance.largest_unbalanced_moment_ratio /= balance.mean_contact_force;
   return balance;
@@ -115,7 +124,7 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
 }
 
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
-                    const NeighbourList& list, const Vec3& gravity) {
+                    const Vec3& gravity) {
   Observation seen{};
   const Mat3 strain = cell.logarithmic_strain();
   const int axial = cell.dimensions - 1;
@@ -133,12 +142,11 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   }
   seen.coordination_number =
       2.0 * static_cast<double>(seen.contacts) / static_cast<double>(particles.size());
-  seen.coordination_std = standard_deviation(contact_counts(particles.size(), contacts, list),
-                                             seen.coordination_number);
+  seen.coordination_std = standard_deviation(contacts.resultants().contacts, seen.coordination_number);
   double solid = 0.0;
   for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes, particles.dimensions);
   seen.porosity = 1.0 - solid / cell.volume();
-  seen.balance = balance_of(particles, contacts, list, gravity);
+  seen.balance = balance_of(particles, contacts, gravity);
   seen.kinetic_energy = kinetic_energy(particles);
   seen.elastic_energy = contacts.sums().energy;
   return seen;

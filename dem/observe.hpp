@@ -56,7 +56,7 @@ struct Balance {
   std::int64_t rattlers = 0;
 };
 /// @param gravity  acceleration, length/time^2
-Balance balance_of(const Particles& particles, const Contacts& contacts, const NeighbourList& list,
+Balance balance_of(const Particles& particles, const Contacts& contacts,
                    const Vec3& gravity = Vec3::Zero());
 
 /// A step that is stable for the contacts as they are: 2 / sqrt(2 s), s the largest stiffness over
@@ -98,7 +98,7 @@ struct Observation {
   double energy_error = 0.0;
 };
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
-                    const NeighbourList& list, const Vec3& gravity = Vec3::Zero());
+                    const Vec3& gravity = Vec3::Zero());
 
 /// A named value of a history row or of a summary.
 struct Field {

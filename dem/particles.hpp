@@ -61,6 +61,9 @@ Vec3 principal_inertia(double mass, const Vec3& semi_axes, int dimensions = 3);
 /// Resultants of the contact forces on each particle, about its centre, in space coordinates.
 struct Resultants {
   std::vector<Vec3> force, moment;
+  /// Pairs of it that touch. One of a particle with its own image counts twice: both its ends are
+  /// on the particle.
+  std::vector<std::int32_t> contacts{};
 };
 
 }  // namespace tangency::dem

@@ -164,6 +164,7 @@ void Simulation::prepare_stage() {
       law.friction_coefficient = *stage().drive->friction_coefficient;
   turns_ = anything_turns();
   least_ = least_cell_of(state_.particles);
+  characteristic_time_ = characteristic_time(state_.particles, laws_.largest_stiffness());
 }
 
 /// Smooth spheres at rest never turn. (In the plane a turn costs next to nothing.)
@@ -190,8 +191,7 @@ void Simulation::next_stage() {
 }
 
 double Simulation::time_step() const {
-  return stage().drive->time_step_factor *
-         characteristic_time(state_.particles, laws_.largest_stiffness());
+  return stage().drive->time_step_factor * characteristic_time_;
 }
 
 double Simulation::time_step_ratio() const {
@@ -199,9 +199,8 @@ double Simulation::time_step_ratio() const {
 }
 
 Motion Simulation::motion() const {
-  const double time = characteristic_time(state_.particles, laws_.largest_stiffness());
   return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity,
-          stage().drive->damping.value_or(0.0) / time};
+          stage().drive->damping.value_or(0.0) / characteristic_time_};
 }
 
 /// At the time of the positions: what goes with the elastic energy in the account.
@@ -287,7 +286,7 @@ bool Simulation::is_relaxed() const {
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
   const Balance balance =
-      balance_of(state_.particles, state_.contacts, state_.list, scene_.gravity);
+      balance_of(state_.particles, state_.contacts, scene_.gravity);
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;
@@ -397,7 +396,7 @@ double Simulation::stage_fraction() const {
 
 Observation Simulation::observe() const {
   Observation seen =
-      dem::observe(state_.particles, state_.cell, state_.contacts, state_.list, scene_.gravity);
+      dem::observe(state_.particles, state_.cell, state_.contacts, scene_.gravity);
   seen.account = state_.energy;
   seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
   return seen;

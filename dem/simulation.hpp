@@ -127,6 +127,7 @@ class Simulation {
   std::string changed_laws_;
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
   LeastCell least_;    ///< of the particles as they are
+  double characteristic_time_ = 0.0;  ///< of the masses and the stage's laws
 };
 
 }  // namespace tangency::dem

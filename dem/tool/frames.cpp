@@ -38,14 +38,6 @@ Eigen::Matrix<double, 9, 1> axes_tensor(const Particles& particles, std::size_t 
   return tensor.reshaped();
 }
 
-std::vector<int> contact_counts(const State& state) {
-  std::vector<int> counts(state.particles.size(), 0);
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    for (const auto* at = state.list.begin_of(i); at != state.list.end_of(i); ++at)
-      counts[i] += state.contacts.touches(at->index) ? 1 : 0;
-  return counts;
-}
-
 /// One array of a VTK XML file; `value(i)` is the text of item i.
 template <class F>
 void data_array(std::ostream& out, const std::string& attributes, std::size_t count, F&& value) {
@@ -57,7 +49,7 @@ void data_array(std::ostream& out, const std::string& attributes, std::size_t co
 std::string vtp_of(const State& state) {
   const Particles& p = state.particles;
   const std::size_t n = p.size();
-  const std::vector<int> contacts = contact_counts(state);
+  const std::vector<int> contacts = state.contacts.resultants().contacts;
   const std::string real = "type=\"Float64\" NumberOfComponents=";
   std::ostringstream out;
   out << "<?xml version=\"1.0\"?>\n"

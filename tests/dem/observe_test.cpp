@@ -94,7 +94,7 @@ TEST(Observe, FrictionAngleComesFromThePrincipalStresses) {
 TEST(Observe, BalanceCountsRattlersApartAndTakesTheWorstOfAllWithContacts) {
   const Particles particles = row_of_spheres();
   const Seen seen(particles, cube(10.0));
-  const Balance balance = balance_of(particles, seen.contacts, seen.list);
+  const Balance balance = balance_of(particles, seen.contacts);
   EXPECT_EQ(balance.rattlers, 3);  // the ends of the row, and the sphere apart
   EXPECT_NEAR(balance.mean_contact_force, 37.5, 1e-12);
   EXPECT_NEAR(balance.largest_unbalanced_ratio, 50.0 / 37.5, 1e-13);
@@ -108,12 +108,12 @@ TEST(Observe, BalanceCountsTheWeightOfEachParticle) {
   particles.mass = {2.0, 1.0, 0.5, 9.0};
   const Seen seen(particles, cube(10.0));
   const Vec3 gravity(25.0, 0.0, 0.0);
-  const Balance balance = balance_of(particles, seen.contacts, seen.list, gravity);
+  const Balance balance = balance_of(particles, seen.contacts, gravity);
   EXPECT_NEAR(balance.largest_unbalanced_ratio, 50.0 / 37.5, 1e-13);
   EXPECT_NEAR(balance.inertial_fraction, (0.0 + 50.0 + 37.5) / 3.0 / 37.5, 1e-13);
   EXPECT_EQ(balance.rattlers, 1) << "one contact can bear a weight";
   EXPECT_EQ(
-      observe(particles, cube(10.0), seen.contacts, seen.list, gravity).balance.inertial_fraction,
+      observe(particles, cube(10.0), seen.contacts, gravity).balance.inertial_fraction,
       balance.inertial_fraction);
 }
 
@@ -123,7 +123,7 @@ TEST(Observe, RowHasTheAssemblysNumbers) {
   Cell cell = cube(10.0);
   cell.reference_edges = Vec3(10.0, 12.0, 20.0).asDiagonal();
   const Seen seen(particles, cell);
-  const Observation row = observe(particles, cell, seen.contacts, seen.list);
+  const Observation row = observe(particles, cell, seen.contacts);
   EXPECT_NEAR(row.axial_strain, std::log(2.0), 1e-15);
   EXPECT_NEAR(row.volumetric_strain, -std::log(2.4), 1e-15);
   EXPECT_EQ(row.contacts, 2);
@@ -140,7 +140,7 @@ TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
   Particles particles;
   particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
   const Seen seen(particles, cube(10.0));
-  const Observation row = observe(particles, cube(10.0), seen.contacts, seen.list);
+  const Observation row = observe(particles, cube(10.0), seen.contacts);
   for (const Field& field : history_fields(0, 0.0, "place", 0, row))
     if (const double* value = std::get_if<double>(&field.value)) {
       EXPECT_TRUE(std::isfinite(*value)) << field.name;
