@@ -7,7 +7,8 @@
 // and overlaps; gap, normal, error and status by columns unless the name says more. "scattered" is
 // cold on the 100,000 bodies of 50,000 pairs, bodies and pairs in random order, and "two_threads"
 // the same with half of the list for each of two; "plain" is two arrays of ellipsoids and whole
-// answers.
+// answers. "following_moving" is following of bodies by columns; the two refreshes, per body, are
+// what a simulator does after each step to have that, and to have "following".
 #include <hwy/targets.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@
 #include <tangency/bench/pairs.hpp>
 #include <tangency/bench/timing.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
 
 namespace {
 
@@ -108,6 +110,47 @@ void add_overlaps(const Pairs& pairs, const std::string& name, std::int64_t leve
   add(name, level, count, call);
 }
 
+/// The bodies of a family by columns.
+struct Moving {
+  explicit Moving(const Pairs& pairs) : ellipsoids(pairs.bodies), array(ellipsoids) {
+    for (const Ellipsoid& body : pairs.bodies) {
+      semi_axes.push_back(body.semi_axes());
+      orientations.push_back(body.orientation());
+    }
+    for (const IndexedPair& pair : pairs.list)
+      separations.push_back(pairs.bodies[pair.b].centre() - pairs.bodies[pair.a].centre());
+    bodies = tangency::MovingBodies(semi_axes, orientations);
+  }
+  /// As it is done where there are no columns.
+  void refresh_array() {
+    for (std::size_t i = 0; i < ellipsoids.size(); ++i) {
+      ellipsoids[i] = Ellipsoid(ellipsoids[i].centre(), semi_axes[i], orientations[i]);
+      array.refresh(i);
+    }
+  }
+
+  std::vector<tangency::Vec3> semi_axes, separations;
+  std::vector<tangency::Quaternion> orientations;
+  std::vector<Ellipsoid> ellipsoids;
+  tangency::MovingBodies bodies;
+  tangency::BodyArray array;
+};
+
+void add_moving(const Pairs& pairs, const std::string& end, std::int64_t level) {
+  const auto moving = std::make_shared<Moving>(pairs);
+  const auto columns = std::make_shared<Columns>(pairs.size());
+  const auto refresh = [moving] { moving->bodies.refresh(0, moving->bodies.size()); };
+  force_level(level);
+  refresh();  // so that it is these rows whose answers are checked
+  force_level(0);
+  add_checked("following_moving" + end, level, pairs, *columns, [&pairs, moving, columns] {
+    follow_gaps(moving->bodies, {pairs.list, moving->separations}, pairs.previous_normal,
+                columns->usual(pairs.size()));
+  });
+  add("refresh_moving" + end, level, moving->bodies.size(), refresh);
+  add("refresh_array" + end, level, moving->bodies.size(), [moving] { moving->refresh_array(); });
+}
+
 void add_plain(const Pairs& pairs, const std::string& name, std::int64_t level) {
   const auto a = std::make_shared<std::vector<Ellipsoid>>();
   const auto b = std::make_shared<std::vector<Ellipsoid>>();
@@ -137,6 +180,7 @@ void add_family(const Pairs& p, std::int64_t level) {
   add_checked("cold" + end, level, p, *columns, cold);
   add("cold_with_arms" + end, level, count, with_arms);
   add_checked("following" + end, level, p, *columns, following);
+  add_moving(p, end, level);
   add_overlaps(p, "overlaps" + end, level);
   add_plain(p, "plain" + end, level);
 }

@@ -188,7 +188,10 @@ void aim(const Task& task, LaneBlock& block) {
   block.tolerance_of_size = accuracy.of_size;
   block.tolerance = accuracy.length;
   block.polish = accuracy.normals;
-  block.branches = task.moving != nullptr && task.previous_normals != nullptr;
+  // A moment ago the normal was good to some 1e-4; the start of a cold search is to 1e-2.
+  block.first_steps = 2;
+  block.followed_steps = 1;
+  block.branches = task.moving != nullptr;
   block.factor_error = task.moving != nullptr ? detail::kOfRotation : 0.0;
   block.coarse = kCoarse;
 }

@@ -5,8 +5,9 @@
 /// runs. Conventions and promises are those of gap.hpp; what a lane does not prove is redone as a
 /// single pair inside the call.
 ///
-/// (1) Every gap is within its gap_error of the true one, and status and sign are those of the
-///     single call, whose gap therefore differs by no more than both errors.
+/// (1) Every gap is within its gap_error of the true one, or of its branch's where it is `local`,
+///     and status and sign are those of the single call, whose gap therefore differs by no more
+///     than both errors.
 /// (2) To the bit, an answer does not depend on its position, the order and number of the pairs,
 ///     or the thread. It may depend, within its error, on the instruction set of the machine.
 /// (3) Yes/no answers are the same everywhere.
@@ -135,7 +136,9 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std
                  Accuracy accuracy = {}) noexcept;
 
 /// follow_gap() of every pair, and signed_gap() of those whose previous normal is exactly 0; where
-/// `separations` is empty, of the rounded c_B - c_A, and signed_gap() where that overflows.
+/// `separations` is empty, of the rounded c_B - c_A, and signed_gap() where that overflows. Deeper
+/// than -rho (gap.hpp) branches of MovingBodies are followed in the lanes too, those of a BodyArray
+/// pair by pair.
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,

@@ -171,7 +171,8 @@ void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool fol
       block.normals = following ? work->normals[first].data() : nullptr;
       block.centres_are_exact = true;
       block.tolerance = std::numeric_limits<double>::infinity();
-      block.first_steps = steps;
+      block.followed_steps = steps;
+      block.first_steps = following ? steps + 1 : steps;
       block.coarse = std::numeric_limits<double>::quiet_NaN();  // no pair is: a step is a step
       block.gap = &c.gap[first];
       block.gap_error = &c.gap_error[first];

@@ -131,12 +131,12 @@ HWY_INLINE void write_some(const PackAnswer& answer, std::uint64_t which, const 
   }
 }
 
-/// The branch that each of the asked lanes is on, from a normal near it; those that are settled as
+/// The branch that each of the asked lanes is on, which have a normal of a moment ago, from another
+/// near it; those that are settled as
 /// bits. A branch is followed and not jumped to, and bodies that are apart are never said to
 /// overlap. Out of line, as it would take registers from what every pack needs.
 HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const PackVec3& from,
                                        const PackMask& asked) {
-  if (block.normals == nullptr) return 0;
   const PackPair pair = load_pair(block, i);
   const PackSymmetric3 shape_a = shape(pair.a), shape_b = shape(pair.b);
   const auto look = [&](const PackVec3& n) HWY_ATTR {
@@ -148,13 +148,12 @@ HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const Pa
     answer.at = look(answer.n);
     const PackStep step = newton_step(shape_a, shape_b, pair.size, answer.n, answer.at);
     answer.proof = prove_branch(pair, answer.at, bounds(pair, answer.n, answer.at), step);
-    // One step more than the gap needs, where the normal is asked for.
+    // Where the normal is asked for too: this is a step or two more than the gap needs.
     const PackMask enough = block.polish && k < 2 ? none_of_them() : answer.proof.best;
     going = without(going, enough);
     if (none(going) || k == kSteps) break;
     move(step, going, answer.n);
   }
-  // 0 leads to what is no number, and so is asked afresh.
   const PackVec3 previous = normalised(load_vectors(block.normals + 3 * i));
   const PackMask stayed = dot(answer.n, previous) >= all(kSameBranch);
   PackMask settled = asked & answer.proof.settled & stayed;
@@ -177,11 +176,13 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
       (pair.size <= all(kLargestModerate)) & (largest_component(pair.d) >= all(kSmallestModerate));
   const PackMask in_range = going;
   const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
-  // A moment ago the normal was good to some 1e-4, the start of a cold search is to 1e-2: one step
-  // more. A coarse answer takes one less.
-  for (int k = 0; k < 2; ++k) {
-    const PackMask first = without(going & start.fresh, coarse);
-    const PackMask asked = k == 0 ? first : without(going, without(coarse, start.fresh));
+  // Of a coarse answer the first step is left out.
+  const int late = block.first_steps - block.followed_steps;
+  for (int k = none(start.fresh) ? late : 0; k < block.first_steps; ++k) {
+    PackMask asked = going;
+    if (k == 0) asked = without(asked, start.fresh & coarse);
+    if (k < late) asked = asked & start.fresh;
+    if (k == late) asked = without(asked, without(coarse, start.fresh));
     if (none(asked)) continue;
     const PackPoint at = point_of(pair, n, glance(shape_a, n), glance(shape_b, n));
     PackMask moving = asked;
@@ -217,9 +218,10 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   }
   write({proof, n, at}, block, i);
   std::uint64_t settled = bits(proof.settled & in_range);
-  if (!none(too_deep)) {
+  const PackMask followed = without(too_deep, start.fresh);  // else the global gap is wanted
+  if (!none(followed)) {
     const PackVec3 from = n;  // copies, so that only they have to be in memory
-    const PackMask asked = too_deep;
+    const PackMask asked = followed;
     settled |= follow_deep(block, i, from, asked);
   }
   return settled;
