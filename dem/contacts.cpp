@@ -171,17 +171,17 @@ void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
 #pragma omp parallel for schedule(static) if (particles >= kParallelThreshold)
   for (std::size_t i = 0; i < particles; ++i) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
-      const Contact& contact = records_[at->index];
-      if (!contact.touches()) continue;
-      if (at->as_b) {
+    list.for_each_pair_of(i, [&](std::size_t index, bool as_b) {
+      const Contact& contact = records_[index];
+      if (!contact.touches()) return;
+      if (as_b) {
         force += contact.force;
         moment += (contact.arm - contact.branch).cross(contact.force);
       } else {
         force -= contact.force;
         moment -= contact.arm.cross(contact.force);
       }
-    }
+    });
     resultants_.force[i] = force;
     resultants_.moment[i] = moment;
   }

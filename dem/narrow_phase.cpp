@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <tangency/dem/bodies.hpp>
 #include <tangency/dem/parallel.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/primitives.hpp>
@@ -20,12 +21,6 @@ constexpr double kFarApart = std::numeric_limits<double>::infinity();
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 Vec3 in_space(const Vec2& v) { return {v[0], v[1], 0.0}; }
-
-Ellipse ellipse_of(const Particles& particles, std::size_t i) {
-  const Quaternion& q = particles.orientation[i];  // (cos, 0, 0, sin) of half the angle
-  const Vec2 direction(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z());
-  return Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
-}
 
 /// Spheres that touch concentrically have no normal: that of geometry/primitives.hpp.
 void measure_spheres(double a, double b, PairGeometry& geometry) {

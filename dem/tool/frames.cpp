@@ -41,8 +41,9 @@ Eigen::Matrix<double, 9, 1> axes_tensor(const Particles& particles, std::size_t 
 std::vector<int> contact_counts(const State& state) {
   std::vector<int> counts(state.particles.size(), 0);
   for (std::size_t i = 0; i < counts.size(); ++i)
-    for (const auto* at = state.list.begin_of(i); at != state.list.end_of(i); ++at)
-      counts[i] += state.contacts.records()[at->index].touches() ? 1 : 0;
+    state.list.for_each_pair_of(i, [&](std::size_t index, bool) {
+      counts[i] += state.contacts.records()[index].touches() ? 1 : 0;
+    });
   return counts;
 }
 
