@@ -286,15 +286,16 @@ void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
     for (std::size_t i = begin; i < end; ++i) {
       Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
       std::int32_t contacts = 0;
-      for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
-        contacts += touches(at->index) ? 1 : 0;
-        if (at->as_b) {
-          force += force_[at->index];
-          moment += moment_b_[at->index];
-        } else {
-          force -= force_[at->index];
-          moment += moment_a_[at->index];
-        }
+      for (const std::uint32_t index : list.pairs_as_b(i)) {
+        contacts += touches(index) ? 1 : 0;
+        force += force_[index];
+        moment += moment_b_[index];
+      }
+      const auto [first, last] = list.pairs_as_a(i);
+      for (std::size_t index = first; index < last; ++index) {
+        contacts += touches(index) ? 1 : 0;
+        force -= force_[index];
+        moment += moment_a_[index];
       }
       resultants_.force[i] = force;
       resultants_.moment[i] = moment;

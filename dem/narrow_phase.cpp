@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include <tangency/dem/bodies.hpp>
 #include <tangency/dem/contact_lanes.hpp>
 #include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
@@ -22,12 +23,6 @@ constexpr double kFarApart = std::numeric_limits<double>::infinity();
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 Vec3 in_space(const Vec2& v) { return {v[0], v[1], 0.0}; }
-
-Ellipse ellipse_of(const Particles& particles, std::size_t i) {
-  const Quaternion& q = particles.orientation[i];  // (cos, 0, 0, sin) of half the angle
-  const Vec2 direction(q.w() * q.w() - q.z() * q.z(), 2.0 * q.w() * q.z());
-  return Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
-}
 
 /// Are two bodies apart because their bounding circles are?
 bool circles_apart(const Ellipse& a, const Ellipse& b, const Vec3& branch) {
@@ -53,10 +48,6 @@ void measure_ellipses(const Ellipse& a, const Ellipse& b, const Vec2& last_norma
   block.gap[k] = gap.gap;
   block.normal[k] = in_space(gap.normal);
   block.arm[k] = 0.5 * (in_space(gap.arm_a) + block.branch[k] + in_space(gap.arm_b));
-}
-
-Ellipsoid ellipsoid_of(const Particles& particles, std::size_t i) {
-  return Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
 }
 
 }  // namespace

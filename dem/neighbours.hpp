@@ -2,19 +2,22 @@
 /// @file
 /// Which pairs of particles may touch before the list is next renewed.
 ///
-/// The list holds every pair of images whose bounding spheres come within `skin` of each other,
-/// each pair once, in an order that depends on nothing but the positions:
+/// Each particle has a skin, a length in proportion to its own size. The list holds the pairs of
+/// images whose gap is at most the sum of both skins, each pair once, in an order that depends on
+/// nothing but the positions. docs/derivations/neighbour-list.md derives how long it lasts.
 ///
-/// (1) Every pair whose bounding spheres meet is listed as long as is_current() is true.
+/// (1) Every pair that touches is listed as long as is_current() is true.
 /// (2) No pair is listed twice; a particle may meet itself through the periodic boundary.
 /// (3) A cell of any size is served, one smaller than a particle included.
 /// (4) In a plane cell no image moves along z, in a walled one none along a walled axis.
-/// (5) Every particle whose bounding sphere meets a wall is listed with it, like (1).
+/// (5) Every particle that touches a wall is listed with it, like (1).
+/// (6) A listed pair was within its skins and the error of its gap when the list was built.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
@@ -56,44 +59,71 @@ inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Ce
 
 class NeighbourList {
  public:
-  /// Lists the pairs whose bounding spheres come within `skin` (> 0, length).
-  void build(const Particles& particles, const Cell& cell, double skin);
+  /// Lists the pairs whose gap is at most the sum of their skins.
+  /// @param skin_ratio  > 0: a particle's skin in its mean radii, the third root of a b c
+  /// @throws std::invalid_argument  where particles are too far away for geometry/near_pairs.hpp
+  void build(const Particles& particles, const Cell& cell, double skin_ratio);
 
-  /// Does (1) still hold? Looks at how far particles moved relative to the cell, how much the
-  /// cell shrank and how much particles grew since build().
+  /// Does (1) still hold?
   bool is_current(const Particles& particles, const Cell& cell) const;
+
+  /// The least that is left of a skin among particles [first, last), length; the list is current
+  /// where it is > 0 for all. A skin is used up by how far the particle moved relative to the cell,
+  /// how it turned and grew, and how the cell strained since build(). Infinite for no particles, -
+  /// infinite where the list is not of these particles. Several threads may ask at a time.
+  double least_slack(const Particles& particles, const Cell& cell, std::size_t first,
+                     std::size_t last) const;
 
   /// In ascending order.
   const std::vector<Pair>& pairs() const { return pairs_; }
 
-  /// A particle's part in pair `index`: as its a or as its b.
-  struct Incidence {
-    std::uint32_t index;
-    bool as_b;
+  /// Indices [first, last) into pairs().
+  struct Range {
+    std::size_t first, last;
   };
-  /// The pairs of particle i, in ascending order.
-  const Incidence* begin_of(std::size_t i) const { return incidences_.data() + first_[i]; }
-  const Incidence* end_of(std::size_t i) const { return incidences_.data() + first_[i + 1]; }
+  /// The pairs in which particle i is a, walls included: they follow each other.
+  Range pairs_as_a(std::size_t i) const { return {first_as_a_[i], first_as_a_[i + 1]}; }
+  /// The pairs in which it is b, in ascending order. A pair with its own image is in both.
+  std::span<const std::uint32_t> pairs_as_b(std::size_t i) const {
+    return std::span(as_b_).subspan(first_as_b_[i], first_as_b_[i + 1] - first_as_b_[i]);
+  }
+  /// Calls f(index, as_b) for each pair of particle i: first those in which it is b, then those in
+  /// which it is a, each in ascending order.
+  template <class F>
+  void for_each_pair_of(std::size_t i, F&& f) const {
+    for (const std::uint32_t index : pairs_as_b(i)) f(std::size_t{index}, true);
+    const Range range = pairs_as_a(i);
+    for (std::size_t index = range.first; index < range.last; ++index) f(index, false);
+  }
 
-  /// What build() saw; with pairs() all there is to save. Reduced positions are in parts of the
-  /// cell's edges.
+  /// What build() saw; with pairs() all there is to save.
   struct Reference {
     Mat3 edges = Mat3::Zero();  ///< of the cell
-    double skin = 0.0;
-    double largest_radius = 0.0;
-    std::vector<Vec3> reduced_position;
+    double skin_ratio = 0.0;
+    std::vector<Vec3> reduced_position;  ///< in parts of the cell's edges
+    std::vector<Quaternion> orientation;
+    std::vector<Vec3> semi_axes;
   };
   const Reference& reference() const { return reference_; }
   /// Puts back a saved list.
   void restore(Reference reference, std::vector<Pair> pairs);
 
  private:
-  void index_incidences(std::size_t particles);
+  /// What least_slack() needs of a particle's shape at the build.
+  struct Skin {
+    double thickness;
+    double ball;    ///< radius of the bounding sphere with the skin
+    double spread;  ///< largest less smallest semi-axis: what a turn can bring nearer
+  };
+  void list_walls(const Particles& particles, const Cell& cell, std::size_t i);
+  void measure_skins();
+  void index_pairs();
 
   Reference reference_;
+  Mat3 inverse_edges_ = Mat3::Zero();  ///< of the reference
+  std::vector<Skin> skins_;
   std::vector<Pair> pairs_;
-  std::vector<Incidence> incidences_;
-  std::vector<std::size_t> first_;
+  std::vector<std::uint32_t> first_as_a_, first_as_b_, as_b_;
 };
 
 }  // namespace tangency::dem

@@ -103,20 +103,20 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
     const Mat3 turns = particles.orientation[i].toRotationMatrix() *
                        inertia.cwiseSqrt().cwiseInverse().asDiagonal();
     Mat6 sum = Mat6::Zero();
-    for (const auto* at = list.begin_of(i); at != list.end_of(i); ++at) {
-      if (!contacts.touches(at->index)) continue;
-      const Contact contact = contacts.records()[at->index];
+    list.for_each_pair_of(i, [&](std::size_t index, bool as_b) {
+      if (!contacts.touches(index)) return;
+      const Contact contact = contacts.records()[index];
       const Vec3& n = contact.normal;
       const double shear = contact.shear.stiffness;
       const Mat3 stiffness =
           shear * Mat3::Identity() + (contact.normal_stiffness - shear) * n * n.transpose();
-      const Vec3 arm = at->as_b ? Vec3(contact.arm - contact.branch) : contact.arm;
+      const Vec3 arm = as_b ? Vec3(contact.arm - contact.branch) : contact.arm;
       Eigen::Matrix<double, 3, 6> motion;  // of the contact point
       motion.leftCols<3>() = Mat3::Identity() / std::sqrt(particles.mass[i]);
       for (int k = 0; k < 3; ++k) motion.col(3 + k) = turns.col(k).cross(arm);
       if (particles.dimensions == 2) motion.middleCols<3>(2).setZero();
       sum += motion.transpose() * stiffness * motion;
-    }
+    });
     const Eigen::SelfAdjointEigenSolver<UpTo6> modes(sum, Eigen::EigenvaluesOnly);
     largest = std::max(largest, modes.eigenvalues()[5]);
   }

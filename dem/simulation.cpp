@@ -15,9 +15,10 @@
 namespace tangency::dem {
 namespace {
 
-/// Skin of the neighbour list, in largest semi-axes. Measured on assembly-1000: from 0.05 to 0.4
-/// the time of a run changes by a tenth, so it is chosen with room for faster motion.
-constexpr double kSkinRatio = 0.2;
+/// Skin of a particle in the neighbour list, in its mean radii. Measured on compressions and shears
+/// of 125 to 512 spheroids, renewals and 60 ns a listed pair and cycle together: of 0.01 to 0.1 it
+/// is within 4 % of the best at elongations 1.43 and 3, and within a quarter at 5.
+constexpr double kSkinRatio = 0.05;
 
 /// Porosity at which a random assembly begins to bear stress, roughly: that of spheres, and of
 /// disks.
@@ -259,10 +260,12 @@ void Simulation::update_contacts(double dt) {
 }
 
 void Simulation::renew_list() {
-  double largest = 0.0;
-  for (const Vec3& axes : state_.particles.semi_axes) largest = std::max(largest, axes.maxCoeff());
   const std::vector<Pair> before = state_.list.pairs();
-  state_.list.build(state_.particles, state_.cell, kSkinRatio * largest);
+  try {
+    state_.list.build(state_.particles, state_.cell, kSkinRatio);
+  } catch (const std::invalid_argument& error) {
+    throw Diverged(std::string("the run blew up: ") + error.what());
+  }
   state_.contacts.carry_over(before, state_.list.pairs());
 }
 

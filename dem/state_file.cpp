@@ -195,9 +195,10 @@ void pass_plain(Archive& archive, S& state) {
 template <class Archive, class R>
 void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.edges);
-  archive(reference.skin);
-  archive(reference.largest_radius);
+  archive(reference.skin_ratio);
   pass(archive, reference.reduced_position);
+  pass(archive, reference.orientation);
+  pass(archive, reference.semi_axes);
 }
 
 void pass_contacts(Writer& archive, const Contacts& contacts) {
@@ -237,7 +238,8 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   const std::size_t n = p.size();
   if (n == 0 || p.velocity.size() != n || p.angular_velocity.size() != n ||
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
-      p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n)
+      p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
+      reference.orientation.size() != n || reference.semi_axes.size() != n)
     return false;
   std::vector<bool> seen(n);
   for (const std::int32_t id : p.id) {
@@ -259,7 +261,8 @@ bool lengths_are_positive(const State& state, const NeighbourList::Reference& re
   const std::vector<Vec3>& axes = state.particles.semi_axes;
   const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
   return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
-         has_volume(reference.edges) && reference.skin > 0.0 && reference.largest_radius > 0.0 &&
+         has_volume(reference.edges) && reference.skin_ratio > 0.0 &&
+         std::all_of(reference.semi_axes.begin(), reference.semi_axes.end(), is_positive) &&
          std::all_of(axes.begin(), axes.end(), is_positive);
 }
 

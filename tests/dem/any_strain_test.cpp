@@ -48,13 +48,14 @@ TEST(SkewedCell, NeighboursAreThoseOfBruteForce) {
     const Particles particles = crowd(60, cell, 51);
     NeighbourList list;
     list.build(particles, cell, 0.2);
-    const auto meeting = meeting_pairs(particles, cell, 6);
-    ASSERT_GT(meeting.size(), 100u);
-    EXPECT_TRUE(lists_all(list, meeting));
-    for (const Pair& pair : list.pairs()) {  // and none that is further away than the skin
-      const double reach = particles.semi_axes[static_cast<std::size_t>(pair.a)].maxCoeff() +
-                           particles.semi_axes[static_cast<std::size_t>(pair.b)].maxCoeff() + 0.2;
-      EXPECT_LT(branch_vector(pair, particles, cell).norm(), reach);
+    const auto touching = touching_pairs(particles, cell);
+    ASSERT_GT(touching.size(), 100u);
+    EXPECT_TRUE(lists_all(list, touching));
+    for (const Pair& pair : list.pairs()) {  // and none that is further away than the skins
+      const double skins =
+          0.2 * (mean_radius(particles.semi_axes[static_cast<std::size_t>(pair.a)]) +
+                 mean_radius(particles.semi_axes[static_cast<std::size_t>(pair.b)]));
+      EXPECT_LT(gap_of(pair, particles, cell), skins + 1e-5);
     }
   }
 }
@@ -68,7 +69,7 @@ TEST(SkewedCell, MissesNoPairWhileItsListIsCurrent) {
   int steps = 0;
   for (; list.is_current(particles, cell); ++steps) {
     ASSERT_LT(steps, 1000);
-    ASSERT_TRUE(lists_all(list, meeting_pairs(particles, cell, 5)));
+    ASSERT_TRUE(lists_all(list, touching_pairs(particles, cell)));
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.position[i] +=
           0.002 * (0.3 * particles.velocity[i] + cell.rate * particles.position[i]);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -58,6 +59,46 @@ inline std::vector<dem::Pair> meeting_pairs(const dem::Particles& particles, con
           }
   return pairs;
 }
+
+inline double gap_of(const dem::Pair& pair, const dem::Particles& particles,
+                     const dem::Cell& cell) {
+  return signed_gap(body(particles, static_cast<std::size_t>(pair.a)),
+                    body(particles, static_cast<std::size_t>(pair.b)),
+                    branch_vector(pair, particles, cell))
+      .gap;
+}
+
+/// Every pair of images that touches, by looking at all whose bounding spheres meet.
+inline std::vector<dem::Pair> touching_pairs(const dem::Particles& particles,
+                                             const dem::Cell& cell) {
+  std::vector<dem::Pair> pairs;
+  const auto count = static_cast<std::int32_t>(particles.size());
+  const Vec3 heights = cell.heights();
+  dem::Pair pair{};
+  for (pair.a = 0; pair.a < count; ++pair.a)
+    for (pair.b = pair.a; pair.b < count; ++pair.b) {
+      const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+      const double reach = particles.semi_axes[a].maxCoeff() + particles.semi_axes[b].maxCoeff();
+      const Vec3 near = cell.reduced(particles.position[a] - particles.position[b]);
+      dem::Image low, high;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<int>(k);
+        low[k] = static_cast<std::int32_t>(std::floor(near[axis] - reach / heights[axis]));
+        high[k] = static_cast<std::int32_t>(std::ceil(near[axis] + reach / heights[axis]));
+        if (cell.walled[k] || axis >= cell.dimensions) low[k] = high[k] = 0;
+      }
+      for (pair.image[0] = low[0]; pair.image[0] <= high[0]; ++pair.image[0])
+        for (pair.image[1] = low[1]; pair.image[1] <= high[1]; ++pair.image[1])
+          for (pair.image[2] = low[2]; pair.image[2] <= high[2]; ++pair.image[2]) {
+            if (pair.a == pair.b && pair.image <= dem::Image{0, 0, 0}) continue;
+            if (branch_vector(pair, particles, cell).norm() >= reach) continue;
+            if (gap_of(pair, particles, cell) < 0.0) pairs.push_back(pair);
+          }
+    }
+  return pairs;
+}
+
+inline double mean_radius(const Vec3& axes) { return std::cbrt(axes.prod()); }
 
 /// One law for all pairs of one type.
 inline dem::ContactLaws laws(const dem::ContactLaw& law) { return {1, {law}}; }

@@ -34,7 +34,7 @@ struct FewBodies {
   }
   /// Contacts at the current positions, `dt` after the last.
   void update(double dt = 0.0) {
-    if (list.reference().skin == 0.0 || !list.is_current(particles, cell)) {
+    if (!list.is_current(particles, cell)) {
       const std::vector<dem::Pair> before = list.pairs();
       list.build(particles, cell, 0.3);
       contacts.carry_over(before, list.pairs());

@@ -18,18 +18,18 @@ using namespace tangency::dem;
 using tangency::Vec3;
 using namespace tangency::testing;
 
-/// Every particle and wall whose distance is below the particle's largest semi-axis.
+/// Every particle and wall that touch.
 std::vector<Pair> meeting_walls(const Particles& particles, const Cell& cell) {
   std::vector<Pair> pairs;
   const Vec3 far = cell.edges.diagonal();
   const auto count = static_cast<std::int32_t>(particles.size());
   for (std::int32_t i = 0; i < count; ++i) {
     const Vec3& x = particles.position[static_cast<std::size_t>(i)];
-    const double radius = particles.semi_axes[static_cast<std::size_t>(i)].maxCoeff();
     for (int axis = 0; axis < 3; ++axis) {
       if (!cell.walled[static_cast<std::size_t>(axis)]) continue;
-      if (x[axis] < radius) pairs.push_back({i, count + 2 * axis, Image{}});
-      if (far[axis] - x[axis] < radius) pairs.push_back({i, count + 2 * axis + 1, Image{}});
+      const double half = body(particles, static_cast<std::size_t>(i)).support(Vec3::Unit(axis));
+      if (x[axis] < half) pairs.push_back({i, count + 2 * axis, Image{}});
+      if (far[axis] - x[axis] < half) pairs.push_back({i, count + 2 * axis + 1, Image{}});
     }
   }
   return pairs;
@@ -38,7 +38,7 @@ std::vector<Pair> meeting_walls(const Particles& particles, const Cell& cell) {
 class Walls : public testing::TestWithParam<std::array<bool, 3>> {};
 
 // dem/neighbours.hpp (5)
-TEST_P(Walls, AreListedWithEveryParticleThatMeetsThemWhileTheListIsCurrent) {
+TEST_P(Walls, AreListedWithEveryParticleThatTouchesThemWhileTheListIsCurrent) {
   Cell cell = Cell::box({7.0, 8.0, 6.0}, 3, GetParam());
   Particles particles = crowd(150, cell, 61);
   for (Vec3& x : particles.position)  // inside along walled axes, with some behind the walls
