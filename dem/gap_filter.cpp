@@ -142,11 +142,12 @@ std::vector<std::uint8_t> looked_at(std::span<const NearPair> pairs, const Assem
                                     const Bodies& bodies) {
   std::vector<std::uint8_t> keep(pairs.size(), 1);
   const std::size_t blocks = (pairs.size() + kBlock - 1) / kBlock;
-#pragma omp parallel for schedule(dynamic) if (pairs.size() >= kParallelThreshold)
-  for (std::size_t k = 0; k < blocks; ++k) {
-    const std::size_t first = k * kBlock, count = std::min(kBlock, pairs.size() - first);
-    look_at(pairs.subspan(first, count), assembly, bodies, std::span(keep).subspan(first, count));
-  }
+  for_ranges(blocks, kParallelThreshold / kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t first = k * kBlock, count = std::min(kBlock, pairs.size() - first);
+      look_at(pairs.subspan(first, count), assembly, bodies, std::span(keep).subspan(first, count));
+    }
+  });
   return keep;
 }
 
@@ -169,8 +170,9 @@ std::vector<std::uint8_t> within_skins(std::span<const NearPair> pairs, const Pa
     return looked_at<std::span<const Ellipse>>(pairs, assembly, ellipses);
   }
   std::vector<Ellipsoid> ellipsoids(count, Ellipsoid(Vec3::Zero(), Vec3::Ones()));
-#pragma omp parallel for schedule(static) if (count >= kParallelThreshold)
-  for (std::size_t i = 0; i < count; ++i) ellipsoids[i] = ellipsoid_of(particles, i);
+  for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) ellipsoids[i] = ellipsoid_of(particles, i);
+  });
   return looked_at(pairs, assembly, BodyArray(std::span<const Ellipsoid>(ellipsoids)));
 }
 

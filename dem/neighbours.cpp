@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,9 +36,10 @@ std::vector<NearPair> candidates(const Particles& particles, const Cell& cell,
   const NearPairSearch search(particles.position, reaches, lattice);
   const std::size_t blocks = (search.size() + kSearchBlock - 1) / kSearchBlock;
   std::vector<std::vector<NearPair>> parts(blocks);
-#pragma omp parallel for schedule(dynamic) if (blocks > 1)
-  for (std::size_t k = 0; k < blocks; ++k)
-    search.find(k * kSearchBlock, (k + 1) * kSearchBlock, parts[k]);
+  for_ranges(blocks, 2, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      search.find(k * kSearchBlock, (k + 1) * kSearchBlock, parts[k]);
+  });
   return sorted_pairs(parts, search.size());
 }
 
@@ -100,7 +102,11 @@ void NeighbourList::list_walls(const Particles& particles, const Cell& cell, std
 }
 
 bool NeighbourList::is_current(const Particles& particles, const Cell& cell) const {
-  return least_slack(particles, cell, 0, particles.size()) > 0.0;
+  std::atomic<bool> current = true;
+  for_ranges(particles.size(), kParallelThreshold, [&](std::size_t first, std::size_t last) {
+    if (!(least_slack(particles, cell, first, last) > 0.0)) current = false;
+  });
+  return current;
 }
 
 double NeighbourList::least_slack(const Particles& particles, const Cell& cell, std::size_t first,
