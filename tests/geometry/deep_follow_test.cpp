@@ -29,11 +29,12 @@ enum class Shape { needles, discs, triaxial };
 /// time.
 class DeepPairs {
  public:
-  DeepPairs(Shape shape, double aspect, double deepest, std::size_t count)
+  /// @param shallowest, deepest  of their overlaps
+  DeepPairs(Shape shape, double aspect, double deepest, std::size_t count, double shallowest = 0.0)
       : columns(count), random_(kSeed), axes_(2 * count), turns_(2 * count) {
     for (std::size_t i = 0; i < count; ++i) {
       pairs_.push_back({static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1)});
-      draw_pair(i, shape, aspect, deepest);
+      draw_pair(i, shape, aspect, shallowest, deepest);
     }
     bodies = MovingBodies(axes_, turns_);
   }
@@ -68,7 +69,7 @@ class DeepPairs {
   Columns columns;
 
  private:
-  void draw_pair(std::size_t i, Shape shape, double aspect, double deepest) {
+  void draw_pair(std::size_t i, Shape shape, double aspect, double shallowest, double deepest) {
     for (const std::size_t k : {2 * i, 2 * i + 1}) {
       const double middle = shape == Shape::needles ? 1.0
                             : shape == Shape::discs ? aspect
@@ -81,9 +82,9 @@ class DeepPairs {
         b(Vec3::Zero(), axes_[2 * i + 1], turns_[2 * i + 1]);
     for (;;) {
       const Vec3 n = direction();
-      const Vec3 d = a.support_point(n) + b.support_point(n) - draw(0.0, deepest) * n;
+      const Vec3 d = a.support_point(n) + b.support_point(n) - draw(shallowest, deepest) * n;
       const Gap gap = signed_gap(a, b, d);
-      if (!(gap.gap < 0.0 && gap.gap > -deepest)) continue;
+      if (!(gap.gap < -shallowest && gap.gap > -deepest)) continue;
       separations.push_back(d);
       normals.push_back(gap.normal);
       return;
@@ -240,18 +241,38 @@ TEST(DeepFollowing, IsAskedForAllNormalsWhereThereIsNoPreviousOne) {
   expect_the_single_answer(axes, turns, {0.25, 0.125, 1.25}, {0, 0, 0}, GapStatus::ok);
 }
 
-TEST(DeepFollowing, IsLeftToTheSingleCallWhereTheNormalIsFarFromItsBranch) {
-  // 0.3 rad from the maximum: a step of Newton's method from there may lead anywhere.
-  DeepPairs pairs(Shape::triaxial, 10.0, 0.7, 400);
-  std::size_t deep = 0;
-  for (Vec3& n : pairs.normals) n = (n + 0.3 * pairs.direction().cross(n)).normalized();
+/// Followed from normals that are off by `turn` rad, across their way.
+void follow_from_afar(DeepPairs& pairs, double turn, std::size_t& deep) {
+  for (Vec3& n : pairs.normals) n += std::tan(turn) * pairs.direction().cross(n).normalized();
   follow_gaps(pairs.bodies, pairs.list(), pairs.normals, pairs.columns.all());
   for (std::size_t i = 0; i < pairs.normals.size(); ++i) {
     const Gap single = pairs.followed(i);
     if (single.status == GapStatus::local) ++deep;
     ASSERT_NO_FATAL_FAILURE(expect_the_same_branch(pairs.columns[i], single, i));
   }
-  EXPECT_GE(deep, 100u);
+}
+
+TEST(DeepFollowing, IsLeftToTheSingleCallWhereTheNormalIsFarFromItsBranch) {
+  std::size_t deep = 0;
+  for (const double turn : {0.1, 0.3, 0.6, 1.0}) {
+    SCOPED_TRACE(turn);
+    DeepPairs pairs(Shape::triaxial, 10.0, 0.7, 400);
+    ASSERT_NO_FATAL_FAILURE(follow_from_afar(pairs, turn, deep));
+  }
+  EXPECT_GE(deep, 400u);
+}
+
+TEST(DeepFollowing, HasTheStatusOfTheSingleCallAboutTheDepthWhereThatChanges) {
+  // rho of two needles of aspect 3 is 2/3: at the first normal most are deeper, at the best half.
+  constexpr double kDepth = 2.0 / 3.0, kAbout = 1e-3;
+  std::size_t deep = 0;
+  for (const double turn : {0.0, 0.02, 0.05, 0.1}) {
+    SCOPED_TRACE(turn);
+    DeepPairs pairs(Shape::needles, 3.0, kDepth + kAbout, 300, kDepth - kAbout);
+    ASSERT_NO_FATAL_FAILURE(follow_from_afar(pairs, turn, deep));
+  }
+  EXPECT_GE(deep, 400u);
+  EXPECT_LE(deep, 800u);
 }
 
 }  // namespace

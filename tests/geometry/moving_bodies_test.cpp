@@ -235,6 +235,22 @@ TEST(MovingBodies, AreAskedAfreshWhereThePreviousNormalIsNothingWhateverTheirNei
   }
 }
 
+TEST(MovingBodies, AskedAfreshAreAnsweredInTheLanes) {
+  const Moving m(testing::contacts(verify::contact_classes()[0], 1000));
+  const std::size_t count = m.in.pairs.size();
+  const std::vector<Vec3> nothing(count, Vec3::Zero());
+  at_every_level([&] {
+    Columns answers(count);
+    follow_gaps(m.bodies, m.list(), nothing, answers.all());
+    std::size_t of_lanes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Gap single = signed_gap(m.a(i), m.b(i), m.in.separations[i]);
+      if (answers.gap_error[i] != single.gap_error) ++of_lanes;
+    }
+    EXPECT_GE(of_lanes, count - count / 50);
+  });
+}
+
 TEST(MovingBodies, RowsDoNotDependOnTheRangesThatAreRefreshed) {
   const Family f = testing::contacts(verify::contact_classes()[1], 101);
   Moving m(f);
