@@ -98,10 +98,14 @@ class Maker:
             [self.tool, "run", scene, "--out", out, "--replace", "--quiet", "--threads",
              str(self.threads)], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
         if run.returncode:
-            raise ValueError(f"{scene}: {self.tool} ended with {run.returncode}: {run.stderr.strip()}")
+            raise ValueError(f"{scene}: {self.tool} ended with {run.returncode}: {last_line(run.stderr)}")
         os.replace(os.path.join(out, "frames.xyz"), frames)
         shutil.rmtree(out)
         return frames
+
+
+def last_line(text):
+    return (text.strip().splitlines() or ["nothing was said"])[-1]
 
 
 def write_whole(file, text):
