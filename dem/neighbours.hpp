@@ -54,7 +54,8 @@ inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Ce
   const Vec3& a = particles.position[static_cast<std::size_t>(pair.a)];
   const Vec3& b = particles.position[static_cast<std::size_t>(pair.b)];
   // Of most pairs neither is an image.
-  return pair.image == Image{} ? Vec3(b - a) : Vec3(b + cell.translation(pair.image) - a);
+  const auto& [x, y, z] = pair.image;
+  return (x | y | z) == 0 ? Vec3(b - a) : Vec3(b + cell.translation(pair.image) - a);
 }
 
 class NeighbourList {
