@@ -6,10 +6,9 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
-#include <utility>
 
+#include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
@@ -19,7 +18,6 @@ namespace {
 
 using detail::LaneBlock;
 using detail::LaneBody;
-using detail::LaneShape;
 
 static_assert(detail::kLaneErrorBound == kOrdinaryGapErrorBound,
               "lanes, which share no header with baseline code, promise what one pair does");
@@ -29,28 +27,6 @@ constexpr std::size_t kBlock = LaneBlock::kPairs;
 constexpr std::size_t kNear = 8192;
 // Of L: with a tolerance from here on a step of Newton's method less is mostly enough. Measured.
 constexpr double kCoarse = 0x1p-24;
-
-double largest_if_moderate(const Ellipsoid& body) {
-  return body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
-}
-
-void fill(LaneBody& lane, const Ellipsoid& body) {
-  const Mat3& rotation = body.rotation();
-  for (int i = 0; i < 3; ++i) {
-    lane.centre[i] = body.centre()[i];
-    for (int k = 0; k < 3; ++k) lane.factor[3 * k + i] = body.semi_axes()[k] * rotation(i, k);
-  }
-  lane.largest = largest_if_moderate(body);
-  lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
-}
-
-void fill(LaneShape& lane, const Ellipsoid& body) {
-  const Symmetric3& m = body.shape();
-  std::copy_n(body.centre().data(), 3, lane.centre);
-  lane.largest = largest_if_moderate(body);
-  const double entries[] = {m.xx, m.yy, m.zz, m.yz, m.zx, m.xy};
-  std::copy_n(entries, 6, lane.shape);
-}
 
 /// The pairs of one call, wherever their bodies are.
 struct Task {
@@ -214,8 +190,8 @@ void gather(const Task& task, std::size_t first, std::size_t count, Workspace& w
       work.pairs[i] = i < count ? IndexedPair{i, i} : IndexedPair{0, 0};
     }
     for (std::size_t i = 0; i < count; ++i) {
-      fill(work.plain_a[i], task.plain_a[first + i]);
-      fill(work.plain_b[i], task.plain_b[first + i]);
+      detail::fill(work.plain_a[i], task.plain_a[first + i]);
+      detail::fill(work.plain_b[i], task.plain_b[first + i]);
     }
   }
   aim(task, block);
@@ -402,39 +378,6 @@ void run_overlaps(const Task& task, Answer* answers, const Doubtful& doubtful) {
 }
 
 }  // namespace
-
-BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
-    : BodyArray(std::span<const Ellipsoid>(bodies)) {
-  own_ = std::move(bodies);  // which leaves the ellipsoids where they are
-}
-
-BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
-}
-BodyArray::~BodyArray() = default;
-BodyArray::BodyArray(BodyArray&& other) noexcept
-    : own_(std::move(other.own_)),
-      bodies_(std::exchange(other.bodies_, {})),
-      lanes_(std::move(other.lanes_)),
-      shapes_(std::move(other.shapes_)) {}
-
-BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
-  BodyArray taken(std::move(other));
-  std::swap(own_, taken.own_);
-  std::swap(bodies_, taken.bodies_);
-  std::swap(lanes_, taken.lanes_);
-  std::swap(shapes_, taken.shapes_);
-  return *this;
-}
-
-void BodyArray::refresh(std::size_t i) noexcept {
-  if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
-  in_default_environment([&] {
-    fill(lanes_[i], bodies_[i]);
-    fill(shapes_[i], bodies_[i]);
-  });
-}
 
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy) noexcept {

@@ -16,72 +16,17 @@
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <ranges>
 #include <span>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
+#include <tangency/geometry/body_array.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
-#include <tangency/geometry/large_pages.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
-
-namespace detail {
-struct LaneBody;
-struct LaneShape;
-}  // namespace detail
-
-/// A temporary container of ellipsoids: one that a span of it would outlive.
-template <class T>
-concept TemporaryEllipsoids =
-    std::ranges::contiguous_range<T> && std::ranges::sized_range<T> &&
-    !std::is_lvalue_reference_v<T> &&
-    !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
-
-/// Bodies that many pairs share, with what the batch reads of each beside each other, for random
-/// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
-/// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
-/// themselves. One that was moved from is empty.
-class BodyArray {
- public:
-  explicit BodyArray(std::span<const Ellipsoid> bodies);
-  template <TemporaryEllipsoids T>
-  explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
-  ~BodyArray();
-  BodyArray(BodyArray&&) noexcept;
-  BodyArray& operator=(BodyArray&&) noexcept;
-
-  std::size_t size() const noexcept { return bodies_.size(); }
-  const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
-  /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed
-  /// by different threads.
-  void refresh(std::size_t i) noexcept;
-
-  const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
-  const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
-
- private:
-  struct Owned {};
-  BodyArray(Owned, std::vector<Ellipsoid> bodies);
-
-  template <class T>
-  static std::vector<Ellipsoid> owned(T& bodies) {
-    if constexpr (std::is_same_v<T, std::vector<Ellipsoid>>) return std::move(bodies);
-    return {std::ranges::begin(bodies), std::ranges::end(bodies)};
-  }
-
-  std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
-  std::span<const Ellipsoid> bodies_;
-  std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
-  std::vector<detail::LaneShape, LargePages<detail::LaneShape>> shapes_;
-};
 
 /// The pairs of one call.
 struct PairList {

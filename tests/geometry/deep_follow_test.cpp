@@ -247,8 +247,15 @@ void follow_from_afar(DeepPairs& pairs, double turn, std::size_t& deep) {
   follow_gaps(pairs.bodies, pairs.list(), pairs.normals, pairs.columns.all());
   for (std::size_t i = 0; i < pairs.normals.size(); ++i) {
     const Gap single = pairs.followed(i);
-    if (single.status == GapStatus::local) ++deep;
-    ASSERT_NO_FATAL_FAILURE(expect_the_same_branch(pairs.columns[i], single, i));
+    const Gap lane = pairs.columns[i];
+    ASSERT_NO_FATAL_FAILURE(expect_the_same_branch(lane, single, i));
+    if (single.status != GapStatus::local) continue;
+    ++deep;
+    // Of 46,000 pairs 0.6 rad off one was on another branch in the lanes.
+    const bool far = pairs.normals[i].normalized().dot(lane.normal) < 0.98;
+    if (far) {
+      ASSERT_EQ(lane.gap_error, single.gap_error) << i;
+    }
   }
 }
 

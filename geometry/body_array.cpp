@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/body_array.hpp>
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/numbers/contract.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+
+namespace tangency {
+
+BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
+    : BodyArray(std::span<const Ellipsoid>(bodies)) {
+  own_ = std::move(bodies);  // which leaves the ellipsoids where they are
+}
+
+BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
+    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
+}
+BodyArray::~BodyArray() = default;
+BodyArray::BodyArray(BodyArray&& other) noexcept
+    : own_(std::move(other.own_)),
+      bodies_(std::exchange(other.bodies_, {})),
+      lanes_(std::move(other.lanes_)),
+      shapes_(std::move(other.shapes_)) {}
+
+BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
+  BodyArray taken(std::move(other));
+  std::swap(own_, taken.own_);
+  std::swap(bodies_, taken.bodies_);
+  std::swap(lanes_, taken.lanes_);
+  std::swap(shapes_, taken.shapes_);
+  return *this;
+}
+
+void BodyArray::refresh(std::size_t i) noexcept {
+  if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
+  in_default_environment([&] {
+    detail::fill(lanes_[i], bodies_[i]);
+    detail::fill(shapes_[i], bodies_[i]);
+  });
+}
+
+}  // namespace tangency
