@@ -235,7 +235,8 @@ void Simulation::step() {
 }
 
 void Simulation::require_single_contacts() const {
-  if (auto doubled = doubled_contact(state_.contacts, state_.list, state_.cell, least_))
+  if (auto doubled =
+          doubled_contact(state_.particles, state_.contacts, state_.list, state_.cell, least_))
     throw CellTooThin(std::move(*doubled));
 }
 
