@@ -2,7 +2,10 @@
 #include <tangency/dem/particles.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 namespace tangency::dem {
 
@@ -36,6 +39,35 @@ void Particles::add(const Vec3& centre, const Quaternion& axes, const Vec3& radi
   mass.push_back(density * volume_of(radii, dimensions));
   type.push_back(type_index);
   id.push_back(static_cast<std::int32_t>(id.size()));
+}
+
+void Particles::permute(std::span<const std::uint32_t> order) {
+  std::vector<bool> seen(size());
+  for (const std::uint32_t i : order) {
+    if (i >= size() || seen[i]) throw std::invalid_argument("order: no permutation");
+    seen[i] = true;
+  }
+  if (order.size() != size()) throw std::invalid_argument("order: not of all particles");
+  const auto move = [&](auto& column) {
+    auto moved = column;
+    for (std::size_t k = 0; k < order.size(); ++k) moved[k] = column[order[k]];
+    column = std::move(moved);
+  };
+  move(position);
+  move(velocity);
+  move(angular_velocity);
+  move(orientation);
+  move(semi_axes);
+  move(mass);
+  move(type);
+  move(id);
+}
+
+std::vector<std::uint32_t> Particles::index_of_id() const {
+  std::vector<std::uint32_t> index(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    index[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(i);
+  return index;
 }
 
 }  // namespace tangency::dem

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <tangency/geometry/vectors.hpp>
@@ -49,6 +50,12 @@ struct Particles {
   /// Appends a particle at rest; its id is its index.
   void add(const Vec3& centre, const Quaternion& axes, const Vec3& radii, double density,
            std::int32_t type_index);
+
+  /// Puts the particle that is order[k] now in place k, with its id.
+  /// @throws std::invalid_argument  where `order` does not name each particle once
+  void permute(std::span<const std::uint32_t> order);
+  /// Where the particle with each id is.
+  std::vector<std::uint32_t> index_of_id() const;
 };
 
 /// Volume of an ellipsoid, 4/3 pi a b c; of an elliptic disk of unit thickness, pi a b.

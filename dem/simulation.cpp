@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/spatial_order.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
@@ -123,6 +124,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
 
 Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
+  state_.particles.permute(spatial_order(state_.particles, state_.cell));
   state_.laws = scene_.laws;
   renew_list();
   update_contacts(0.0);
@@ -234,7 +236,8 @@ void Simulation::step() {
 }
 
 void Simulation::require_single_contacts() const {
-  if (auto doubled = doubled_contact(state_.contacts, state_.list, state_.cell, least_))
+  if (auto doubled =
+          doubled_contact(state_.particles, state_.contacts, state_.list, state_.cell, least_))
     throw CellTooThin(std::move(*doubled));
 }
 

@@ -72,8 +72,12 @@ std::optional<ThinPlace> thin_place(const Cell& cell, const LeastCell& least, do
                    length, least.period()};
 }
 
-std::optional<ThinPlace> doubled_contact(const Contacts& contacts, const NeighbourList& list,
-                                         const Cell& cell, const LeastCell& least) {
+std::optional<ThinPlace> doubled_contact(const Particles& particles, const Contacts& contacts,
+                                         const NeighbourList& list, const Cell& cell,
+                                         const LeastCell& least) {
+  const auto name = [&](std::int32_t index) {
+    return "particle " + std::to_string(particles.id[static_cast<std::size_t>(index)]);
+  };
   const Image shortest = cell.shortest_period();
   if (shortest == Image{} || cell.translation(shortest).norm() >= least.free_period())
     return std::nullopt;
@@ -81,8 +85,7 @@ std::optional<ThinPlace> doubled_contact(const Contacts& contacts, const Neighbo
   const Pair* last = nullptr;  // that touches: images of one pair follow each other
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Pair& pair = pairs[k];
-    if (!contacts.touches(k) ||
-        static_cast<std::size_t>(pair.b) >= list.reference().reduced_position.size())
+    if (!contacts.touches(k) || static_cast<std::size_t>(pair.b) >= particles.size())
       continue;  // apart, or a wall
     const bool its_own = pair.a == pair.b;
     if (its_own || (last && last->a == pair.a && last->b == pair.b)) {
@@ -90,9 +93,9 @@ std::optional<ThinPlace> doubled_contact(const Contacts& contacts, const Neighbo
       if (!its_own)
         for (std::size_t axis = 0; axis < 3; ++axis) period[axis] -= last->image[axis];
       const double length = cell.translation(period).norm();
-      return ThinPlace{"particle " + std::to_string(pair.a) + " touches " +
+      return ThinPlace{name(pair.a) + " touches " +
                            (its_own ? std::string("an image of its own, ")
-                                    : "two images of particle " + std::to_string(pair.b) + ", ") +
+                                    : "two images of " + name(pair.b) + ", ") +
                            length_text(length) + " from " + (its_own ? "it" : "each other"),
                        length, least.free_period()};
     }

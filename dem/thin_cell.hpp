@@ -61,9 +61,11 @@ inline constexpr double kMostSqueeze = 0.9;
 std::optional<ThinPlace> thin_place(const Cell& cell, const LeastCell& least,
                                     double squeezed = 1.0);
 
-/// A particle that touches an image of its own, or two images of another, if there is one.
-std::optional<ThinPlace> doubled_contact(const Contacts& contacts, const NeighbourList& list,
-                                         const Cell& cell, const LeastCell& least);
+/// A particle that touches an image of its own, or two images of another, if there is one; named by
+/// their ids.
+std::optional<ThinPlace> doubled_contact(const Particles& particles, const Contacts& contacts,
+                                         const NeighbourList& list, const Cell& cell,
+                                         const LeastCell& least);
 
 /// The cell has become too thin, or the next step would make it so.
 class CellTooThin : public std::runtime_error {

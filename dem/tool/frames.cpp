@@ -49,9 +49,14 @@ void data_array(std::ostream& out, const std::string& attributes, std::size_t co
 std::string vtp_of(const State& state) {
   const Particles& p = state.particles;
   const std::size_t n = p.size();
-  const std::vector<int> contacts = state.contacts.resultants().contacts;
+  const std::vector<std::int32_t>& contacts = state.contacts.resultants().contacts;
+  const std::vector<std::uint32_t> in_order = p.index_of_id();
   const std::string real = "type=\"Float64\" NumberOfComponents=";
   std::ostringstream out;
+  // Of all particles in the order of the scene.
+  const auto particle_array = [&](const std::string& attributes, auto&& value) {
+    data_array(out, attributes, n, [&](std::size_t id) { return value(in_order[id]); });
+  };
   out << "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
          "<FieldData>\n";
@@ -59,22 +64,22 @@ std::string vtp_of(const State& state) {
              [&](std::size_t) { return row(state.cell.edges.reshaped()); });
   out << "</FieldData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << n
       << "\">\n<Points>\n";
-  data_array(out, real + "\"3\"", n, [&](std::size_t i) { return row(wrapped(state, i)); });
+  particle_array(real + "\"3\"", [&](std::size_t i) { return row(wrapped(state, i)); });
   out << "</Points>\n<Verts>\n";
   const std::string integer = "type=\"Int32\" Name=";
   data_array(out, integer + "\"connectivity\"", n, [](std::size_t i) { return to_text(i); });
   data_array(out, integer + "\"offsets\"", n, [](std::size_t i) { return to_text(i + 1); });
   out << "</Verts>\n<PointData Tensors=\"axes\">\n";
-  data_array(out, real + "\"9\" Name=\"axes\"", n,
-             [&](std::size_t i) { return row(axes_tensor(p, i)); });
-  data_array(out, real + "\"4\" Name=\"orientation\"", n,
-             [&](std::size_t i) { return row(p.orientation[i].coeffs()); });
-  data_array(out, real + "\"3\" Name=\"semi_axes\"", n,
-             [&](std::size_t i) { return row(p.semi_axes[i]); });
-  data_array(out, real + "\"3\" Name=\"velocity\"", n,
-             [&](std::size_t i) { return row(p.velocity[i]); });
-  data_array(out, integer + "\"type\"", n, [&](std::size_t i) { return to_text(p.type[i]); });
-  data_array(out, integer + "\"contacts\"", n, [&](std::size_t i) { return to_text(contacts[i]); });
+  particle_array(real + "\"9\" Name=\"axes\"",
+                 [&](std::size_t i) { return row(axes_tensor(p, i)); });
+  particle_array(real + "\"4\" Name=\"orientation\"",
+                 [&](std::size_t i) { return row(p.orientation[i].coeffs()); });
+  particle_array(real + "\"3\" Name=\"semi_axes\"",
+                 [&](std::size_t i) { return row(p.semi_axes[i]); });
+  particle_array(real + "\"3\" Name=\"velocity\"",
+                 [&](std::size_t i) { return row(p.velocity[i]); });
+  particle_array(integer + "\"type\"", [&](std::size_t i) { return to_text(p.type[i]); });
+  particle_array(integer + "\"contacts\"", [&](std::size_t i) { return to_text(contacts[i]); });
   out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   return out.str();
 }
@@ -91,7 +96,7 @@ std::string xyz_of(const Simulation& simulation) {
                      "\" Properties=species:S:1:pos:R:3:orientation:R:4:"
                      "aspherical_shape:R:3:velo:R:3 cycle=" +
                      to_text(state.cycle) + " Time=" + to_text(state.time) + "\n";
-  for (std::size_t i = 0; i < p.size(); ++i)
+  for (const std::uint32_t i : p.index_of_id())
     text += simulation.scene().particle_types[static_cast<std::size_t>(p.type[i])].name + " " +
             row(wrapped(state, i)) + " " + row(p.orientation[i].coeffs()) + " " +
             row(p.semi_axes[i]) + " " + row(p.velocity[i]) + "\n";

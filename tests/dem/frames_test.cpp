@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <tangency/dem/scene.hpp>
+#include <tangency/dem/simulation.hpp>
+#include <tangency/dem/state_file.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 
 #include "../tool/process.hpp"
@@ -138,6 +142,28 @@ TEST(Frames, ForOvitoHaveEdgesSemiAxesAndQuaternionsInItsOrder) {
     ++frames;
   }
   EXPECT_EQ(frames, 2);
+}
+
+// Whatever order a run keeps its particles in. The two never meet, so that it changes no bit.
+TEST(Frames, ListParticlesInTheOrderOfTheScene) {
+  const Made made;
+  const TemporaryFolder folder;
+  dem::State state = dem::Simulation(dem::parse_scene(scene(), "scene.toml")).state();
+  const std::vector<std::uint32_t> reverse{state.particles.id[0] == 0 ? 1u : 0u,
+                                           state.particles.id[0] == 0 ? 0u : 1u};
+  state.particles.permute(reverse);
+  ASSERT_EQ(state.particles.id, (std::vector<std::int32_t>{1, 0}));
+  state.list.build(state.particles, state.cell, 0.05);
+  ASSERT_TRUE(state.list.pairs().empty());
+  dem::save_state(state, folder.path("reversed.state"));
+  const Finished run =
+      run_tool({"run", folder.write("scene.toml", scene()), "--out", folder.path("out"), "--quiet",
+                "--resume", folder.path("reversed.state")});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string frames = made.file("frames.xyz"), last = made.file("frames/50.vtp");
+  EXPECT_NE(frames.find("cycle=50 "), frames.npos);
+  EXPECT_EQ(read_file(folder.path("out/frames.xyz")), frames);
+  EXPECT_EQ(read_file(folder.path("out/frames/50.vtp")), last);
 }
 
 }  // namespace

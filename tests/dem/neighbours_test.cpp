@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
 #include <utility>
@@ -77,6 +78,8 @@ struct Kind {
   double ratio;
   std::size_t count;
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 const Kind kKinds[] = {
     {"Spheres", {1.0, 1.0, 1.0}, 1.0, 60},      {"Spheroids143", {1.43, 1.0, 1.0}, 1.0, 60},
@@ -307,7 +310,9 @@ TEST(NeighbourList, IsOutOfDateForOtherParticles) {
   NeighbourList list;
   EXPECT_FALSE(list.is_current(crowd(3, cell, 5), cell));
   list.build(crowd(3, cell, 5), cell, 0.1);
+  EXPECT_TRUE(list.is_current(crowd(3, cell, 5), cell));
   EXPECT_FALSE(list.is_current(crowd(4, cell, 5), cell));
+  EXPECT_FALSE(list.is_current(crowd(2, cell, 5), cell));
 }
 
 // Small particles beside a large one have small skins: it does not fill the list with pairs.

@@ -157,7 +157,7 @@ TEST(ThinCell, DoublesNoContactFromTheFreePeriodOnAndDoesSoonBelow) {
       const Touching seen(there, now);
       LeastCell none_is_free;  // so that the contacts are looked at in any case
       none_is_free.add(Vec3::Constant(1e3));
-      const auto found = doubled_contact(seen.contacts, seen.list, now, none_is_free);
+      const auto found = doubled_contact(particles, seen.contacts, seen.list, now, none_is_free);
       doubled += found.has_value() ? 1u : 0u;
       if (share < 1.0) continue;
       ASSERT_FALSE(found) << k << ": " << found->what;
@@ -199,7 +199,7 @@ TEST(ThinCell, BelowThePeriodHasPlacesWhereAContactIsDoubled) {
     }
     for (std::size_t i = 1; i < particles.size(); ++i) particles.position[i] = 0.5 * period;
     const Touching seen(particles, cell);
-    EXPECT_TRUE(doubled_contact(seen.contacts, seen.list, cell, least)) << thin->what;
+    EXPECT_TRUE(doubled_contact(particles, seen.contacts, seen.list, cell, least)) << thin->what;
   }
   EXPECT_GT(its_own, 30);
   EXPECT_GT(of_two, 50);
