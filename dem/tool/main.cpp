@@ -34,11 +34,13 @@ DIR receives:
                      stage that ends at once has strains of 0; first one of the start, or of the
                      state itself where a run that is over is resumed in another DIR
   summary.json       of a complete run: the values of its last row, and the keys below
-  final.state        of a complete run: where another scene of the same particles goes on
+  final.state        of a complete run: where another scene of the same particles goes on; a
+                     second name of checkpoint.state where the file system has hard links
   checkpoint.state   every checkpoint_interval cycles, every minute or
                      checkpoint_seconds, and at the run's end, whichever it is
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
-  frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts
+  frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
+                     with frame_interval = 0 there are no frames
 
 Columns of history.csv. Compression is positive in stress and axial strain; strains are
 logarithmic and count from the start of the stage:
