@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <tangency/dem/elementary.hpp>
+
 namespace tangency::dem {
 
 Vec3 Shape::semi_axes(int dimensions) const {
@@ -11,7 +13,7 @@ Vec3 Shape::semi_axes(int dimensions) const {
     const double root = std::sqrt(elongation);
     return {mean_radius * root, mean_radius / root, mean_radius / root};
   }
-  const double b = mean_radius * std::cbrt(flatness / elongation);
+  const double b = mean_radius * cube_root(flatness / elongation);
   return {b * elongation, b, b / flatness};
 }
 

@@ -77,7 +77,13 @@ More keys of summary.json:
   wall_seconds          of this process: what ran before a resumption is not in it
   ns_per_listed_pair_per_cycle, listed_pairs
                         an entry of the neighbour list, each pair once
-  state_hash            of final.state; the same at every number of threads
+  state_hash            of final.state; the same at every number of threads, and with
+                        --reproducible on every x86-64 processor
+  instruction_set, reproducible
+                        that of the processor's which the run used, on which last bits depend;
+                        and whether --reproducible was given
+  profile               with --profile: seconds of each phase, counts of pairs a cycle, builds
+                        of the neighbour list, and the most memory the run has had, bytes
   rattlers              particles with fewer than two contacts; under gravity with none
   peak_friction_angle_deg, strain_at_peak_friction
                         of the last stage of kind shear: the largest mean over rows within
@@ -151,6 +157,10 @@ void add_run(tables::Program& program) {
       .not_empty();
   command.flag("--replace", words->options.replace,
                "Take away the results of another run in the directory");
+  command.flag("--profile", words->options.profile,
+               "Print the time of the cycles by phase after the run");
+  command.flag("--reproducible", words->options.reproducible,
+               "Compute without fused multiply-adds: state_hash is that of every machine");
   command.footer(kRunHelp);
   command.flag("--quiet", words->options.quiet, "No progress");
   command.runs([words] {
