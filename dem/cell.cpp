@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include <tangency/dem/elementary.hpp>
+
 namespace tangency::dem {
 namespace {
 
@@ -110,9 +112,10 @@ Mat3 Cell::isotropic(double r) const { return Vec3(r, r, dimensions == 3 ? r : 0
 
 Mat3 Cell::logarithmic_strain() const {
   if (is_box() && reference_edges.isDiagonal(0.0))
-    return Vec3((edges.diagonal().array() / reference_edges.diagonal().array()).log()).asDiagonal();
+    return Vec3(edges.diagonal().cwiseQuotient(reference_edges.diagonal()).unaryExpr(&logarithm))
+        .asDiagonal();
   const auto stretch = squared_stretch(reference_edges, edges);
-  const Vec3 strains = 0.5 * stretch.eigenvalues().array().log();
+  const Vec3 strains = 0.5 * stretch.eigenvalues().unaryExpr(&logarithm);
   return stretch.eigenvectors() * strains.asDiagonal() * stretch.eigenvectors().transpose();
 }
 

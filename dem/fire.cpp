@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <tangency/dem/chunks.hpp>
+#include <tangency/dem/particle_columns.hpp>
 #include <tangency/dem/particle_lanes.hpp>
 
 namespace tangency::dem {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tangency/dem/elementary.hpp>
+
 namespace tangency::dem {
 namespace {
 
@@ -40,8 +42,9 @@ Target Target::component(int axis, double wanted) {
 }
 
 Target Target::direction(int from, int to, double angle) {
-  const Vec3 major = std::cos(angle) * Vec3::Unit(from) + std::sin(angle) * Vec3::Unit(to);
-  const Vec3 minor = std::cos(angle) * Vec3::Unit(to) - std::sin(angle) * Vec3::Unit(from);
+  const auto [cosine, sine] = cosine_sine(angle);
+  const Vec3 major = cosine * Vec3::Unit(from) + sine * Vec3::Unit(to);
+  const Vec3 minor = cosine * Vec3::Unit(to) - sine * Vec3::Unit(from);
   const Mat3 shear = 0.5 * (major * minor.transpose() + minor * major.transpose());
   return {"shear across the major direction", shear, 1.0, 0.0, shear};
 }

@@ -13,8 +13,6 @@
 
 #include <cstddef>
 
-#include <tangency/dem/particles.hpp>
-
 namespace tangency::dem {
 
 /// Particles of one chunk. Chosen: a multiple of the lanes of every instruction set, and work
@@ -96,10 +94,5 @@ void cosine_sine_lanes(const double* angle, double* cosine, double* sine,
 /// Of cosine and sine in move_lanes(), in ulps of the true value. Measured: 1.94 and, of angles up
 /// to 0.1, where the half angles of a sound run's steps are, 0.51.
 inline constexpr double kSineError = 2.0;
-
-/// The columns of particles on which nothing acts, and of those on which `resultants` do.
-ParticleColumns columns_of(const dem::Particles& particles);
-ParticleColumns columns_of(const dem::Particles& particles, const dem::Resultants& resultants);
-MovedColumns moved_columns_of(dem::Particles& particles);
 
 }  // namespace tangency::detail

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <tangency/dem/elementary.hpp>
+
 namespace tangency::dem {
 
 Vec3 Shape::semi_axes(int dimensions) const {
@@ -14,7 +16,7 @@ Vec3 Shape::semi_axes(int dimensions) const {
     const double root = std::sqrt(elongation);
     return {mean_radius * root, mean_radius / root, mean_radius / root};
   }
-  const double b = mean_radius * std::cbrt(flatness / elongation);
+  const double b = mean_radius * cube_root(flatness / elongation);
   return {b * elongation, b, b / flatness};
 }
 

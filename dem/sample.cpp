@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <tangency/dem/elementary.hpp>
 #include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::dem {
@@ -89,7 +90,8 @@ Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
     edges = *how.cell_size;
   else
     edges.head(how.dimensions)
-        .setConstant(std::pow(volume / how.bounding_fraction, 1.0 / how.dimensions));
+        .setConstant(how.dimensions == 2 ? std::sqrt(volume / how.bounding_fraction)
+                                         : cube_root(volume / how.bounding_fraction));
   std::ostringstream room;
   const char* spheres = how.dimensions == 2 ? "bounding circles" : "bounding spheres";
   const double filled = volume / edges.prod();
@@ -188,14 +190,14 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 
 Quaternion uniform_rotation(std::mt19937_64& random, int dimensions) {
   if (dimensions == 2) {
-    const double half = std::numbers::pi * uniform(random);
-    return {std::cos(half), 0.0, 0.0, std::sin(half)};
+    const auto [cosine, sine] = cosine_sine(std::numbers::pi * uniform(random));
+    return {cosine, 0.0, 0.0, sine};
   }
   const double u = uniform(random);
-  const double first = 2.0 * std::numbers::pi * uniform(random);
-  const double second = 2.0 * std::numbers::pi * uniform(random);
+  const CosineSine first = cosine_sine(2.0 * std::numbers::pi * uniform(random));
+  const CosineSine second = cosine_sine(2.0 * std::numbers::pi * uniform(random));
   const double s = std::sqrt(1.0 - u), t = std::sqrt(u);
-  return {t * std::cos(second), s * std::sin(first), s * std::cos(first), t * std::sin(second)};
+  return {t * second.cosine, s * first.sine, s * first.cosine, t * second.sine};
 }
 
 namespace {

@@ -182,7 +182,8 @@ constexpr std::array kKeys{
     Key{"output", "history_interval", integer, "cycles", "50", between(1, kMostCycles), "", "",
         "Between two rows of history.csv; a stage's end always has one"},
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
-        "Between two frames; a stage's end always has one, and 0 leaves it at these"},
+        "Between two frames; the start and a stage's end have one too. With 0 there are none at "
+        "all"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",

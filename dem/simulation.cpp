@@ -220,6 +220,20 @@ void Simulation::step() {
   const double dt = time_step();
   state_.cell.rate = next_rate(dt);
 
+  move_particles(dt);
+  keep_list_current();
+  update_contacts(dt);
+
+  ++state_.cycle;
+  ++state_.stage_cycle;
+  state_.time += dt;
+  if (profile_ == nullptr) return;
+  ++profile_->cycles;
+  profile_->listed_pairs += static_cast<std::int64_t>(state_.list.pairs().size());
+}
+
+void Simulation::move_particles(double dt) {
+  const PhaseTimer timer(profile_, Phase::motion);
   if (!stage().drive->damping)
     state_.energy.damping +=
         state_.fire.steer(state_.particles, state_.contacts.resultants(), motion(), dt);
@@ -227,12 +241,6 @@ void Simulation::step() {
       move(state_.particles, state_.cell, state_.contacts.resultants(), motion(), dt);
   state_.energy.damping += work.damping;
   state_.energy.gravity += work.gravity;
-  if (!state_.list.is_current(state_.particles, state_.cell)) renew_list();
-  update_contacts(dt);
-
-  ++state_.cycle;
-  ++state_.stage_cycle;
-  state_.time += dt;
 }
 
 void Simulation::require_single_contacts() const {
@@ -243,6 +251,7 @@ void Simulation::require_single_contacts() const {
 
 /// The cell's rate for the coming step. @throws CellTooThin
 Mat3 Simulation::next_rate(double dt) {
+  const PhaseTimer timer(profile_, Phase::control);
   std::vector<ServoMemory> servos = state_.servos;
   const Stress stress = stress_of(state_.contacts, state_.cell);
   Cell next = state_.cell;
@@ -255,11 +264,19 @@ Mat3 Simulation::next_rate(double dt) {
 }
 
 void Simulation::update_contacts(double dt) {
+  const PhaseTimer timer(profile_, Phase::contacts);
   const ContactWork work =
       state_.contacts.update(state_.particles, state_.cell, state_.list, laws_, dt, scene_.branch);
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;
+}
+
+void Simulation::keep_list_current() {
+  const PhaseTimer timer(profile_, Phase::list);
+  if (state_.list.is_current(state_.particles, state_.cell)) return;
+  renew_list();
+  if (profile_ != nullptr) ++profile_->list_builds;
 }
 
 void Simulation::renew_list() {
@@ -329,7 +346,7 @@ void Simulation::grow() {
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.semi_axes[i] = axes[static_cast<std::size_t>(particles.type[i])];
   turns_ = anything_turns();
-  if (!state_.list.is_current(particles, state_.cell)) renew_list();
+  keep_list_current();
   const EnergyAccount account = state_.energy;
   update_contacts(0.0);
   state_.energy = account;  // nothing moved: what changed is the growth's

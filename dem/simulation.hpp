@@ -19,6 +19,7 @@
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/particles.hpp>
+#include <tangency/dem/profile.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_model.hpp>
 #include <tangency/dem/thin_cell.hpp>
@@ -101,6 +102,10 @@ class Simulation {
 
   Observation observe() const;
 
+  /// From now on cycles are added to a profile, which has to live as long; null: to none, which
+  /// costs nothing.
+  void record(Profile* profile) { profile_ = profile; }
+
   /// What differs between the contact laws that a resumed state was made with and the scene's, one
   /// line; empty where nothing does.
   const std::string& changed_laws() const { return changed_laws_; }
@@ -114,7 +119,9 @@ class Simulation {
   void grow();
   void require_single_contacts() const;
   Mat3 next_rate(double dt);
+  void move_particles(double dt);
   double cycles_to_a_packing() const;
+  void keep_list_current();
   void renew_list();
   void update_contacts(double dt);
   Motion motion() const;
@@ -128,6 +135,7 @@ class Simulation {
   bool turns_ = true;  ///< is there anything that could turn, or seem to?
   LeastCell least_;    ///< of the particles as they are
   double characteristic_time_ = 0.0;  ///< of the masses and the stage's laws
+  Profile* profile_ = nullptr;
 };
 
 }  // namespace tangency::dem

@@ -3,90 +3,58 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/state_stream.hpp>
 #include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "state files are little-endian");
-
 constexpr std::string_view kMagic = "TANGSTAT";
 constexpr std::uint32_t kFormatVersion = 5;
-
-class Writer {
- public:
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void operator()(const T& value) {
-    const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    bytes_.append(raw.data(), raw.size());
-  }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-};
-
-/// Bytes that are no state.
-struct Damaged {
-  const char* why;
-};
-constexpr Damaged kNotWhole{"it is not a whole state"};
-
-class ByteReader {
- public:
-  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void operator()(T& value) {
-    if (bytes_.size() < sizeof(T)) throw kNotWhole;
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    if constexpr (std::is_floating_point_v<T>)
-      if (!std::isfinite(value)) throw Damaged{"it holds a number that is not finite"};
-    bytes_.remove_prefix(sizeof(T));
-  }
-  bool at_end() const { return bytes_.empty(); }
-  std::size_t left() const { return bytes_.size(); }
-
- private:
-  std::string_view bytes_;
-};
 
 // One description of the format for both ways: each function passes every number of its argument
 // to the archive, a Writer or a ByteReader.
 
-template <class Archive, class Vec>
-requires std::is_same_v<std::remove_const_t<Vec>, Vec3>
-void pass(Archive& archive, Vec& v) {
-  for (int k = 0; k < 3; ++k) archive(v[k]);
-}
-
-template <class Archive, class Q>
-requires std::is_same_v<std::remove_const_t<Q>, Quaternion>
-void pass(Archive& archive, Q& q) {
-  for (int k = 0; k < 4; ++k) archive(q.coeffs()[k]);
-}
-
-template <class Archive, class Number>
-requires std::is_arithmetic_v<Number>
-void pass(Archive& archive, Number& x) { archive(x); }
-
-template <class Archive, class P>
-requires std::is_same_v<std::remove_const_t<P>, Pair>
-void pass(Archive& archive, P& pair) {
-  archive(pair.a);
-  archive(pair.b);
-  for (auto& k : pair.image) archive(k);
-}
+/// The numbers that a T consists of, and nothing else: a column of them is one block of bytes.
+template <class T>
+struct PartsOf {
+  using Part = void;
+};
+template <std::same_as<double> T>
+struct PartsOf<T> {
+  using Part = double;
+};
+template <std::same_as<std::int32_t> T>
+struct PartsOf<T> {
+  using Part = std::int32_t;
+};
+template <>
+struct PartsOf<Vec3> {
+  using Part = double;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+};
+template <>
+struct PartsOf<Quaternion> {
+  using Part = double;
+  static_assert(sizeof(Quaternion) == 4 * sizeof(double));
+};
+template <>
+struct PartsOf<Pair> {
+  using Part = std::int32_t;
+  static_assert(sizeof(Pair) == 5 * sizeof(std::int32_t));
+};
+template <class T>
+concept Row = !std::is_void_v<typename PartsOf<T>::Part>;
 
 template <class Archive, class M>
 requires std::is_same_v<std::remove_const_t<M>, Mat3>
@@ -94,13 +62,13 @@ void pass(Archive& archive, M& m) {
   for (int k = 0; k < 9; ++k) archive(m.data()[k]);
 }
 
-void pass_material(Writer& archive, const std::optional<Material>& material) {
+void pass_material(StateWriter& archive, const std::optional<Material>& material) {
   archive(std::uint8_t{material.has_value()});
   if (!material) return;
   archive(material->young_modulus);
   archive(material->poisson_ratio);
 }
-void pass_material(ByteReader& archive, std::optional<Material>& material) {
+void pass_material(StateReader& archive, std::optional<Material>& material) {
   std::uint8_t byte = 0;
   archive(byte);
   if (byte > 1) throw kNotWhole;
@@ -130,18 +98,39 @@ void pass(Archive& archive, L& law) {
 }
 
 template <class T>
-void pass(Writer& archive, const std::vector<T>& items) {
+void pass(StateWriter& archive, const std::vector<T>& items) {
   archive(std::uint64_t{items.size()});
-  for (const T& item : items) pass(archive, item);
+  if constexpr (Row<T>)
+    archive.block(items.data(), items.size() * sizeof(T));
+  else
+    for (const T& item : items) pass(archive, item);
+}
+
+/// Items that are read at a time where it is not known that the file has as many as it says.
+/// Chosen: some 10 MB.
+constexpr std::uint64_t kPiece = 1 << 19;
+
+template <Row T>
+void pass_rows(StateReader& archive, std::vector<T>& items, std::uint64_t size) {
+  using Part = typename PartsOf<T>::Part;
+  if (size > archive.most_left() / sizeof(T)) throw kNotWhole;
+  if (!archive.is_pipe()) items.reserve(size);
+  while (items.size() < size) {
+    const std::size_t first = items.size();
+    items.resize(first + std::min(size - first, kPiece));
+    archive.block(reinterpret_cast<Part*>(items.data() + first),
+                  (items.size() - first) * (sizeof(T) / sizeof(Part)));
+  }
 }
 
 template <class T>
-void pass(ByteReader& archive, std::vector<T>& items) {
+void pass(StateReader& archive, std::vector<T>& items) {
   std::uint64_t size = 0;
   archive(size);
-  if (size > archive.left()) throw kNotWhole;
-  items.resize(size);
-  for (T& item : items) pass(archive, item);
+  if constexpr (Row<T>)
+    pass_rows(archive, items, size);
+  else
+    while (items.size() < size) pass(archive, items.emplace_back());
 }
 
 template <class Archive, class P>
@@ -156,10 +145,10 @@ void pass_particles(Archive& archive, P& particles) {
   pass(archive, particles.id);
 }
 
-void pass_walls(Writer& archive, const std::array<bool, 3>& walled) {
+void pass_walls(StateWriter& archive, const std::array<bool, 3>& walled) {
   for (const bool one : walled) archive(std::uint8_t{one});
 }
-void pass_walls(ByteReader& archive, std::array<bool, 3>& walled) {
+void pass_walls(StateReader& archive, std::array<bool, 3>& walled) {
   for (bool& one : walled) {
     std::uint8_t byte = 0;
     archive(byte);
@@ -201,34 +190,40 @@ void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.semi_axes);
 }
 
-void pass_contacts(Writer& archive, const Contacts& contacts) {
-  const std::size_t count = contacts.size();
+/// Each column without what it is filled up with.
+void pass_contacts(StateWriter& archive, const Contacts& contacts) {
   const auto pass_column = [&](const auto& column) {
-    for (std::size_t k = 0; k < count; ++k) pass(archive, column[k]);
+    archive.block(column.data(), contacts.size() * sizeof(column[0]));
   };
   for (const auto column : ContactColumns::kVectors) pass_column(contacts.columns().*column);
   for (const auto column : ContactColumns::kNumbers) pass_column(contacts.columns().*column);
 }
 
-ContactColumns contacts_of(ByteReader& archive, std::size_t count) {
-  ContactColumns columns;
-  if (count > archive.left()) throw kNotWhole;
-  columns.resize(count);
-  const auto pass_column = [&](auto& column) {
-    for (auto& entry : column) pass(archive, entry);
-  };
-  for (const auto column : ContactColumns::kVectors) pass_column(columns.*column);
-  for (const auto column : ContactColumns::kNumbers) pass_column(columns.*column);
-  return columns;
-}
-
-std::string bytes_of(const State& state) {
-  Writer archive;
+void write(StateWriter& archive, const State& state) {
   pass_plain(archive, state);
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
   pass_contacts(archive, state.contacts);
-  return archive.take();
+}
+
+void pass_contacts(StateReader& archive, ContactColumns& columns, std::size_t pairs) {
+  for (const auto column : ContactColumns::kVectors) pass_rows(archive, columns.*column, pairs);
+  for (const auto column : ContactColumns::kNumbers) pass_rows(archive, columns.*column, pairs);
+}
+
+/// What a file holds, before it is known to be a state.
+struct Read {
+  State state;
+  NeighbourList::Reference reference;
+  std::vector<Pair> pairs;
+  ContactColumns contacts;
+};
+
+void read(StateReader& archive, Read& found) {
+  pass_plain(archive, found.state);
+  pass_reference(archive, found.reference);
+  pass(archive, found.pairs);
+  pass_contacts(archive, found.contacts, found.pairs.size());
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
@@ -262,20 +257,13 @@ bool lengths_are_positive(const State& state, const NeighbourList::Reference& re
   const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
   return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
          has_volume(reference.edges) && reference.skin_ratio > 0.0 &&
-         std::all_of(reference.semi_axes.begin(), reference.semi_axes.end(), is_positive) &&
          std::all_of(axes.begin(), axes.end(), is_positive);
 }
 
-State state_of(std::string_view bytes) {
-  ByteReader archive(bytes);
-  State state;
-  NeighbourList::Reference reference;
-  std::vector<Pair> pairs;
-  pass_plain(archive, state);
-  pass_reference(archive, reference);
-  pass(archive, pairs);
-  ContactColumns contacts = contacts_of(archive, pairs.size());
-  if (!archive.at_end() || !is_whole(state, reference, pairs)) throw kNotWhole;
+/// @throws Damaged
+State state_of(Read found) {
+  auto& [state, reference, pairs, contacts] = found;
+  if (!is_whole(state, reference, pairs)) throw kNotWhole;
   if (!lengths_are_positive(state, reference)) throw Damaged{"it holds a length that is not > 0"};
   const std::vector<double>& mass = state.particles.mass;
   if (std::any_of(mass.begin(), mass.end(), [](double m) { return !(m > 0.0); }))
@@ -289,62 +277,68 @@ State state_of(std::string_view bytes) {
   if (state.stage == 0) throw Damaged{"its stage is 0, and a run's are counted from 1"};
   state.list.restore(std::move(reference), std::move(pairs));
   state.contacts.restore(std::move(contacts), state.particles, state.list);
-  return state;
+  return std::move(state);
 }
 
-/// 64-bit FNV-1a [Fowler, Noll, Vo; RFC 9923].
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return hash;
+/// @throws Damaged
+State state_in(StateReader& file) {
+  Read found;
+  const char* damage = nullptr;
+  try {
+    read(file, found);
+  } catch (const Damaged& damaged) {
+    damage = damaged.why;
+  }
+  const StateReader::Ending ending = file.finish();
+  if (!ending.hash_is_right) throw Damaged{"its hash is wrong"};
+  if (damage != nullptr) throw Damaged{damage};
+  if (!ending.is_at_once) throw kNotWhole;
+  return state_of(std::move(found));
 }
 
-template <class T>
-T number_at(std::string_view bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
+std::string_view view_of(const auto& number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
 }  // namespace
 
 std::string state_hash(const State& state) {
   constexpr std::string_view digits = "0123456789abcdef";
-  std::uint64_t hash = fnv1a(bytes_of(state));
+  StateWriter archive(nullptr);
+  write(archive, state);
+  std::uint64_t hash = archive.finish();
   std::string text(16, '0');
   for (auto at = text.rbegin(); at != text.rend(); ++at, hash >>= 4) *at = digits[hash & 15u];
   return text;
 }
 
 void save_state(const State& state, const std::filesystem::path& file) {
-  const std::string body = bytes_of(state);
-  Writer head, tail;
-  head(kFormatVersion);
-  tail(fnv1a(body));
-  write_whole(file, std::string(kMagic) + head.take() + body + tail.take());
+  WholeFile out(file);
+  out.write(kMagic);
+  out.write(view_of(kFormatVersion));
+  StateWriter archive(&out);
+  write(archive, state);
+  const std::uint64_t hash = archive.finish();
+  out.write(view_of(hash));
+  out.publish();
 }
 
 State load_state(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& what) { throw StateError(file.string() + ": " + what); };
-  std::string whole;
   try {
-    whole = bytes_of_file(file);
+    StateReader in(file);
+    std::array<char, kMagic.size() + sizeof kFormatVersion> head;
+    const std::size_t size = in.head(head.data(), head.size());
+    if (size < head.size() || !std::string_view(head.data(), size).starts_with(kMagic))
+      fail("no state of tangency-dem: final.state or checkpoint.state of a run");
+    std::uint32_t version = 0;
+    std::memcpy(&version, head.data() + kMagic.size(), sizeof version);
+    if (version != kFormatVersion)
+      fail("state of version " + std::to_string(version) + ": this program reads version " +
+           std::to_string(kFormatVersion));
+    return state_in(in);
   } catch (const ReadError& error) {
     throw StateError(error.what());
-  }
-  const std::string_view bytes = whole;
-  constexpr std::size_t head = kMagic.size() + sizeof kFormatVersion;
-  if (bytes.size() < head + sizeof(std::uint64_t) || !bytes.starts_with(kMagic))
-    fail("no state of tangency-dem: final.state or checkpoint.state of a run");
-  const auto found = number_at<std::uint32_t>(bytes, kMagic.size());
-  if (found != kFormatVersion)
-    fail("state of version " + std::to_string(found) + ": this program reads version " +
-         std::to_string(kFormatVersion));
-  const std::size_t end = bytes.size() - sizeof(std::uint64_t);
-  const std::string_view body = bytes.substr(head, end - head);
-  if (number_at<std::uint64_t>(bytes, end) != fnv1a(body)) fail("damaged: its hash is wrong");
-  try {
-    return state_of(body);
   } catch (const Damaged& damaged) {
     throw StateError(file.string() + ": damaged: " + damaged.why);
   }

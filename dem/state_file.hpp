@@ -2,9 +2,11 @@
 /// @file
 /// Saved states: final.state and checkpoint.state.
 ///
-/// A file holds, little-endian: the 8 bytes "TANGSTAT", a 32-bit version, the state, and the
-/// 64-bit FNV-1a hash of the state's bytes. Doubles are stored bit for bit, the neighbour list and
-/// every contact with them, so that a resumed run continues as if it had not been interrupted.
+/// A file holds, little-endian: the 8 bytes "TANGSTAT", a 32-bit version, the state, and the XXH3
+/// of 64 bits of the state's bytes (docs/decisions/0011-state-hash.md). An array is its 64-bit
+/// length and its items. All goes by in slices: beside the state itself reading and writing take
+/// less than a megabyte. Doubles are stored bit for bit, the neighbour list and every contact with
+/// them, so that a resumed run continues as if it had not been interrupted.
 #pragma once
 
 #include <filesystem>

@@ -7,9 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdio>
+#include <new>
 #include <system_error>
-
-#include <tangency/geometry/tables/descriptor.hpp>
+#include <utility>
 
 namespace tangency::dem {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 tables::Descriptor opened(const std::filesystem::path& file, int how) noexcept {
   return tables::Descriptor(::open(file.c_str(), how | O_CLOEXEC, 0666));
 }
+
+std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
 }  // namespace
 
@@ -50,18 +53,43 @@ void write_all(int file, std::string_view bytes, const std::filesystem::path& na
   if (!tables::write_all(file, bytes)) throw WriteError(name, errno);
 }
 
+WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)), part_(part_of(file_)) {
+  out_ = opened(part_, O_WRONLY | O_CREAT | O_TRUNC);
+  if (out_.is_open()) return;
+  const int problem = errno;
+  std::error_code error;
+  std::filesystem::remove(part_, error);
+  throw WriteError(file_, problem);
+}
+
+WholeFile::~WholeFile() {
+  std::error_code error;
+  if (!published_) std::filesystem::remove(part_, error);
+}
+
+void WholeFile::write(std::string_view bytes) { write_all(out_.get(), bytes, file_); }
+
+void WholeFile::publish() {
+  if (!out_.close() || ::rename(part_.c_str(), file_.c_str()) != 0) throw WriteError(file_, errno);
+  published_ = true;
+}
+
 void write_whole(const std::filesystem::path& file, std::string_view bytes) {
-  std::filesystem::path part = file;
-  part += ".part";
+  WholeFile out(file);
+  out.write(bytes);
+  out.publish();
+}
+
+bool link_whole(const std::filesystem::path& file, const std::filesystem::path& to) noexcept {
   try {
-    tables::Descriptor out = opened(part, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!out.is_open()) throw WriteError(file, errno);
-    write_all(out.get(), bytes, file);
-    if (!out.close() || ::rename(part.c_str(), file.c_str()) != 0) throw WriteError(file, errno);
-  } catch (const WriteError&) {
-    std::error_code error;
-    std::filesystem::remove(part, error);
-    throw;
+    const std::filesystem::path part = part_of(to);
+    if (::link(file.c_str(), part.c_str()) != 0) return false;
+    const bool renamed = ::rename(part.c_str(), to.c_str()) == 0;
+    // Where `to` was a name of the file already, renaming does nothing.
+    ::unlink(part.c_str());
+    return renamed;
+  } catch (const std::bad_alloc&) {
+    return false;
   }
 }
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include <tangency/geometry/tables/descriptor.hpp>
+
 namespace tangency::dem {
 
 /// A file that cannot be read or written; what() is one line that starts with its name and ends
@@ -43,9 +45,33 @@ std::string bytes_of_file(const std::filesystem::path& file);
 /// The same; nothing for a file that cannot be read.
 std::optional<std::string> read_whole(const std::filesystem::path& file);
 
-/// Writes FILE.part and renames it: a failure leaves an old file as it was.
+/// A file that is being written as FILE.part: a failure leaves an old file as it was.
+class WholeFile {
+ public:
+  /// @throws WriteError  as all that writes
+  explicit WholeFile(std::filesystem::path file);
+  /// Without publish() takes the part away.
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::string_view bytes);
+  /// Gives the file its name.
+  void publish();
+
+ private:
+  std::filesystem::path file_, part_;
+  tables::Descriptor out_;
+  bool published_ = false;
+};
+
+/// The same of bytes that are there.
 /// @throws WriteError
 void write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// Makes `to` a second name of a file: a hard link, which takes no room. False where that cannot
+/// be, as between file systems; `to` is then as it was.
+bool link_whole(const std::filesystem::path& file, const std::filesystem::path& to) noexcept;
 
 /// Writes to an open file, `name` in messages.
 /// @throws WriteError

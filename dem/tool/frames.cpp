@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
@@ -115,11 +116,25 @@ std::optional<std::string> between(const std::string& line, const std::string& b
 
 }  // namespace
 
-Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle)
-    : directory_(directory) {
+Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds)
+    : directory_(directory), adds_(adds) {
+  if (!adds_ && !holds_any()) return;
   std::filesystem::create_directories(directory_ / "frames");
   keep_xyz(last_cycle);  // first: it may fail, and only then nothing has been taken away
   keep_index(last_cycle);
+  if (adds_ || !entries_.empty()) return;
+  xyz_.close();
+  for (const char* name : {"frames.xyz.part", "frames.pvd"})
+    std::filesystem::remove(directory_ / name);
+  std::error_code error;  // another's files may be in it
+  std::filesystem::remove(directory_ / "frames", error);
+}
+
+bool Frames::holds_any() const {
+  const auto is_there = [&](const char* name) {
+    return std::filesystem::exists(directory_ / name);
+  };
+  return is_there("frames.pvd") || is_there("frames.xyz") || is_there("frames.xyz.part");
 }
 
 void Frames::keep_index(std::int64_t last_cycle) {
@@ -159,6 +174,7 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
 }
 
 void Frames::add(const Simulation& simulation) {
+  if (!adds_) return;
   const State& state = simulation.state();
   if (!entries_.empty() && entries_.back().cycle == state.cycle) return;
   write_whole(directory_ / "frames" / (to_text(state.cycle) + ".vtp"), vtp_of(state));
@@ -178,6 +194,7 @@ void Frames::write_index() const {
 }
 
 void Frames::finish() {
+  if (!xyz_.is_open()) return;
   const auto part = directory_ / "frames.xyz.part";
   if (!xyz_.close()) throw WriteError(part, errno);
   std::filesystem::rename(part, directory_ / "frames.xyz");

@@ -22,10 +22,11 @@ class Frames {
  public:
   /// Starts after the frames that the directory holds already.
   /// @param last_cycle  frames of later cycles are taken away; -1: all are
+  /// @param adds        else add() does nothing, and where no frame is kept there are no files
   /// @throws WriteError  all frames are still there
-  Frames(const std::filesystem::path& directory, std::int64_t last_cycle);
+  Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds);
 
-  /// Adds one frame; a second one of the same cycle is left out.
+  /// Adds one frame, if any are to be; a second one of the same cycle is left out.
   /// @throws WriteError
   void add(const Simulation& simulation);
 
@@ -41,8 +42,10 @@ class Frames {
   void keep_index(std::int64_t last_cycle);
   void keep_xyz(std::int64_t last_cycle);
   void write_index() const;
+  bool holds_any() const;
 
   std::filesystem::path directory_;
+  bool adds_;
   tables::Descriptor xyz_;  // frames.xyz.part
   std::vector<Entry> entries_;
 };

@@ -34,11 +34,13 @@ DIR receives:
                      stage that ends at once has strains of 0; first one of the start, or of the
                      state itself where a run that is over is resumed in another DIR
   summary.json       of a complete run: the values of its last row, and the keys below
-  final.state        of a complete run: where another scene of the same particles goes on
+  final.state        of a complete run: where another scene of the same particles goes on; a
+                     second name of checkpoint.state where the file system has hard links
   checkpoint.state   every checkpoint_interval cycles, every minute or
                      checkpoint_seconds, and at the run's end, whichever it is
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
-  frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts
+  frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
+                     with frame_interval = 0 there are no frames
 
 Columns of history.csv. Compression is positive in stress and axial strain; strains are
 logarithmic and count from the start of the stage:
@@ -75,7 +77,13 @@ More keys of summary.json:
   wall_seconds          of this process: what ran before a resumption is not in it
   ns_per_listed_pair_per_cycle, listed_pairs
                         an entry of the neighbour list, each pair once
-  state_hash            of final.state; the same at every number of threads
+  state_hash            of final.state; the same at every number of threads, and with
+                        --reproducible on every x86-64 processor
+  instruction_set, reproducible
+                        that of the processor's which the run used, on which last bits depend;
+                        and whether --reproducible was given
+  profile               with --profile: seconds of each phase, counts of pairs a cycle, builds
+                        of the neighbour list, and the most memory the run has had, bytes
   rattlers              particles with fewer than two contacts; under gravity with none
   peak_friction_angle_deg, strain_at_peak_friction
                         of the last stage of kind shear: the largest mean over rows within
@@ -136,6 +144,10 @@ void add_run(tables::Program& program) {
       .not_empty();
   command.flag("--replace", words->options.replace,
                "Take away the results of another run in the directory");
+  command.flag("--profile", words->options.profile,
+               "Print the time of the cycles by phase after the run");
+  command.flag("--reproducible", words->options.reproducible,
+               "Compute without fused multiply-adds: state_hash is that of every machine");
   command.footer(kRunHelp);
   command.flag("--quiet", words->options.quiet, "No progress");
   command.runs([words] {

@@ -161,7 +161,8 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
     : directory_(usable(options.out)),
       lock_(locked(directory_)),
       carries_on_(carries_on(directory_, options, simulation)),
-      frames_(directory_, carries_on_ ? simulation.state().cycle : -1) {
+      frames_(directory_, carries_on_ ? simulation.state().cycle : -1,
+              simulation.scene().output.frame > 0) {
   if (carries_on_) carry_on(simulation);
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
   if (carries_on_) return;
@@ -241,7 +242,10 @@ void Results::finish_without_state() {
 void Results::finish(const Simulation& simulation, const RunCost& cost) {
   frames_.add(simulation);
   finish_incomplete(simulation);
-  save_state(simulation.state(), directory_ / "final.state");
+  // One state under two names: each is written beside its place and renamed, so that none of them
+  // changes with the other.
+  if (!link_whole(directory_ / "checkpoint.state", directory_ / "final.state"))
+    save_state(simulation.state(), directory_ / "final.state");
   write_summary(directory_, simulation, cost);
 }
 

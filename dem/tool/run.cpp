@@ -13,13 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/instruction_set.hpp>
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/profile.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
 
 namespace tangency::dem {
@@ -91,6 +94,7 @@ class Run {
         progress_(options.quiet ? tables::Progress::Shown::nothing
                                 : tables::Progress::Shown::everywhere) {
     cost_.threads = threads();
+    if (options.profile) simulation_.record(&cost_.profile.emplace());
   }
 
   int execute() {
@@ -126,6 +130,7 @@ class Run {
     progress_.finish();
     cost_.wall_seconds = seconds_since(start_);
     results_.finish(simulation_, cost_);
+    print_profile();
     return success;
   }
 
@@ -305,6 +310,7 @@ class Run {
     warn(why);
     results_.add_row(simulation_);
     results_.finish_incomplete(simulation_);
+    print_profile();
     return not_reached;
   }
 
@@ -320,7 +326,13 @@ class Run {
     results_.finish_incomplete(simulation_);
     warn("interrupted in cycle " + std::to_string(simulation_.state().cycle) +
          "; continue with --resume " + (out_ / "checkpoint.state").string());
+    print_profile();
     return 128 + caught_signal;
+  }
+
+  void print_profile() const {
+    if (!cost_.profile) return;
+    tables::OutputFile("-").write(table_of(*cost_.profile, cost_.cycle_seconds));
   }
 
   void warn(const std::string& message) {
@@ -358,6 +370,7 @@ Simulation simulation_of(const RunOptions& options) {
 }  // namespace
 
 int run(const RunOptions& options) {
+  if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
   Simulation simulation = simulation_of(options);

@@ -14,7 +14,9 @@ struct RunOptions {
   std::optional<std::filesystem::path> resume;
   int threads = 0;  ///< 0: as many as OpenMP offers
   bool quiet = false;
-  bool replace = false;  ///< take away the results of another run
+  bool replace = false;       ///< take away the results of another run
+  bool profile = false;       ///< say where the time of the cycles went
+  bool reproducible = false;  ///< the same bits on every machine
 };
 
 }  // namespace tangency::dem

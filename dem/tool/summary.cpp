@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <variant>
 
+#include <tangency/dem/instruction_set.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
@@ -43,6 +45,11 @@ void add_peaks(nlohmann::ordered_json& summary, const History& history, const Sc
   summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
+std::string text_of(const nlohmann::ordered_json& value) {
+  if (value.is_number_float()) return tables::rounded_text(value.get<double>(), 6);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 }  // namespace
 
 void write_summary(const fs::path& directory, const Simulation& simulation, const RunCost& cost) {
@@ -63,6 +70,11 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
   summary["rattlers"] = balance.rattlers;
   summary["largest_unbalanced_ratio"] = balance.largest_unbalanced_ratio;
   summary["largest_unbalanced_moment_ratio"] = balance.largest_unbalanced_moment_ratio;
+  summary["instruction_set"] = instruction_set();
+  summary["reproducible"] = uses_reproducible_arithmetic();
+  if (cost.profile)
+    for (const auto& [name, value] : entries_of(*cost.profile))
+      std::visit([&, &key = name](auto number) { summary["profile"][key] = number; }, value);
   write_whole(directory / "summary.json", summary.dump(2) + "\n");
 }
 
@@ -72,10 +84,14 @@ std::optional<SummaryLines> read_summary(const fs::path& directory) {
   const auto summary = nlohmann::ordered_json::parse(*text, nullptr, false);
   if (!summary.is_object()) return std::nullopt;
   SummaryLines lines;
-  for (const auto& [name, value] : summary.items())
-    lines.emplace_back(name, value.is_number_float() ? tables::rounded_text(value.get<double>(), 6)
-                             : value.is_string()     ? value.get<std::string>()
-                                                     : value.dump());
+  for (const auto& [name, value] : summary.items()) {
+    if (value.is_object()) {
+      for (const auto& [part, number] : value.items())
+        lines.emplace_back(name + "." + part, text_of(number));
+    } else {
+      lines.emplace_back(name, text_of(value));
+    }
+  }
   return lines;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/profile.hpp>
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::dem {
@@ -23,6 +24,7 @@ struct RunCost {
   std::int64_t cycles = 0;          ///< of this process
   double listed_pair_cycles = 0.0;  ///< sum over this run's cycles of the pairs listed
   int threads = 1;
+  std::optional<Profile> profile;  ///< of the cycles of this process
 };
 
 /// Of the run whose history is in the directory.

@@ -333,10 +333,63 @@ TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
 
 // Interrupted in the middle, then resumed in its own directory: every file is as if
 // the run had gone through.
+// A run that has frames already keeps them, up to where it goes on.
+TEST(RunCommand, WithoutAFrameIntervalWritesNoFrames) {
+  const TemporaryFolder folder;
+  const std::string without = folder.write(
+      "without.toml", with(small_scene(), "frame_interval = 1000000", "frame_interval = 0"));
+  const std::string with_frames = folder.write("with.toml", small_scene());
+  const std::string out = folder.path("out");
+  const auto has = [&](const char* name) { return std::filesystem::exists(out + "/" + name); };
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--out", out, "--quiet"});
+    const Finished finished = run_tool(arguments);
+    ASSERT_EQ(finished.status, 0) << finished.err;
+  };
+  run({without});
+  for (const char* name : {"frames", "frames.pvd", "frames.xyz", "frames.xyz.part"})
+    EXPECT_FALSE(has(name)) << name;
+  EXPECT_TRUE(has("final.state"));
+
+  run({with_frames, "--replace"});
+  const std::string pvd = read_file(out + "/frames.pvd"), xyz = read_file(out + "/frames.xyz");
+  run({without, "--resume", out + "/final.state"});
+  EXPECT_EQ(read_file(out + "/frames.pvd"), pvd);
+  EXPECT_EQ(read_file(out + "/frames.xyz"), xyz);
+
+  run({without, "--replace"});
+  for (const char* name : {"frames", "frames.pvd", "frames.xyz", "frames.xyz.part"})
+    EXPECT_FALSE(has(name)) << name;
+}
+
+// Where there are hard links the end's state takes room once; the next run's is another file.
+TEST(RunCommand, EndsWithOneStateUnderTwoNames) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", small_scene()), out = folder.path("out");
+  const std::string final_state = out + "/final.state", checkpoint = out + "/checkpoint.state";
+  const std::string kept = folder.path("kept.state");
+  ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
+  std::filesystem::create_hard_link(final_state, kept);
+  EXPECT_TRUE(std::filesystem::equivalent(final_state, checkpoint));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"kept.state", "out", "scene.toml"}));
+  EXPECT_FALSE(std::filesystem::exists(final_state + ".part"));
+  const std::string bytes = read_file(kept);
+
+  const std::string longer =
+      folder.write("longer.toml", small_scene() +
+                                      "[[stage]]\nkind = \"relax\"\nmean_stress = 11e6\n"
+                                      "max_strain_rate = 0.05\n");
+  ASSERT_EQ(run_tool({"run", longer, "--out", out, "--quiet", "--resume", final_state}).status, 0);
+  EXPECT_TRUE(read_file(kept) == bytes) << "no state is written in its place";
+  EXPECT_FALSE(std::filesystem::equivalent(final_state, kept));
+  EXPECT_TRUE(std::filesystem::equivalent(final_state, checkpoint));
+}
+
 TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
   const TemporaryFolder folder;
   const std::string text =
-      with(with(small_scene(), "count = 27", "count = 125"), "frame_interval = 0",
+      with(with(small_scene(), "count = 27", "count = 125"), "frame_interval = 1000000",
            "frame_interval = 300\ncheckpoint_interval = 350");
   const std::string scene = folder.write("scene.toml", text);
   const std::string whole = folder.path("whole"), halves = folder.path("halves");

@@ -42,7 +42,7 @@ TEST(Scene, IsReadWithItsValuesAndDefaults) {
   EXPECT_FALSE(scene.stages[1].drive->max_unbalanced_ratio);
   EXPECT_EQ(scene.stages[2].drive->max_unbalanced_ratio, 0.005);
   EXPECT_EQ(scene.stages[2].name, "relax");
-  EXPECT_EQ(scene.output.frame, 0);
+  EXPECT_EQ(scene.output.frame, 1000000);
 }
 
 TEST(Scene, MayHaveALawForEveryTwoTypes) {

@@ -32,7 +32,7 @@ inline std::string small_scene() {
          "mean_stress = 10e6\n"
          "max_strain_rate = 0.05\n"
          "[output]\n"
-         "frame_interval = 0\n";
+         "frame_interval = 1000000\n";
 }
 
 /// Disks or spheres of two sizes, put down at random, compacted, grown to an elongation of 1.2 and
@@ -75,7 +75,7 @@ inline std::string growing_scene(int dimensions) {
          "friction_coefficient = 0.0\n" +
          motion +
          "[output]\n"
-         "frame_interval = 0\n";
+         "frame_interval = 1000000\n";
 }
 
 /// `text` with the first `before` replaced.

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <ios>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/stream_hash.hpp>
 #include <tangency/dem/whole_file.hpp>
 
 #include "../tool/process.hpp"
@@ -51,6 +59,85 @@ TEST(StateFile, ReadsBackToTheSameState) {
   EXPECT_EQ(read.list.pairs(), state.list.pairs());
   EXPECT_EQ(read.contacts.resultants().force, state.contacts.resultants().force);
   EXPECT_EQ(read.cycle, state.cycle);
+}
+
+/// Columns of more than one slice, which pass by their own way.
+const Simulation& large() {
+  static const Simulation simulation(
+      parse_scene("schema = 1\n[cell]\n[particles.grain]\ncount = 24000\nmean_radius = 1.0\n"
+                  "[contact]\nnormal_stiffness = 1e6\n[[stage]]\nkind = \"place\"\n"
+                  "[[stage]]\nkind = \"compress\"\nmean_stress = 1e3\nmax_strain_rate = 0.01\n",
+                  "large.toml"));
+  return simulation;
+}
+
+TEST(StateFile, OfManySlicesReadsBackToTheSameStateAlsoFromAPipe) {
+  const TemporaryFolder folder;
+  const State& state = large().state();
+  ASSERT_GT(state.particles.size() * sizeof(tangency::Vec3), std::size_t{1} << 19);
+  const std::string file = folder.path("a.state"),
+                    pipe = tangency::testing::make_pipe(folder.path("p"));
+  save_state(state, file);
+  const State read = load_state(file);
+  EXPECT_EQ(state_hash(read), state_hash(state));
+  EXPECT_EQ(read.particles.position, state.particles.position);
+  EXPECT_EQ(read.particles.id, state.particles.id);
+
+  const std::string bytes = read_whole(file).value();
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+  EXPECT_EQ(state_hash(load_state(pipe)), state_hash(state));
+  writer.join();
+}
+
+// The hash of the file is that of the state, and of its bytes alone.
+TEST(StateFile, EndsWithTheHashOfItsBytes) {
+  const TemporaryFolder folder;
+  for (const Simulation* simulation : {&half_way(), &large()}) {
+    save_state(simulation->state(), folder.path("a.state"));
+    const std::string bytes = read_whole(folder.path("a.state")).value();
+    StreamHash hash;
+    for (std::size_t at = 12; at < bytes.size() - 8; at += 1000)
+      hash.add(bytes.data() + at, std::min<std::size_t>(1000, bytes.size() - 8 - at));
+    std::uint64_t stored = 0;
+    std::memcpy(&stored, bytes.data() + bytes.size() - 8, 8);
+    EXPECT_EQ(stored, hash.value());
+    EXPECT_EQ(std::stoull(state_hash(simulation->state()), nullptr, 16), stored);
+  }
+}
+
+// As `xxhsum -H3` prints them.
+TEST(StreamHash, IsXxh3) {
+  EXPECT_EQ(StreamHash().value(), 0x2d06800538d394c2u);
+  StreamHash hash;
+  hash.add("xxhash", 6);
+  EXPECT_EQ(hash.value(), 0xaa4c2b42ae6b13deu);
+}
+
+TEST(StateFile, WithATailOrADamageAnywhereIsRefused) {
+  const TemporaryFolder folder;
+  save_state(half_way().state(), folder.path("a.state"));
+  const std::string bytes = read_whole(folder.path("a.state")).value();
+  const auto refusal = [&](const std::string& changed) {
+    const std::string file = folder.write("c.state", changed), why = failure(file);
+    return why.starts_with(file + ": ") ? why.substr(file.size() + 2) : "";
+  };
+  // Lengths of columns, whatever they say, as well as numbers.
+  for (std::size_t at = 12; at < bytes.size(); at += 1 + at % 97) {
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ (at % 2 == 0 ? 0x80 : 0x01));
+    ASSERT_EQ(refusal(changed), "damaged: its hash is wrong") << "byte " << at;
+  }
+  for (const std::size_t size :
+       {std::size_t{12}, std::size_t{19}, std::size_t{20}, bytes.size() - 8, bytes.size() - 1})
+    EXPECT_EQ(refusal(bytes.substr(0, size)), "damaged: its hash is wrong") << size;
+  EXPECT_EQ(refusal(bytes + "12345678"), "damaged: its hash is wrong");
+  // One with the right hash and more than a state in it.
+  std::string more = bytes.substr(0, bytes.size() - 8) + std::string(9, '\0');
+  StreamHash hash;
+  hash.add(more.data() + 12, more.size() - 12);
+  const std::uint64_t value = hash.value();
+  more.append(reinterpret_cast<const char*>(&value), sizeof value);
+  EXPECT_EQ(refusal(more), "damaged: it is not a whole state");
 }
 
 TEST(StateFile, HashSeesTheLastBitOfAnyNumber) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/dem/particle_lanes.hpp>
+#include <tangency/dem/particle_columns.hpp>
 
 #include <vector>
 
