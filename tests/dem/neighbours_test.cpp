@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -333,6 +334,22 @@ TEST(NeighbourList, OfSmallParticlesBesideALargeOneIsThatOfTheSmallOnesAlone) {
   std::erase_if(small, [](const Pair& pair) { return pair.b == 500; });
   ASSERT_GT(alone.pairs().size(), 10u);
   EXPECT_EQ(small, alone.pairs());
+}
+
+// Of so many particles that several threads have something to do.
+TEST(NeighbourList, IsTheSameAtEveryThreadCount) {
+  const Cell cell = cell_of({20.0, 22.0, 21.0});
+  const Particles particles = crowd(5000, cell, 31);
+  const int before = omp_get_max_threads();
+  std::vector<NeighbourList> lists(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    omp_set_num_threads(k == 0 ? 1 : k == 1 ? 2 : 5);
+    lists[k].build(particles, cell, 0.1);
+  }
+  omp_set_num_threads(before);
+  ASSERT_GT(lists[0].pairs().size(), 5000u);
+  EXPECT_EQ(lists[1].pairs(), lists[0].pairs());
+  EXPECT_EQ(lists[2].pairs(), lists[0].pairs());
 }
 
 TEST(NeighbourList, SlackOfPartsIsThatOfTheWhole) {

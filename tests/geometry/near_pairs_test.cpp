@@ -103,6 +103,7 @@ Mat3 skewed(double xy, double yz, double zx) {
   return edges;
 }
 
+// geometry/near_pairs.hpp (1) (2)
 TEST(NearPairs, AreAllThatMeetForSizesFrom1To50) {
   Draw draw(kSeed);
   for (const double ratio : {1.0, 2.0, 5.0, 20.0, 50.0}) {
@@ -112,6 +113,7 @@ TEST(NearPairs, AreAllThatMeetForSizesFrom1To50) {
   }
 }
 
+// geometry/near_pairs.hpp (3)
 TEST(NearPairs, AreAllThatMeetInSkewedCells) {
   Draw draw(kSeed + 1);
   for (const Mat3& edges : {skewed(3.0, -2.0, 4.0), skewed(-30.0, 5.0, 17.0),
@@ -128,6 +130,7 @@ TEST(NearPairs, AreAllThatMeetInATurnedCell) {
   expect_all_and_no_others(balls(draw, 150, edges, 0.3, 5.0), {edges}, 50);
 }
 
+// geometry/near_pairs.hpp (3)
 TEST(NearPairs, HoldOwnImagesInCellsSmallerThanABall) {
   Draw draw(kSeed + 3);
   for (const std::size_t count : {1u, 2u, 7u}) {
@@ -141,6 +144,7 @@ TEST(NearPairs, HoldOwnImagesInCellsSmallerThanABall) {
   }
 }
 
+// geometry/near_pairs.hpp (3)
 TEST(NearPairs, HaveNoImagesAlongOpenAxes) {
   Draw draw(kSeed + 4);
   for (unsigned bits = 0; bits < 8; ++bits) {
@@ -200,6 +204,8 @@ TEST(NearPairs, OfBallsThatJustTouchAreListed) {
 }
 
 // 4 L - 1 is exact for L in [6, 7), and 3 L, which takes it into the cell, is not.
+
+// geometry/near_pairs.hpp (1)
 TEST(NearPairs, OfBallsThatJustTouchAreListedWhateverRounds) {
   Draw draw(kSeed + 9);
   const std::vector<double> halves(2, 0.5);
@@ -233,7 +239,7 @@ TEST(NearPairs, OfPointsAreThoseThatCoincide) {
   EXPECT_TRUE(near_pairs(std::span(points).first(1), std::span(none).first(1)).empty());
 }
 
-// (4)
+// geometry/near_pairs.hpp (4)
 TEST(NearPairs, DoNotDependOnTheDivisionOfTheSearch) {
   Draw draw(kSeed + 8);
   const Mat3 edges = 20.0 * Mat3::Identity();
