@@ -22,6 +22,7 @@
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/pencil.hpp>
@@ -234,6 +235,15 @@ void add_batches(const Input& in, Bits& bits) {
     follow_gaps(array, {pairs, separations}, normals, gaps, accuracy);
     bits.add(gaps[0], gaps[1]);
   }
+  const std::array axes{pair.a.semi_axes(), pair.b.semi_axes()};
+  const std::array turns{pair.a.orientation(), pair.b.orientation()};
+  const MovingBodies moving(axes, turns);
+  const std::array starts{in.normal, Vec3(Vec3::Zero())};  // one followed, one asked afresh
+  std::array<double, 2> gap, gap_error;
+  std::array<Vec3, 2> normal;
+  const GapColumns columns{gap, gap_error, normal, {}, {}, {}};
+  follow_gaps(moving, {pairs, separations}, starts, columns);
+  bits.add(gap[0], gap[1], gap_error[0], gap_error[1], normal[0], normal[1]);
   std::array<GapDerivatives, 2> derivatives;
   gap_derivatives(array, {pairs, separations}, gaps, derivatives);
   bits.add(derivatives[0].gradient, derivatives[1].status);
