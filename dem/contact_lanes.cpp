@@ -25,7 +25,6 @@ using dem::ContactState;
 constexpr double kSameBranchCosine = 0.9;
 
 HWY_INLINE Pack load(const double* from) { return {hn::LoadU(D(), from)}; }
-HWY_INLINE double sum_of(const Pack& p) { return hn::GetLane(hn::SumOfLanes(D(), p.low)); }
 /// p where yes, else 0.
 HWY_INLINE Pack only(const PackMask& yes, const Pack& p) {
   return {hn::IfThenElseZero(yes.low, p.low)};
@@ -56,32 +55,51 @@ struct PackTurn {
   }
 };
 
-/// Sums of lanes, over the packs of a block.
+/// What the pairs of a pack give to the sums of their block.
 struct PackSums {
   PackVec3 column[3];  ///< of force times branch', column by column
   Pack affine, length, energy, contacts;
   Pack sliding, boundary, branch;
+};
 
-  HWY_INLINE PackSums() {
-    const Pack none = all(0.0);
-    for (PackVec3& one : column) one = {none, none, none};
-    affine = length = energy = contacts = sliding = boundary = branch = none;
+/// Sums over a block. Pair k is added to place k modulo kPlaces of each, and the places at the end
+/// one after the other: in this order whatever the number of lanes.
+class BlockSum {
+ public:
+  HWY_INLINE void add(const PackSums& pack, std::size_t i) {
+    const std::size_t place = i % kPlaces;
+    double(*to)[kPlaces] = sums_;
+    const auto add_one = [&](const Pack& p) HWY_ATTR {
+      double* const at = *to++ + place;
+      store(load(at) + p, at);
+    };
+    for (const PackVec3& one : pack.column) {
+      add_one(one.x);
+      add_one(one.y);
+      add_one(one.z);
+    }
+    add_one(pack.affine);
+    add_one(pack.length);
+    add_one(pack.energy);
+    add_one(pack.contacts);
+    add_one(pack.sliding);
+    add_one(pack.boundary);
+    add_one(pack.branch);
   }
 
   HWY_INLINE void write(dem::BlockSums& to) const {
-    for (int k = 0; k < 3; ++k) {
-      to.force_branch[3 * k] = sum_of(column[k].x);
-      to.force_branch[3 * k + 1] = sum_of(column[k].y);
-      to.force_branch[3 * k + 2] = sum_of(column[k].z);
+    double* const numbers = to.force_branch;
+    for (std::size_t k = 0; k < kNumbers; ++k) {
+      double sum = 0.0;
+      for (const double place : sums_[k]) sum += place;
+      numbers[k] = sum;
     }
-    to.affine_stiffness = sum_of(affine);
-    to.force_length = sum_of(length);
-    to.energy = sum_of(energy);
-    to.contacts = sum_of(contacts);
-    to.sliding = sum_of(sliding);
-    to.boundary = sum_of(boundary);
-    to.branch = sum_of(branch);
   }
+
+ private:
+  static constexpr std::size_t kPlaces = 8, kNumbers = 16;
+  static_assert(sizeof(dem::BlockSums) == kNumbers * sizeof(double));
+  double sums_[kNumbers][kPlaces] = {};
 };
 
 /// Pairs as they are after a step.
@@ -95,20 +113,20 @@ HWY_INLINE PackVec3 force_of(const PackContact& contact) {
   return multiply_add(contact.normal_force, contact.normal, contact.shear);
 }
 
-/// What the bodies get, and the block's sums.
+/// What the bodies get, and what the sums over contacts do.
 HWY_INLINE void add_up(const PackContact& contact, const PackVec3& force, const ContactBlock& block,
                        std::size_t i, PackSums& sums) {
   store(force, block.force + 3 * i);
   store(cross(force, contact.arm), block.moment_a + 3 * i);
   store(cross(contact.arm - contact.branch, force), block.moment_b + 3 * i);
-  sums.column[0] = multiply_add(contact.branch.x, force, sums.column[0]);
-  sums.column[1] = multiply_add(contact.branch.y, force, sums.column[1]);
-  sums.column[2] = multiply_add(contact.branch.z, force, sums.column[2]);
+  sums.column[0] = force * contact.branch.x;
+  sums.column[1] = force * contact.branch.y;
+  sums.column[2] = force * contact.branch.z;
   const Pack along = dot(contact.normal, contact.branch);
-  sums.affine = multiply_add(contact.stiffness * along, along, sums.affine);
-  sums.length = sums.length + root(dot(force, force));
-  sums.energy = sums.energy + contact.energy;
-  sums.contacts = sums.contacts + only(contact.touches, all(1.0));
+  sums.affine = contact.stiffness * along * along;
+  sums.length = root(dot(force, force));
+  sums.energy = contact.energy;
+  sums.contacts = only(contact.touches, all(1.0));
 }
 
 struct PackMotion {
@@ -214,7 +232,7 @@ HWY_INLINE Pack gained_by_curvature(const Pack& overlap_before, const Pack& ener
 
 /// One step of the pairs from i on.
 template <bool hertz, bool shear>
-HWY_INLINE void step(const ContactBlock& block, std::size_t i, PackSums& sums) {
+HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_sum) {
   const ContactState& state = block.state;
   const Pack zero = all(0.0), half = all(0.5), gap = load(block.gap + i);
   const Pack overlap_before = load(state.overlap + i);
@@ -288,10 +306,11 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, PackSums& sums) {
   }
 
   const PackVec3 force = force_of(now);
+  PackSums sums;
   add_up(now, force, block, i, sums);
   const PackVec3 mean_force = (force_before + force) * half;
-  sums.sliding = sums.sliding + sliding;
-  sums.boundary = sums.boundary - dot(mean_force, strained);
+  sums.sliding = sliding;
+  sums.boundary = -dot(mean_force, strained);
   const PackMask both = touches & touched;
   const PackMask elsewhere = both & (dot(normal_before, normal) < all(kSameBranchCosine));
   const Pack gained = ((now.energy - energy_before) + sliding) + dot(mean_force, moved);
@@ -301,7 +320,8 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, PackSums& sums) {
                                      gained_by_curvature(overlap_before, normal_energy_before,
                                                          overlap, normal_energy));
   }
-  sums.branch = sums.branch + branch_work;
+  sums.branch = branch_work;
+  block_sum.add(sums, i);
 
   store(normal, state.normal + 3 * i);
   store(branch, state.branch + 3 * i);
@@ -314,9 +334,9 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, PackSums& sums) {
 
 template <bool hertz, bool shear>
 HWY_INLINE void steps(const ContactBlock& block) {
-  PackSums sums;
-  for (std::size_t i = 0; i < block.count; i += pack_lanes()) step<hertz, shear>(block, i, sums);
-  sums.write(*block.sums);
+  BlockSum sum;
+  for (std::size_t i = 0; i < block.count; i += pack_lanes()) step<hertz, shear>(block, i, sum);
+  sum.write(*block.sums);
 }
 
 HWY_ATTR void contact_lanes(const ContactBlock& block) {
@@ -328,8 +348,10 @@ HWY_ATTR void contact_lanes(const ContactBlock& block) {
 
 HWY_ATTR void restored_lanes(const ContactBlock& block) {
   const ContactState& state = block.state;
-  PackSums sums;
+  BlockSum sum;
   for (std::size_t i = 0; i < block.count; i += pack_lanes()) {
+    PackSums sums;
+    sums.sliding = sums.boundary = sums.branch = all(0.0);
     const PackContact contact{load(state.overlap + i) > all(0.0),
                               load_vectors(state.normal + 3 * i),
                               load_vectors(state.branch + 3 * i),
@@ -339,8 +361,9 @@ HWY_ATTR void restored_lanes(const ContactBlock& block) {
                               load(state.normal_stiffness + i),
                               load(state.normal_energy + i) + load(state.shear_energy + i)};
     add_up(contact, force_of(contact), block, i, sums);
+    sum.add(sums, i);
   }
-  sums.write(*block.sums);
+  sum.write(*block.sums);
 }
 
 HWY_ATTR void sphere_lanes(std::size_t count, const double* radius_a, const double* radius_b,

@@ -6,8 +6,8 @@
 /// functions that own nothing. The instruction set is chosen when the program runs.
 ///
 /// (1) To the bit, a pair's results do not depend on its neighbours in the block or on its place
-///     there. The sums are added up lane by lane: their last bits depend on the instruction set, as
-///     those of results do.
+///     there, and those of the sums not on the number of lanes. Last bits depend on whether the
+///     instruction set has fused multiply-adds, as those of the gaps do.
 /// (2) A pair that does not touch, and did not before, gets zeros and keeps its normal.
 #pragma once
 

@@ -67,7 +67,7 @@ void require_same_particles(const State& state, const Scene& scene) {
   for (std::size_t k = 0; k < types.size(); ++k)
     require_equal("particles." + types[k].name + ".count", static_cast<double>(counts[k]),
                   static_cast<double>(types[k].batch.count));
-  for (std::size_t i = 0; i < particles.size(); ++i) {
+  for (const std::uint32_t i : particles.index_of_id()) {
     const auto type = static_cast<std::size_t>(particles.type[i]);
     const auto& [name, batch] = types[type];
     const Shape shape = scene.shape_in(type, state.stage, state.increments);
