@@ -12,12 +12,10 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/geometry/tables/descriptor.hpp>
+
 namespace tangency::dem {
 namespace {
-
-tables::Descriptor opened(const std::filesystem::path& file, int how) noexcept {
-  return tables::Descriptor(::open(file.c_str(), how | O_CLOEXEC, 0666));
-}
 
 std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
@@ -29,7 +27,7 @@ FileError::FileError(const std::filesystem::path& file, const char* done, int pr
       problem_(problem) {}
 
 std::string bytes_of_file(const std::filesystem::path& file) {
-  const tables::Descriptor in = opened(file, O_RDONLY);
+  const tables::Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (!in.is_open()) throw ReadError(file, errno);
   std::string bytes;
   std::array<char, 1 << 16> some;
@@ -53,9 +51,11 @@ void write_all(int file, std::string_view bytes, const std::filesystem::path& na
   if (!tables::write_all(file, bytes)) throw WriteError(name, errno);
 }
 
-WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)), part_(part_of(file_)) {
-  out_ = opened(part_, O_WRONLY | O_CREAT | O_TRUNC);
-  if (out_.is_open()) return;
+WholeFile::WholeFile(std::filesystem::path file)
+    : file_(std::move(file)),
+      part_(part_of(file_)),
+      out_(::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (out_ >= 0) return;
   const int problem = errno;
   std::error_code error;
   std::filesystem::remove(part_, error);
@@ -63,15 +63,21 @@ WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)), part_
 }
 
 WholeFile::~WholeFile() {
+  if (out_ < 0) return;
+  ::close(out_);
   std::error_code error;
-  if (!published_) std::filesystem::remove(part_, error);
+  std::filesystem::remove(part_, error);
 }
 
-void WholeFile::write(std::string_view bytes) { write_all(out_.get(), bytes, file_); }
+void WholeFile::write(std::string_view bytes) { write_all(out_, bytes, file_); }
 
 void WholeFile::publish() {
-  if (!out_.close() || ::rename(part_.c_str(), file_.c_str()) != 0) throw WriteError(file_, errno);
-  published_ = true;
+  const bool closed = ::close(std::exchange(out_, -1)) == 0;
+  if (closed && ::rename(part_.c_str(), file_.c_str()) == 0) return;
+  const int problem = errno;
+  std::error_code error;
+  std::filesystem::remove(part_, error);
+  throw WriteError(file_, problem);
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view bytes) {

@@ -10,8 +10,6 @@
 #include <string>
 #include <string_view>
 
-#include <tangency/geometry/tables/descriptor.hpp>
-
 namespace tangency::dem {
 
 /// A file that cannot be read or written; what() is one line that starts with its name and ends
@@ -61,8 +59,7 @@ class WholeFile {
 
  private:
   std::filesystem::path file_, part_;
-  tables::Descriptor out_;
-  bool published_ = false;
+  int out_ = -1;  ///< open until published
 };
 
 /// The same of bytes that are there.

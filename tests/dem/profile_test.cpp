@@ -83,6 +83,7 @@ TEST(Profile, OfARunIsPrintedAndInItsSummary) {
   EXPECT_NE(run.out.find("\nmotion "), run.out.npos) << run.out;
   EXPECT_NE(run.out.find("\npeak memory, MB "), run.out.npos) << run.out;
   const auto summary = summary_of();
+  ASSERT_TRUE(summary.contains("profile"));
   EXPECT_EQ(summary["profile"]["cycles"], summary["cycles"]);
   EXPECT_GT(summary["profile"]["motion_seconds"].get<double>(), 0.0);
   EXPECT_GT(summary["profile"]["peak_memory_bytes"].get<double>(), 1e6);

@@ -65,14 +65,14 @@ nlohmann::json summary_of(const std::string& scene, const std::string& out, bool
   return nlohmann::json::parse(read_file(out + "/summary.json"));
 }
 
-// Random places and orientations, a shape by its cube roots, a shear to a strain: all that a libm
-// had a part in.
+// Random places and orientations, of particles enough that some sines of two versions differ; a
+// shape by its cube roots, and a shear to a strain: all that a libm could have a part in.
 TEST(Reproducible, RunsOfTheToolHaveOneHashWhateverTheLibrarysFunctionsAre) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", R"(schema = 1
 [cell]
 [particles.grain]
-count = 64
+count = 12000
 mean_radius = 10.0
 elongation = 1.4
 flatness = 1.3
@@ -83,14 +83,12 @@ friction_coefficient = 0.5
 kind = "place"
 arrangement = "random"
 [[stage]]
-kind = "compress"
-mean_stress = 50e6
-max_strain_rate = 2.0
-[[stage]]
 kind = "shear"
 mean_stress = 50e6
-axial_strain = 0.02
-axial_strain_rate = 0.5
+axial_strain = 0.002
+axial_strain_rate = 5.0
+[output]
+frame_interval = 0
 )");
   const auto run = [&](bool plain_glibc, std::vector<std::string> more) {
     return summary_of(scene, folder.path("out"), plain_glibc, std::move(more));
@@ -102,8 +100,7 @@ axial_strain_rate = 0.5
   const auto fast = run(false, {});
   EXPECT_EQ(fast["reproducible"], false);
   EXPECT_EQ(fast["instruction_set"], dem::instruction_set());
-  EXPECT_EQ(fast["cycles"].get<int>() / 100, here["cycles"].get<int>() / 100)
-      << "the same but for roundings";
+  EXPECT_EQ(fast["cycles"], here["cycles"]) << "the same but for roundings";
 }
 
 }  // namespace
