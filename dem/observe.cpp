@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include <tangency/dem/chunks.hpp>
-
 #include <tangency/dem/motion.hpp>
 
 namespace tangency::dem {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 
 #include "assembly.hpp"
@@ -340,13 +340,12 @@ TEST(NeighbourList, OfSmallParticlesBesideALargeOneIsThatOfTheSmallOnesAlone) {
 TEST(NeighbourList, IsTheSameAtEveryThreadCount) {
   const Cell cell = cell_of({20.0, 22.0, 21.0});
   const Particles particles = crowd(5000, cell, 31);
-  const int before = omp_get_max_threads();
   std::vector<NeighbourList> lists(3);
   for (std::size_t k = 0; k < 3; ++k) {
-    omp_set_num_threads(k == 0 ? 1 : k == 1 ? 2 : 5);
+    set_threads(k == 0 ? 1 : k == 1 ? 2 : 5);
     lists[k].build(particles, cell, 0.1);
   }
-  omp_set_num_threads(before);
+  set_threads(0);
   ASSERT_GT(lists[0].pairs().size(), 5000u);
   EXPECT_EQ(lists[1].pairs(), lists[0].pairs());
   EXPECT_EQ(lists[2].pairs(), lists[0].pairs());
