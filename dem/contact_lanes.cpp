@@ -58,20 +58,23 @@ struct PackTurn {
 /// What the pairs of a pack give to the sums of their block.
 struct PackSums {
   PackVec3 column[3];  ///< of force times branch', column by column
-  Pack affine, length, energy, contacts;
-  Pack sliding, boundary, branch;
+  Pack affine, sliding, boundary, branch;
 };
 
 /// Sums over a block. Pair k is added to place k modulo kPlaces of each, and the places at the end
-/// one after the other: in this order whatever the number of lanes.
+/// by halves: in this order whatever the number of lanes.
 class BlockSum {
  public:
+  HWY_INLINE BlockSum() {
+    for (auto& number : sums_)
+      for (double& place : number) place = 0.0;
+  }
+
   HWY_INLINE void add(const PackSums& pack, std::size_t i) {
-    const std::size_t place = i % kPlaces;
-    double(*to)[kPlaces] = sums_;
+    double* to = &sums_[0][i % kPlaces];
     const auto add_one = [&](const Pack& p) HWY_ATTR {
-      double* const at = *to++ + place;
-      store(load(at) + p, at);
+      store(load(to) + p, to);
+      to += kPlaces;
     };
     for (const PackVec3& one : pack.column) {
       add_one(one.x);
@@ -79,9 +82,6 @@ class BlockSum {
       add_one(one.z);
     }
     add_one(pack.affine);
-    add_one(pack.length);
-    add_one(pack.energy);
-    add_one(pack.contacts);
     add_one(pack.sliding);
     add_one(pack.boundary);
     add_one(pack.branch);
@@ -90,23 +90,21 @@ class BlockSum {
   HWY_INLINE void write(dem::BlockSums& to) const {
     double* const numbers = to.force_branch;
     for (std::size_t k = 0; k < kNumbers; ++k) {
-      double sum = 0.0;
-      for (const double place : sums_[k]) sum += place;
-      numbers[k] = sum;
+      const double* const s = sums_[k];
+      numbers[k] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
     }
   }
 
  private:
-  static constexpr std::size_t kPlaces = 8, kNumbers = 16;
+  static constexpr std::size_t kPlaces = 8, kNumbers = 13;
   static_assert(sizeof(dem::BlockSums) == kNumbers * sizeof(double));
-  double sums_[kNumbers][kPlaces] = {};
+  HWY_ALIGN double sums_[kNumbers][kPlaces];
 };
 
 /// Pairs as they are after a step.
 struct PackContact {
-  PackMask touches;
   PackVec3 normal, branch, arm, shear;
-  Pack normal_force, stiffness, energy;  ///< 0 of pairs apart, as shear is
+  Pack normal_force, stiffness;  ///< 0 of pairs apart, as shear is
 };
 
 HWY_INLINE PackVec3 force_of(const PackContact& contact) {
@@ -124,9 +122,6 @@ HWY_INLINE void add_up(const PackContact& contact, const PackVec3& force, const 
   sums.column[2] = force * contact.branch.z;
   const Pack along = dot(contact.normal, contact.branch);
   sums.affine = contact.stiffness * along * along;
-  sums.length = root(dot(force, force));
-  sums.energy = contact.energy;
-  sums.contacts = only(contact.touches, all(1.0));
 }
 
 struct PackMotion {
@@ -159,15 +154,16 @@ struct PackShearStiffness;
 
 template <>
 struct PackShearStiffness<false> {
-  Pack stiffness;
+  Pack stiffness, half_compliance;
 
   HWY_INLINE PackShearStiffness(const ContactBlock& block, std::size_t i)
-      : stiffness(load(block.law.shear_stiffness + i)) {}
+      : stiffness(load(block.law.shear_stiffness + i)),
+        half_compliance(load(block.law.half_compliance + i)) {}
   HWY_INLINE Pack largest() const { return stiffness; }
   HWY_INLINE PackVec3 times(const PackVec3& v) const { return v * stiffness; }
   /// Energy stored at a force.
   HWY_INLINE Pack energy(const PackVec3& force) const {
-    return all(0.5) * dot(force, force) / stiffness;
+    return dot(force, force) * half_compliance;
   }
 };
 
@@ -267,21 +263,21 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
       relative_velocity(block, i, (from_arm + arm) * half, (from_branch + branch) * half),
       strained);
 
-  PackContact now{touches, normal, branch, arm, no_force, {}, {}, {}};
+  PackContact now{normal, branch, arm, no_force, {}, {}};
   const Pack overlap = only(touches, -gap);
+  Pack normal_energy;
   if constexpr (hertz) {
     now.normal_force = only(touches, load(block.hertz->force + i));
     now.stiffness = only(touches, load(block.hertz->stiffness + i));
-    now.energy = only(touches, load(block.hertz->energy + i));
+    normal_energy = only(touches, load(block.hertz->energy + i));
   } else {
     now.stiffness = only(touches, load(block.law.normal_stiffness + i));
     now.normal_force = now.stiffness * overlap;
-    now.energy = half * now.normal_force * overlap;
+    normal_energy = half * now.normal_force * overlap;
   }
   const Pack normal_energy_before = load(state.normal_energy + i);
-  const Pack normal_energy = now.energy;
   PackVec3 force_before = normal_before * load(state.normal_force + i);
-  Pack energy_before = normal_energy_before;
+  Pack energy = normal_energy, energy_before = normal_energy_before;
   Pack sliding = zero;
   if constexpr (shear) {
     const PackVec3 shear_before = load_vectors(state.shear_force + 3 * i);
@@ -298,7 +294,7 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
                             (load(block.law.cohesion + i) > zero));
     now.shear = only(bears, after.force);
     const Pack shear_energy = only(bears, after.energy);
-    now.energy = now.energy + shear_energy;
+    energy = energy + shear_energy;
     sliding = chosen(bears, after.sliding, shear_energy_before);  // of a spring that is let go
     store(now.shear, state.shear_force + 3 * i);
     store(only(bears, after.stiffness), state.shear_stiffness + i);
@@ -313,7 +309,7 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
   sums.boundary = -dot(mean_force, strained);
   const PackMask both = touches & touched;
   const PackMask elsewhere = both & (dot(normal_before, normal) < all(kSameBranchCosine));
-  const Pack gained = ((now.energy - energy_before) + sliding) + dot(mean_force, moved);
+  const Pack gained = ((energy - energy_before) + sliding) + dot(mean_force, moved);
   Pack branch_work = only(elsewhere, gained);
   if constexpr (hertz) {
     branch_work = branch_work + only(without(both, elsewhere),
@@ -352,14 +348,12 @@ HWY_ATTR void restored_lanes(const ContactBlock& block) {
   for (std::size_t i = 0; i < block.count; i += pack_lanes()) {
     PackSums sums;
     sums.sliding = sums.boundary = sums.branch = all(0.0);
-    const PackContact contact{load(state.overlap + i) > all(0.0),
-                              load_vectors(state.normal + 3 * i),
+    const PackContact contact{load_vectors(state.normal + 3 * i),
                               load_vectors(state.branch + 3 * i),
                               load_vectors(state.arm + 3 * i),
                               load_vectors(state.shear_force + 3 * i),
                               load(state.normal_force + i),
-                              load(state.normal_stiffness + i),
-                              load(state.normal_energy + i) + load(state.shear_energy + i)};
+                              load(state.normal_stiffness + i)};
     add_up(contact, force_of(contact), block, i, sums);
     sum.add(sums, i);
   }

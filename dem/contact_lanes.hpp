@@ -37,6 +37,7 @@ struct ContactState {
 /// The parameters of the law of each pair, as ContactLaw has them.
 struct LawColumns {
   const double *normal_stiffness, *shear_stiffness, *friction_coefficient, *cohesion;
+  const double* half_compliance;  ///< 1 / (2 shear_stiffness); finite where that is 0
 };
 
 /// What Hertz's law makes of each pair that touches (hertz_lanes.hpp); of the others finite.
@@ -48,7 +49,7 @@ struct HertzColumns {
 /// Sums over the contacts of a block, as the lanes write them (ContactSums, ContactWork).
 struct BlockSums {
   double force_branch[9];  ///< column after column
-  double affine_stiffness, force_length, energy, contacts;
+  double affine_stiffness;
   double sliding, boundary, branch;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Sums over the contacts of an assembly, which each update of them gives beside the forces.
+/// Sums over the contacts of an assembly.
 #pragma once
 
 #include <cstdint>
@@ -27,20 +27,25 @@ struct ContactWork {
   }
 };
 
-/// Over all pairs that touch.
+/// Over all pairs that touch: what the next step needs.
 struct ContactSums {
   Mat3 force_branch = Mat3::Zero();  ///< of force times branch': V times the stress, not symmetric
   double affine_stiffness = 0.0;     ///< of normal stiffness times (normal . branch)^2
-  double force_length = 0.0;         ///< of |force|
-  double energy = 0.0;               ///< stored, in normal and shear springs
-  std::int64_t contacts = 0;         ///< that there are
+};
 
-  ContactSums& operator+=(const ContactSums& other) {
-    force_branch += other.force_branch;
-    affine_stiffness += other.affine_stiffness;
-    force_length += other.force_length;
-    energy += other.energy;
+/// Over all pairs that touch: what is looked at now and then.
+struct ContactTotals {
+  std::int64_t contacts = 0;  ///< that there are
+  double force_length = 0.0;  ///< of |force|
+  double normal_force = 0.0, overlap = 0.0;
+  double energy = 0.0;  ///< stored, in normal and shear springs
+
+  ContactTotals& operator+=(const ContactTotals& other) {
     contacts += other.contacts;
+    force_length += other.force_length;
+    normal_force += other.normal_force;
+    overlap += other.overlap;
+    energy += other.energy;
     return *this;
   }
 };

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/chunks.hpp>
 #include <tangency/dem/hertz_lanes.hpp>
 #include <tangency/dem/parallel.hpp>
 
@@ -29,17 +30,22 @@ using BlockColumn = BlockGeometry::Column<T>;
 struct BlockLaws {
   BlockColumn<const ContactLaw*> law;
   BlockColumn<double> normal_stiffness, shear_stiffness, friction_coefficient, cohesion;
+  BlockColumn<double> half_compliance;
 
   BlockLaws(const ContactLaws& laws, const Particles& particles, const BlockGeometry& block) {
     const std::size_t walls = laws.types - 1;
     const auto type_of = [&](std::uint32_t body) {
       return body < particles.size() ? static_cast<std::size_t>(particles.type[body]) : walls;
     };
+    const ContactLaw* last = nullptr;
+    double compliance = 0.0;
     for (std::size_t k = 0; k < kPairBlock; ++k) {
       const ContactLaw& one =
           laws.types == 1 ? laws.law.front()
                           : laws.between(type_of(block.pairs[k].a), type_of(block.pairs[k].b));
-      law[k] = &one;
+      if (&one != last) compliance = one.bears_shear() ? 0.5 / one.shear_stiffness : 0.0;
+      law[k] = last = &one;
+      half_compliance[k] = compliance;
       normal_stiffness[k] = one.normal_stiffness;
       shear_stiffness[k] = one.shear_stiffness;
       friction_coefficient[k] = one.friction_coefficient;
@@ -49,7 +55,7 @@ struct BlockLaws {
 
   LawColumns columns() const {
     return {normal_stiffness.data(), shear_stiffness.data(), friction_coefficient.data(),
-            cohesion.data()};
+            cohesion.data(), half_compliance.data()};
   }
 };
 
@@ -240,14 +246,26 @@ ContactWork Contacts::add_up_blocks() {
   for (const BlockSums& block : block_sums_) {
     sums_.force_branch += Eigen::Map<const Mat3>(block.force_branch);
     sums_.affine_stiffness += block.affine_stiffness;
-    sums_.force_length += block.force_length;
-    sums_.energy += block.energy;
-    sums_.contacts += static_cast<std::int64_t>(block.contacts);
     work.sliding += block.sliding;
     work.boundary += block.boundary;
     work.branch += block.branch;
   }
   return work;
+}
+
+ContactTotals Contacts::totals() const {
+  return sum_by_chunks<ContactTotals>(count_, [&](std::size_t first, std::size_t last) {
+    ContactTotals some;
+    for (std::size_t k = first; k < last; ++k) {
+      if (!touches(k)) continue;
+      ++some.contacts;
+      some.force_length += force(k).norm();
+      some.normal_force += columns_.normal_force[k];
+      some.overlap += columns_.overlap[k];
+      some.energy += columns_.normal_energy[k] + columns_.shear_energy[k];
+    }
+    return some;
+  });
 }
 
 void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now) {

@@ -140,6 +140,7 @@ class Contacts {
 
   const Resultants& resultants() const { return resultants_; }
   const ContactSums& sums() const { return sums_; }
+  ContactTotals totals() const;
 
  private:
   struct Step;

@@ -81,9 +81,9 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
   balance.rattlers = all.rattlers;
   balance.largest_unbalanced_ratio = all.force;
   balance.largest_unbalanced_moment_ratio = all.moment;
-  const ContactSums& sums = contacts.sums();
-  if (sums.contacts == 0) return balance;
-  balance.mean_contact_force = sums.force_length / static_cast<double>(sums.contacts);
+  const ContactTotals totals = contacts.totals();
+  if (totals.contacts == 0) return balance;
+  balance.mean_contact_force = totals.force_length / static_cast<double>(totals.contacts);
   balance.inertial_fraction =
       all.sum / static_cast<double>(all.with_contacts) / balance.mean_contact_force;
   balance.largest_unbalanced_ratio /= balance.mean_contact_force;
@@ -130,14 +130,11 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.axial_strain = 0.0 - strain(axial, axial);  // not -0 of an unstrained cell
   seen.volumetric_strain = strain.trace();
   seen.stress = stress_of(contacts, cell);
-  seen.contacts = contacts.sums().contacts;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    seen.mean_normal_force += contacts.columns().normal_force[k];
-    seen.mean_overlap += contacts.columns().overlap[k];
-  }
+  const ContactTotals totals = contacts.totals();
+  seen.contacts = totals.contacts;
   if (seen.contacts > 0) {
-    seen.mean_normal_force /= static_cast<double>(seen.contacts);
-    seen.mean_overlap /= static_cast<double>(seen.contacts);
+    seen.mean_normal_force = totals.normal_force / static_cast<double>(seen.contacts);
+    seen.mean_overlap = totals.overlap / static_cast<double>(seen.contacts);
   }
   seen.coordination_number =
       2.0 * static_cast<double>(seen.contacts) / static_cast<double>(particles.size());
@@ -147,7 +144,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.porosity = 1.0 - solid / cell.volume();
   seen.balance = balance_of(particles, contacts, gravity);
   seen.kinetic_energy = kinetic_energy(particles);
-  seen.elastic_energy = contacts.sums().energy;
+  seen.elastic_energy = totals.energy;
   return seen;
 }
 

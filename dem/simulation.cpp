@@ -131,7 +131,7 @@ Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   next_stage();
   require_single_contacts();
   state_.energy = {};
-  state_.energy.start = kinetic_energy_now() + state_.contacts.sums().energy;
+  state_.energy.start = kinetic_energy_now() + state_.contacts.totals().energy;
 }
 
 Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(std::move(state)) {
@@ -341,7 +341,7 @@ void Simulation::grow() {
   least_ = least;
   ++state_.increments;
   Particles& particles = state_.particles;
-  const auto energy = [&] { return state_.contacts.sums().energy + kinetic_energy_now(); };
+  const auto energy = [&] { return state_.contacts.totals().energy + kinetic_energy_now(); };
   const double before = energy();
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.semi_axes[i] = axes[static_cast<std::size_t>(particles.type[i])];

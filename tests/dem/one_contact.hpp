@@ -22,6 +22,7 @@ struct ContactArrays {
   std::array<IndexedPair, kPairs> pairs;
   std::array<dem::MotionRow, 16> motion{};
   Numbers gap, normal_stiffness{}, shear_stiffness{}, friction_coefficient{}, cohesion{};
+  Numbers half_compliance{};
   Vectors normal, branch, arm;
   Numbers hertz_force{}, hertz_stiffness{}, hertz_energy{}, along{}, across{};
   Vectors direction;
@@ -46,6 +47,7 @@ struct ContactArrays {
     shear_stiffness[k] = law.shear_stiffness;
     friction_coefficient[k] = law.friction_coefficient;
     cohesion[k] = law.cohesion;
+    half_compliance[k] = law.shear_stiffness > 0.0 ? 0.5 / law.shear_stiffness : 0.0;
   }
   void set_hertz(std::size_t k, const dem::NormalResponse& response) {
     hertz_force[k] = response.force;
@@ -71,7 +73,7 @@ struct ContactArrays {
     block.branch = branch[0].data();
     block.arm = arm[0].data();
     block.law = {normal_stiffness.data(), shear_stiffness.data(), friction_coefficient.data(),
-                 cohesion.data()};
+                 cohesion.data(), half_compliance.data()};
     block.hertz = hertz ? &columns : nullptr;
     block.bears_shear = bears_shear;
     block.state = {normal_before[0].data(), branch_before[0].data(), arm_before[0].data(),

@@ -32,7 +32,7 @@ Moving relaxed_sample(const ContactLaw& law) {
   return made;
 }
 
-double energy_of(const Moving& sample) { return sample.contacts.sums().energy; }
+double energy_of(const Moving& sample) { return sample.contacts.totals().energy; }
 
 /// Brings the sample to rest in its cell, far enough that what is left does not show in its energy.
 void rest(Moving& sample, const ContactLaw& law) {
