@@ -9,7 +9,6 @@
 #include <fcntl.h>
 #include <hwy/targets.h>
 #include <nlohmann/json.hpp>
-#include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -30,6 +29,7 @@
 
 #include <tangency/bench/timing.hpp>
 #include <tangency/dem/observe.hpp>
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/body_table.hpp>
@@ -193,7 +193,7 @@ void run_up(Simulation& simulation) {
 
 int run(const fs::path& file, const std::string& level, int threads) {
   if (!level.empty()) use_level(level);
-  if (threads > 0) omp_set_num_threads(threads);
+  if (threads > 0) set_threads(threads);
   Json ready;
   const Times start = now();
   Scene scene = load_scene(file);
@@ -208,7 +208,7 @@ int run(const fs::path& file, const std::string& level, int threads) {
   ready["time_step"] = simulation.time_step();
   ready["largest_radius"] = largest_radius(simulation.state().particles);
   ready["level"] = name_of_level(hwy::SupportedAndGeneratedTargets().front());
-  ready["threads"] = omp_get_max_threads();
+  ready["threads"] = threads > 0 ? threads : tangency::dem::threads();
   std::cout << ready.dump() << std::endl;
   for (std::string line; std::getline(std::cin, line);)
     std::cout << answer_to(line, simulation).dump() << std::endl;
