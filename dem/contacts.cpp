@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,12 @@ static_assert(ContactBlock::kPairs == kPairBlock);
 
 /// Walls of a cell: their rows stand after those of the particles.
 constexpr std::size_t kWalls = 6;
+
+using BlockClock = std::chrono::steady_clock;
+
+double seconds_since(BlockClock::time_point start) {
+  return std::chrono::duration<double>(BlockClock::now() - start).count();
+}
 
 std::size_t blocks_of(std::size_t pairs) { return (pairs + kPairBlock - 1) / kPairBlock; }
 
@@ -159,22 +166,58 @@ struct Contacts::Step {
   bool bears_shear, hertz;
 };
 
+/// What a block took, in seconds, and how many gaps took more than the fast tier.
+struct Contacts::BlockTimes {
+  double gaps = 0.0, law = 0.0;
+  std::int64_t slow = 0;
+
+  BlockTimes& operator+=(const BlockTimes& other) {
+    gaps += other.gaps;
+    law += other.law;
+    slow += other.slow;
+    return *this;
+  }
+};
+
 ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              const NeighbourList& list, const ContactLaws& laws, double dt,
-                             Branch branch) {
+                             Branch branch, Profile* profile) {
   const bool bear_shear = laws.bear_shear();
   const Step step{particles, cell,   list.pairs(),
                   laws,      dt,     branch,
                   bear_shear || may_have_shear_, laws.are_hertz()};
   may_have_shear_ = bear_shear;
   if (count_ != step.pairs.size()) resize(step.pairs.size());
-  refresh(particles);
-  for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
-             [&](std::size_t first, std::size_t last) {
-               for (std::size_t k = first; k < last; ++k) update_block(k, step);
-             });
+  refresh(particles, profile);
+  update_blocks(step, profile);
+  const PhaseTimer timer(profile, Phase::sums);
   add_up(list, particles.size());
+  if (profile != nullptr) profile->touching_pairs += totals().contacts;
   return add_up_blocks();
+}
+
+void Contacts::update_blocks(const Step& step, Profile* profile) {
+  if (profile == nullptr) {
+    for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
+               [&](std::size_t first, std::size_t last) {
+                 for (std::size_t k = first; k < last; ++k) update_block(k, step, false);
+               });
+    return;
+  }
+  // Blocks take turns on all threads: their time on the clock is shared as the times of blocks are.
+  const auto start = BlockClock::now();
+  std::vector<BlockTimes> times(block_sums_.size());
+  for_ranges(times.size(), kParallelThreshold / kPairBlock,
+             [&](std::size_t first, std::size_t last) {
+               for (std::size_t k = first; k < last; ++k) times[k] = update_block(k, step, true);
+             });
+  BlockTimes all;
+  for (const BlockTimes& one : times) all += one;
+  const double seconds = seconds_since(start), share = all.gaps / (all.gaps + all.law);
+  if (times.empty()) return;
+  (*profile)[Phase::gaps] += share * seconds;
+  (*profile)[Phase::law] += (1.0 - share) * seconds;
+  profile->slow_pairs += all.slow;
 }
 
 void Contacts::resize(std::size_t pairs) {
@@ -185,7 +228,8 @@ void Contacts::resize(std::size_t pairs) {
   block_sums_.resize(blocks);
 }
 
-void Contacts::refresh(const Particles& particles) {
+void Contacts::refresh(const Particles& particles, Profile* profile) {
+  const PhaseTimer timer(profile, Phase::bodies);
   const std::size_t count = particles.size();
   narrow_phase_.aim(particles);
   motion_.resize(count + kWalls, {});
@@ -214,14 +258,21 @@ ContactBlock Contacts::block_at(std::size_t first, std::size_t index) {
   return block;
 }
 
-void Contacts::update_block(std::size_t index, const Step& step) {
+Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step, bool is_timed) {
+  BlockTimes times;
+  BlockClock::time_point start;
+  if (is_timed) start = BlockClock::now();
   const std::size_t first = index * kPairBlock;
   ContactBlock block = block_at(first, index);
   const auto pairs = std::span(step.pairs).subspan(first, block.count);
   BlockGeometry geometry;
-  narrow_phase_.measure(pairs, step.particles, step.cell,
-                        std::span(columns_.normal).subspan(first, block.count), step.branch,
-                        geometry);
+  times.slow = static_cast<std::int64_t>(narrow_phase_.measure(
+      pairs, step.particles, step.cell, std::span(columns_.normal).subspan(first, block.count),
+      step.branch, geometry));
+  if (is_timed) {
+    times.gaps = seconds_since(start);
+    start = BlockClock::now();
+  }
   const BlockLaws laws(step.laws, step.particles, geometry);
   block.pairs = geometry.pairs.data();
   block.motion = motion_.data();
@@ -233,11 +284,16 @@ void Contacts::update_block(std::size_t index, const Step& step) {
   block.arm = geometry.arm[0].data();
   block.law = laws.columns();
   block.bears_shear = step.bears_shear;
-  if (!step.hertz) return contact_lanes(block);
-  const BlockHertz hertz(laws, narrow_phase_, geometry, block.count);
-  const HertzColumns columns = hertz.columns();
-  block.hertz = &columns;
-  contact_lanes(block);
+  if (step.hertz) {
+    const BlockHertz hertz(laws, narrow_phase_, geometry, block.count);
+    const HertzColumns columns = hertz.columns();
+    block.hertz = &columns;
+    contact_lanes(block);
+  } else {
+    contact_lanes(block);
+  }
+  if (is_timed) times.law = seconds_since(start);
+  return times;
 }
 
 ContactWork Contacts::add_up_blocks() {

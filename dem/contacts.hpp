@@ -21,6 +21,7 @@
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
+#include <tangency/dem/profile.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -119,8 +120,10 @@ class Contacts {
  public:
   /// Brings every contact to the current positions and velocities and renews resultants and sums.
   /// @param dt  time since the last update: the shear displacement is velocity times dt
+  /// @param profile  what the times and counts of the pairs are added to; null: none
   ContactWork update(const Particles& particles, const Cell& cell, const NeighbourList& list,
-                     const ContactLaws& laws, double dt, Branch branch = Branch::follow);
+                     const ContactLaws& laws, double dt, Branch branch = Branch::follow,
+                     Profile* profile = nullptr);
 
   /// Keeps the contacts of pairs that are in both lists.
   void carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now);
@@ -144,8 +147,10 @@ class Contacts {
 
  private:
   struct Step;
-  void refresh(const Particles& particles);
-  void update_block(std::size_t index, const Step& step);
+  struct BlockTimes;
+  void refresh(const Particles& particles, Profile* profile);
+  void update_blocks(const Step& step, Profile* profile);
+  BlockTimes update_block(std::size_t index, const Step& step, bool is_timed);
   ContactBlock block_at(std::size_t first, std::size_t index);
   void resize(std::size_t pairs);
   ContactWork add_up_blocks();

@@ -71,7 +71,7 @@ void NarrowPhase::refresh(const Particles& particles, std::size_t first, std::si
   }
 }
 
-void NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
+std::size_t NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
                           std::span<const Vec3> normals, Branch branch,
                           BlockGeometry& block) const {
   const std::size_t count = pairs.size();
@@ -95,17 +95,19 @@ void NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particle
     block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
   }
   if (kind_ == Kind::spheres) measure_spheres(count, block);
-  if (kind_ == Kind::ellipsoids) measure_ellipsoids(count, normals, branch, block);
+  std::size_t slow = 0;
+  if (kind_ == Kind::ellipsoids) slow = measure_ellipsoids(count, normals, branch, block);
   if (kind_ == Kind::ellipses)
     for (std::size_t k = 0; k < count; ++k)
       measure_ellipses(ellipses_[block.pairs[k].a], ellipses_[block.pairs[k].b],
                        normals[k].head<2>(), branch, block, k);
-  if (!walls) return;
+  if (!walls) return slow;
   for (std::size_t k = 0; k < count; ++k)
     if (const std::size_t b = at(pairs[k].b); b >= particles.size()) {
       measure_wall(k, Wall(b - particles.size()), particles, cell, block);
       block.pairs[k].b = static_cast<std::uint32_t>(b);
     }
+  return slow;
 }
 
 void NarrowPhase::measure_spheres(std::size_t count, BlockGeometry& block) const {
@@ -118,9 +120,10 @@ void NarrowPhase::measure_spheres(std::size_t count, BlockGeometry& block) const
                block.normal[0].data(), block.arm[0].data());
 }
 
-void NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> normals,
+std::size_t NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> normals,
                                      Branch branch, BlockGeometry& block) const {
   BlockGeometry::Column<Vec3> arm_b;
+  BlockGeometry::Column<GapTier> tier;
   const auto first = [&](auto& column) { return std::span(column.data(), count); };
   const PairList list{first(block.pairs), first(block.branch)};
   GapColumns columns;
@@ -128,12 +131,15 @@ void NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> no
   columns.normal = first(block.normal);
   columns.arm_a = first(block.arm);
   columns.arm_b = first(arm_b);
+  columns.tier = first(tier);
   if (branch == Branch::global)
     signed_gaps(bodies_, list, columns);
   else
     follow_gaps(bodies_, list, normals, columns);
   for (std::size_t k = 0; k < count; ++k)
     block.arm[k] = 0.5 * (block.arm[k] + block.branch[k] + arm_b[k]);
+  return count - static_cast<std::size_t>(
+                     std::count(columns.tier.begin(), columns.tier.end(), GapTier::fast));
 }
 
 void NarrowPhase::measure_wall(std::size_t k, const Wall& wall, const Particles& particles,

@@ -55,10 +55,11 @@ class NarrowPhase {
   /// refreshed by different threads.
   void refresh(const Particles& particles, std::size_t first, std::size_t last);
 
-  /// How pairs lie, at most kPairBlock of them.
+  /// How pairs lie, at most kPairBlock of them. Returns how many gaps of ellipsoids took more than
+  /// the fast tier.
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
-  void measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
-               std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
+  std::size_t measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
+                      std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
 
   /// Principal curvatures of the distance between two touching bodies of a block.
   PrincipalCurvatures relative_curvature(const IndexedPair& pair, const Vec3& normal) const;
@@ -69,7 +70,7 @@ class NarrowPhase {
  private:
   enum class Kind { spheres, ellipses, ellipsoids };
   void measure_spheres(std::size_t count, BlockGeometry& block) const;
-  void measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
+  std::size_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
                           BlockGeometry& block) const;
   void measure_wall(std::size_t k, const Wall& wall, const Particles& particles, const Cell& cell,
                     BlockGeometry& block) const;

@@ -11,7 +11,7 @@ namespace tangency::dem {
 namespace {
 
 constexpr std::array<const char*, kPhases> kNames{"motion", "bodies", "list",     "gaps",
-                                                  "law",    "sums",   "contacts", "control"};
+                                                  "law",    "sums",   "control"};
 
 double over(double x, double count) { return count > 0.0 ? x / count : 0.0; }
 
@@ -51,8 +51,7 @@ std::vector<ProfileEntry> entries_of(const Profile& profile) {
   };
   add("listed_pairs_a_cycle", profile.listed_pairs);
   add("touching_pairs_a_cycle", profile.touching_pairs);
-  add("lane_pairs_a_cycle", profile.lane_pairs);
-  add("single_pairs_a_cycle", profile.single_pairs);
+  add("slow_pairs_a_cycle", profile.slow_pairs);
   entries.emplace_back("peak_memory_bytes", peak_memory());
   return entries;
 }
@@ -75,8 +74,7 @@ std::string table_of(const Profile& profile, double cycle_seconds) {
   };
   pair_line("listed pairs a cycle", profile.listed_pairs);
   pair_line("touching pairs a cycle", profile.touching_pairs);
-  pair_line("pairs in lanes a cycle", profile.lane_pairs);
-  pair_line("single pairs a cycle", profile.single_pairs);
+  pair_line("slow pairs a cycle", profile.slow_pairs);
   return text + count_line("peak memory, MB", 1e-6 * static_cast<double>(peak_memory()));
 }
 

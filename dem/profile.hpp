@@ -14,7 +14,7 @@
 
 namespace tangency::dem {
 
-/// What a cycle is made of. Where phases are not told apart their time counts for `contacts`.
+/// What a cycle is made of.
 enum class Phase : std::size_t {
   motion,    ///< velocities, positions and orientations; with Fire
   bodies,    ///< the kernel's bodies at the new places
@@ -22,10 +22,9 @@ enum class Phase : std::size_t {
   gaps,      ///< signed gaps of the listed pairs
   law,       ///< forces and works of contacts
   sums,      ///< resultants of the particles, stress
-  contacts,  ///< bodies, gaps, law and sums together
   control,   ///< servos, stage ends, balance, thickness of the cell
 };
-inline constexpr std::size_t kPhases = 8;
+inline constexpr std::size_t kPhases = 7;
 /// "motion", as they are named above.
 const char* name_of(Phase phase);
 
@@ -36,8 +35,7 @@ struct Profile {
   std::int64_t list_builds = 0;
   std::int64_t listed_pairs = 0;    ///< summed over cycles, as all counts of pairs
   std::int64_t touching_pairs = 0;  ///< of the listed ones
-  std::int64_t lane_pairs = 0;      ///< whose gap the lanes settled
-  std::int64_t single_pairs = 0;    ///< that went to a call of their own
+  std::int64_t slow_pairs = 0;      ///< whose gap took more than the fast tier (GapTier)
 
   double& operator[](Phase phase) { return seconds[static_cast<std::size_t>(phase)]; }
   double operator[](Phase phase) const { return seconds[static_cast<std::size_t>(phase)]; }

@@ -264,9 +264,8 @@ Mat3 Simulation::next_rate(double dt) {
 }
 
 void Simulation::update_contacts(double dt) {
-  const PhaseTimer timer(profile_, Phase::contacts);
-  const ContactWork work =
-      state_.contacts.update(state_.particles, state_.cell, state_.list, laws_, dt, scene_.branch);
+  const ContactWork work = state_.contacts.update(state_.particles, state_.cell, state_.list, laws_,
+                                                  dt, scene_.branch, profile_);
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;

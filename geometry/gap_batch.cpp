@@ -238,6 +238,7 @@ struct ToColumns {
   }
 
   void lanes(const Workspace& work, std::size_t first, std::size_t count) const {
+    if (!to.tier.empty()) std::fill_n(&to.tier[first], count, GapTier::fast);
     if (!to.status.empty()) {
       std::fill_n(&to.status[first], count, GapStatus::ok);
       for (std::uint64_t local = work.block.local; local != 0; local &= local - 1) {
@@ -263,6 +264,7 @@ struct ToColumns {
     if (!to.arm_a.empty()) to.arm_a[i] = gap.arm_a;
     if (!to.arm_b.empty()) to.arm_b[i] = gap.arm_b;
     if (!to.status.empty()) to.status[i] = gap.status;
+    if (!to.tier.empty()) to.tier[i] = gap.tier;
   }
 };
 
@@ -345,6 +347,7 @@ void require_columns(const char* call, const GapColumns& columns, std::size_t co
   require("arm_a", columns.arm_a);
   require("arm_b", columns.arm_b);
   require("status", columns.status);
+  require("tier", columns.tier);
 }
 
 template <class Bodies>

@@ -62,6 +62,7 @@ struct GapColumns {
   std::span<Vec3> arm_a = {};
   std::span<Vec3> arm_b = {};
   std::span<GapStatus> status = {};
+  std::span<GapTier> tier = {};
 };
 
 /// signed_gap() of every pair.

@@ -227,9 +227,10 @@ TEST(GapBatch, ColumnsHoldWhatWholeAnswersHoldAndOnlyWhatIsAskedFor) {
     std::vector<double> gap(count), gap_error(count);
     std::vector<Vec3> normal(count), arm_a(count), arm_b(count);
     std::vector<GapStatus> status(count);
-    signed_gaps(bodies, {in.pairs, {}}, {gap, gap_error, normal, arm_a, arm_b, status});
+    std::vector<GapTier> tier(count, GapTier::exact);
+    signed_gaps(bodies, {in.pairs, {}}, {gap, gap_error, normal, arm_a, arm_b, status, tier});
     for (std::size_t i = 0; i < count; ++i) {
-      const Gap g{gap[i], normal[i], arm_a[i], arm_b[i], gap_error[i], status[i], whole[i].tier};
+      const Gap g{gap[i], normal[i], arm_a[i], arm_b[i], gap_error[i], status[i], tier[i]};
       ASSERT_TRUE(same_bits(g, whole[i])) << i;
     }
     std::vector<double> only_gap(count);
