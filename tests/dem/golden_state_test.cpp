@@ -15,14 +15,14 @@
 namespace tangency::testing {
 namespace {
 
-/// The committed row of a run of this machine's kind, without the kind; "" where there is none.
+/// The committed row of a run of this machine's arithmetic, without the kind; "" where there is none.
 std::string committed(const GoldenRun& run) {
   std::ifstream file(TANGENCY_TEST_DATA "/golden_states/states.csv");
-  const std::string kind = kind_of_this_machine().append(",");
+  const std::string arithmetic = arithmetic_now().append(",");
   const std::string start = std::string(run.name).append(",");
   for (std::string line; std::getline(file, line);)
-    if (line.starts_with(kind) && line.compare(kind.size(), start.size(), start) == 0)
-      return line.substr(kind.size());
+    if (line.starts_with(arithmetic) && line.compare(arithmetic.size(), start.size(), start) == 0)
+      return line.substr(arithmetic.size());
   return "";
 }
 
@@ -30,8 +30,8 @@ class GoldenState : public ::testing::TestWithParam<GoldenRun> {
  protected:
   void SetUp() override {
     if (committed(run_).empty())
-      GTEST_SKIP() << "no row of tests/data/golden_states/states.csv is of this machine's kind, "
-                   << kind_of_this_machine() << "; golden_states writes one";
+      GTEST_SKIP() << "no row of tests/data/golden_states/states.csv is of this machine's arithmetic, "
+                   << arithmetic_now() << "; golden_states writes one";
   }
   void TearDown() override { dem::set_threads(0); }
 

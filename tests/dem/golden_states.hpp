@@ -102,30 +102,9 @@ inline void run_cycles(dem::Simulation& simulation, int cycles) {
   for (int cycle = 0; cycle < cycles; ++cycle) simulation.step();
 }
 
-/// 16 hexadecimal digits that tell one libm from another by the last bits of the functions that
-/// simulator and kernel call. One library holds several: glibc takes those with fused
-/// multiply-adds where the processor has them.
-inline std::string libm_of_this_machine() {
-  std::uint64_t hash = 0;
-  const auto add = [&hash](double x) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 29;
-  };
-  for (int k = 1; k <= 20000; ++k) {
-    const double x = k * 0x1.9p-11, y = 20001 - k;  // to 15.6
-    for (const double value :
-         {std::sin(x), std::cos(x), std::atan2(x, y), std::hypot(x, y), std::exp(-x), std::log(x),
-          std::log1p(x), std::cbrt(x), std::pow(y, x / 8)})
-      add(value);
-  }
-  std::array<char, 17> text;
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return text.data();
-}
-
-/// Which of the batch's kinds of arithmetic an instruction set of Highway has: gap_batch.hpp lets
-/// last bits depend on it.
-inline std::string batch_of(std::int64_t level) {
+/// Which kind of arithmetic the lanes have with an instruction set of Highway: gap_batch.hpp and
+/// contact_lanes.hpp let last bits depend on it.
+inline std::string arithmetic_of(std::int64_t level) {
   if (level == HWY_AVX2) return "AVX2";
   return (level & (HWY_SSE4 | HWY_SSSE3 | HWY_SCALAR | HWY_EMU128)) != 0
              ? "no-FMA"
@@ -146,10 +125,9 @@ void at_every_level(Run&& run) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-/// What a row of the file begins with: the kind of this machine, as the batch runs now.
-inline std::string kind_of_this_machine() {
-  const std::int64_t best = hwy::SupportedTargets() & -hwy::SupportedTargets();
-  return libm_of_this_machine() + ',' + batch_of(best);
+/// What a row of the file begins with: the arithmetic that runs here now have.
+inline std::string arithmetic_now() {
+  return arithmetic_of(hwy::SupportedTargets() & -hwy::SupportedTargets());
 }
 
 /// "linear,250,582,65099ab460d4226f": what a row goes on with.
