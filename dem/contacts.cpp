@@ -71,6 +71,7 @@ class BlockHertz {
  public:
   BlockHertz(const BlockLaws& laws, const NarrowPhase& narrow_phase, const BlockGeometry& block,
              std::size_t count) {
+    direction_.fill(Vec3::Zero());
     BlockColumn<double> overlap{}, contact_modulus, shear_modulus, poisson_ratio;
     for (std::size_t k = 0; k < count; ++k) overlap[k] = block.gap[k] < 0.0 ? -block.gap[k] : 0.0;
     for (std::size_t k = 0; k < kPairBlock; ++k) {

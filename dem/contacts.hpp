@@ -44,7 +44,7 @@ struct Contact {
 };
 
 /// What contacts carry from step to step, a column a quantity of Contact; the force is normal_force
-/// normal + shear_force. Each column is filled up with zeros to whole blocks of pairs.
+/// normal + shear_force. Each column is filled up to whole blocks with pairs of no extent, apart.
 struct ContactColumns {
   std::vector<Vec3> normal, branch, arm, shear_force;
   std::vector<double> overlap, normal_force, normal_stiffness, normal_energy;

@@ -142,7 +142,7 @@ std::vector<std::uint8_t> looked_at(std::span<const NearPair> pairs, const Assem
                                     const Bodies& bodies) {
   std::vector<std::uint8_t> keep(pairs.size(), 1);
   const std::size_t blocks = (pairs.size() + kBlock - 1) / kBlock;
-  for_ranges(blocks, kParallelThreshold / kBlock, [&](std::size_t begin, std::size_t end) {
+  for_ranges(blocks, 2, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = k * kBlock, count = std::min(kBlock, pairs.size() - first);
       look_at(pairs.subspan(first, count), assembly, bodies, std::span(keep).subspan(first, count));
@@ -151,18 +151,12 @@ std::vector<std::uint8_t> looked_at(std::span<const NearPair> pairs, const Assem
   return keep;
 }
 
-bool are_spheres(const Particles& particles) {
-  return std::all_of(particles.semi_axes.begin(), particles.semi_axes.end(), [&](const Vec3& axes) {
-    return axes[0] == axes[1] && (particles.dimensions == 2 || axes[0] == axes[2]);
-  });
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> within_skins(std::span<const NearPair> pairs, const Particles& particles,
                                        const Cell& cell, std::span<const double> skins) {
   const Assembly assembly{particles, cell, skins};
-  if (are_spheres(particles)) return looked_at(pairs, assembly, Spheres{});
+  if (are_round(particles)) return looked_at(pairs, assembly, Spheres{});
   const std::size_t count = particles.size();
   if (particles.dimensions == 2) {
     std::vector<Ellipse> ellipses(count, Ellipse(Vec2::Zero(), Vec2::Ones()));

@@ -53,9 +53,9 @@ void measure_ellipses(const Ellipse& a, const Ellipse& b, const Vec2& last_norma
 }  // namespace
 
 void NarrowPhase::aim(const Particles& particles) {
-  const bool round = std::all_of(particles.semi_axes.begin(), particles.semi_axes.end(),
-                                 [](const Vec3& axes) { return axes == Vec3::Constant(axes[0]); });
-  kind_ = particles.dimensions == 2 ? Kind::ellipses : round ? Kind::spheres : Kind::ellipsoids;
+  kind_ = particles.dimensions == 2 ? Kind::ellipses
+          : are_round(particles)    ? Kind::spheres
+                                    : Kind::ellipsoids;
   if (kind_ == Kind::spheres) radii_.resize(particles.size());
   if (kind_ == Kind::ellipses) ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
   if (kind_ == Kind::ellipsoids) bodies_.look_at(particles.semi_axes, particles.orientation);

@@ -2,7 +2,8 @@
 /// @file
 /// Which pairs of particles may touch before the list is next renewed.
 ///
-/// Each particle has a skin, a length in proportion to its own size. The list holds the pairs of
+/// Each particle has a skin, a length in proportion to its own size; thicker where it moves fast. The
+/// list holds the pairs of
 /// images whose gap is at most the sum of both skins, each pair once, in an order that depends on
 /// nothing but the positions. docs/derivations/neighbour-list.md derives how long it lasts.
 ///
@@ -60,10 +61,12 @@ inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Ce
 
 class NeighbourList {
  public:
-  /// Lists the pairs whose gap is at most the sum of their skins.
-  /// @param skin_ratio  > 0: a particle's skin in its mean radii, the third root of a b c
+  /// Lists the pairs whose gap is at most the sum of their skins. Where it throws it is as it was.
+  /// @param skin_ratio  > 0: a particle's least skin in its mean radii (mean_radius_of())
+  /// @param dt  time step: skins last at least some steps of the motion that particles have now, up
+  ///            to half of a mean radius; 0: the same ratio for all
   /// @throws std::invalid_argument  where particles are too far away for geometry/near_pairs.hpp
-  void build(const Particles& particles, const Cell& cell, double skin_ratio);
+  void build(const Particles& particles, const Cell& cell, double skin_ratio, double dt = 0.0);
 
   /// Does (1) still hold?
   bool is_current(const Particles& particles, const Cell& cell) const;
@@ -100,7 +103,7 @@ class NeighbourList {
   /// What build() saw; with pairs() all there is to save.
   struct Reference {
     Mat3 edges = Mat3::Zero();  ///< of the cell
-    double skin_ratio = 0.0;
+    std::vector<double> skin;            ///< of each particle, length
     std::vector<Vec3> reduced_position;  ///< in parts of the cell's edges
     std::vector<Quaternion> orientation;
     std::vector<Vec3> semi_axes;

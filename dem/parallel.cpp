@@ -8,23 +8,25 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 namespace tangency::dem {
 namespace {
 
-/// The threads of this process' loops.
+/// The threads of this library's loops. TBB's limit for the process is raised where they are more
+/// than it would allow, and else left to the program.
 struct Team {
   int size;
-  tbb::global_control control;
+  std::optional<tbb::global_control> control;
   tbb::task_arena arena;
 
-  explicit Team(int count)
-      : size(count),
-        control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
-        arena(count) {}
+  explicit Team(int count) : size(count), arena(count) {
+    if (count > tbb::info::default_concurrency())
+      control.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(count));
+  }
 };
 
 std::unique_ptr<Team>& team() {

@@ -5,12 +5,12 @@
 #pragma once
 
 #include <cstddef>
-#include <type_traits>
 
 namespace tangency::dem {
 
-/// Sets how many threads loops use from now on, for the whole process; 0: as many as the machine
-/// lets this process run at once, which is where it starts. Not while a loop is running. No result
+/// Sets how many threads the loops of this library use from now on; 0: as many as the machine lets
+/// this process run at once, which is where it starts. Loops that a program gives TBB itself keep
+/// their own number. Not while a loop is running. No result
 /// depends on it, to the bit.
 void set_threads(int count);
 
@@ -30,6 +30,7 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
 /// @param least  in one call where count is less
 template <class F>
 void for_ranges(std::size_t count, std::size_t least, const F& what) {
+  if (count == 0) return;
   if (count < least) return what(std::size_t{0}, count);
   share_range(
       count,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/particles.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -18,6 +19,16 @@ Vec3 Shape::semi_axes(int dimensions) const {
   }
   const double b = mean_radius * cube_root(flatness / elongation);
   return {b * elongation, b, b / flatness};
+}
+
+double mean_radius_of(const Vec3& semi_axes, int dimensions) {
+  return dimensions == 2 ? std::sqrt(semi_axes[0] * semi_axes[1]) : cube_root(semi_axes.prod());
+}
+
+bool are_round(const Particles& particles) {
+  return std::all_of(particles.semi_axes.begin(), particles.semi_axes.end(), [&](const Vec3& axes) {
+    return axes[0] == axes[1] && (particles.dimensions == 2 || axes[0] == axes[2]);
+  });
 }
 
 double volume_of(const Vec3& semi_axes, int dimensions) {

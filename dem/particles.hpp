@@ -58,6 +58,12 @@ struct Particles {
   std::vector<std::uint32_t> index_of_id() const;
 };
 
+/// The geometric mean of the semi-axes, of which the plane has two.
+double mean_radius_of(const Vec3& semi_axes, int dimensions = 3);
+
+/// Are all particles spheres, or disks?
+bool are_round(const Particles& particles);
+
 /// Volume of an ellipsoid, 4/3 pi a b c; of an elliptic disk of unit thickness, pi a b.
 double volume_of(const Vec3& semi_axes, int dimensions = 3);
 

@@ -22,7 +22,7 @@ enum class Phase : std::size_t {
   gaps,      ///< signed gaps of the listed pairs
   law,       ///< forces and works of contacts
   sums,      ///< resultants of the particles, stress
-  control,   ///< servos, stage ends, balance, thickness of the cell
+  control,   ///< servos, thickness of the cell, the balance that growth waits for
 };
 inline constexpr std::size_t kPhases = 7;
 /// "motion", as they are named above.

@@ -113,6 +113,7 @@ class Simulation {
  private:
   void prepare_stage();
   bool anything_turns() const;
+  bool grows_now() const;
   bool is_relaxed() const;
   bool is_grown() const;
   bool is_at_its_end() const;
@@ -121,8 +122,8 @@ class Simulation {
   Mat3 next_rate(double dt);
   void move_particles(double dt);
   double cycles_to_a_packing() const;
-  void keep_list_current();
-  void renew_list();
+  void keep_list_current(double dt);
+  void renew_list(double dt);
   void update_contacts(double dt);
   Motion motion() const;
   double kinetic_energy_now() const;

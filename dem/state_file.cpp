@@ -23,7 +23,7 @@ constexpr std::string_view kMagic = "TANGSTAT";
 constexpr std::uint32_t kFormatVersion = 5;
 
 // One description of the format for both ways: each function passes every number of its argument
-// to the archive, a Writer or a ByteReader.
+// to the archive, a StateWriter or a StateReader.
 
 /// The numbers that a T consists of, and nothing else: a column of them is one block of bytes.
 template <class T>
@@ -184,7 +184,7 @@ void pass_plain(Archive& archive, S& state) {
 template <class Archive, class R>
 void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.edges);
-  archive(reference.skin_ratio);
+  pass(archive, reference.skin);
   pass(archive, reference.reduced_position);
   pass(archive, reference.orientation);
   pass(archive, reference.semi_axes);
@@ -234,7 +234,8 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   if (n == 0 || p.velocity.size() != n || p.angular_velocity.size() != n ||
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
       p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
-      reference.orientation.size() != n || reference.semi_axes.size() != n)
+      reference.orientation.size() != n || reference.semi_axes.size() != n ||
+      reference.skin.size() != n)
     return false;
   std::vector<bool> seen(n);
   for (const std::int32_t id : p.id) {
@@ -256,7 +257,8 @@ bool lengths_are_positive(const State& state, const NeighbourList::Reference& re
   const std::vector<Vec3>& axes = state.particles.semi_axes;
   const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
   return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
-         has_volume(reference.edges) && reference.skin_ratio > 0.0 &&
+         has_volume(reference.edges) &&
+         std::all_of(reference.skin.begin(), reference.skin.end(), [](double s) { return s > 0.0; }) &&
          std::all_of(axes.begin(), axes.end(), is_positive);
 }
 

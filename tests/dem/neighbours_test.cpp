@@ -9,6 +9,7 @@
 #include <limits>
 #include <ostream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -316,6 +317,52 @@ TEST(NeighbourList, IsOutOfDateForOtherParticles) {
   EXPECT_FALSE(list.is_current(crowd(2, cell, 5), cell));
 }
 
+// A list of skins in proportion alone would not outlast a step of these.
+TEST(NeighbourList, OfParticlesThatMoveFastOutlastsStepsOfTheirMotion) {
+  constexpr double kStep = 0.1;
+  const Cell cell = cell_of({12.0, 13.0, 12.5});
+  Particles particles = crowd(60, cell, 17);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.velocity[i] = 0.01 * Vec3(1.0, -2.0, 0.5);
+    particles.angular_velocity[i] = 0.05 * Vec3(0.3, 1.0, -0.2);
+  }
+  NeighbourList resting, moving;
+  resting.build(particles, cell, 1e-4);
+  moving.build(particles, cell, 1e-4, kStep);
+  const auto step = [&] {
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Vec3 turn = kStep * particles.angular_velocity[i];
+      particles.position[i] += kStep * particles.velocity[i];
+      particles.orientation[i] =
+          (Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) *
+           Eigen::Quaterniond(particles.orientation[i]))
+              .normalized();
+    }
+  };
+  for (int k = 0; k < 9; ++k) {
+    step();
+    EXPECT_TRUE(moving.is_current(particles, cell)) << "after step " << k + 1;
+    EXPECT_FALSE(resting.is_current(particles, cell));
+  }
+  for (int k = 0; k < 3; ++k) step();
+  EXPECT_FALSE(moving.is_current(particles, cell)) << "and it does end";
+}
+
+TEST(NeighbourList, ThatCannotBeBuiltIsAsItWas) {
+  const Cell cell = cell_of({12.0, 13.0, 12.5});
+  Particles particles = crowd(60, cell, 17);
+  NeighbourList list;
+  list.build(particles, cell, 0.1);
+  const std::vector<Pair> before = list.pairs();
+  ASSERT_GT(before.size(), 0u);
+  Particles far = particles;
+  far.position[7] = Vec3::Constant(1e30);
+  EXPECT_THROW(list.build(far, cell, 0.1), std::invalid_argument);
+  EXPECT_FALSE(list.is_current(far, cell));
+  EXPECT_TRUE(list.is_current(particles, cell));
+  EXPECT_EQ(list.pairs(), before);
+}
+
 // Small particles beside a large one have small skins: it does not fill the list with pairs.
 TEST(NeighbourList, OfSmallParticlesBesideALargeOneIsThatOfTheSmallOnesAlone) {
   const Cell cell = cell_of({30.0, 30.0, 30.0});
@@ -415,7 +462,7 @@ TEST(NeighbourListOfEllipses, HoldsThoseWithinTheirSkinsAndNoOthers) {
     const Mat3 turn = particles.orientation[static_cast<std::size_t>(i)].toRotationMatrix();
     return Ellipse(Vec2::Zero(), Vec2(1.5, 0.3), Vec2(turn(0, 0), turn(1, 0)));
   };
-  const double skins = 0.2 * mean_radius({1.5, 0.3, 0.3});
+  const double skins = 0.2 * std::sqrt(1.5 * 0.3);  // the plane has two semi-axes
   std::vector<Pair> certain = meeting_pairs(particles, cell, 1), possible;
   std::erase_if(certain, [](const Pair& pair) { return pair.image[2] != 0; });
   const auto gap = [&](const Pair& pair) {
