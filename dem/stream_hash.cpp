@@ -5,6 +5,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+static_assert(XXH_VERSION_NUMBER >= 800, "XXH3's values are fixed from 0.8.0 on");
+
 namespace tangency::dem {
 
 struct StreamHash::Sums {

@@ -51,8 +51,8 @@ void MovingBodies::look_at(std::span<const Vec3> semi_axes,
 }
 
 void MovingBodies::refresh(std::size_t first, std::size_t last) noexcept {
+  if (first > last) contract::wrong_range("MovingBodies::refresh", first, last);
   if (last > size()) contract::no_body("MovingBodies::refresh", last - 1, size());
-  if (first > last) contract::no_body("MovingBodies::refresh", first, last);
   if (first == last) return;
   in_default_environment([&] {
     detail::fill_moving_lanes(semi_axes_[first].data(), orientations_[first].coeffs().data(),

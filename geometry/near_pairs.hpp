@@ -4,8 +4,9 @@
 /// any sizes in open space or in a lattice of periodic images.
 ///
 /// Body i is the ball of radius reach[i] about centre[i]: its bounding sphere and what is to be
-/// listed around it. Lengths are in any one unit. A pair is (a, b, image): the body a as stored and
-/// the body b moved by edges * image. Centres need not lie in the cell.
+/// listed around it. Lengths are in any one unit, and finite doubles of any size. A pair is (a, b,
+/// image): the body a as stored and the body b moved by edges * image. Centres need not lie in the
+/// cell.
 ///
 /// (1) Every pair of images whose balls share a point is listed, for the doubles as stored and
 ///     exact arithmetic. Pairs that are apart by no more than margin() may be listed too, others
@@ -41,10 +42,10 @@ class NearPairSearch {
  public:
   /// @param centres  finite
   /// @param reaches  finite, >= 0; one a centre
-  /// @throws std::invalid_argument  naming what is not so; where edges are linearly dependent;
-  /// where
-  ///     a body is 2^29 edges away, or so far that rounding moves it by a cell; where a ball holds
-  ///     more than 2^20 of its own images along an axis
+  /// @throws std::invalid_argument  naming what is not so; where edges are linearly dependent, or a
+  ///     periodic one is below 2^-1000 of the largest length; where a body is 2^29 edges away, or
+  ///     so far that rounding moves it by a cell; where a ball holds more than 2^20 of its own
+  ///     images along an axis
   NearPairSearch(std::span<const Vec3> centres, std::span<const double> reaches,
                  const Lattice& lattice);
   ~NearPairSearch();
@@ -59,7 +60,8 @@ class NearPairSearch {
   /// once find each pair once. Several threads may search at a time.
   void find(std::size_t first, std::size_t last, std::vector<NearPair>& found) const;
 
-  /// How far two balls may be apart and be listed, length: some 2^-46 of the largest coordinate.
+  /// How far two balls may be apart and be listed, length: some 2^-46 of the largest coordinate,
+  /// and 2^-1022 or more.
   double margin() const noexcept;
 
  private:

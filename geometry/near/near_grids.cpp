@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include <tangency/geometry/power_of_two.hpp>
+
 namespace tangency::detail {
 namespace {
 
@@ -34,6 +36,10 @@ constexpr double kFarthest = 0x1p29;
 
 /// Most images along an axis that one ball may hold.
 constexpr double kMostImages = 0x1p20;
+
+/// Scaled by a larger power of two than this a small number would not be exact. Chosen: what is
+/// left of a range of 2^2098 is below the squares that are compared.
+constexpr int kMostScaled = 1000;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -64,27 +70,27 @@ struct NearGrids::Look {
 
 NearGrids::NearGrids(std::span<const Vec3> centres, std::span<const double> reaches,
                      const Lattice& lattice)
-    : lattice_(lattice), inverse_(lattice.edges.inverse()) {
+    : lattice_(lattice) {
   if (reaches.size() != centres.size())
     refuse("reaches: " + std::to_string(reaches.size()) + " entries, and there are " +
            std::to_string(centres.size()) + " centres");
   if (centres.size() > std::numeric_limits<std::uint32_t>::max())
     refuse("centres: " + std::to_string(centres.size()) + ": at most 2^32 - 1");
-  if (!inverse_.allFinite() || !lattice.edges.allFinite())
-    refuse("edges: must be finite and linearly independent");
-  heights_ = inverse_.rowwise().norm().cwiseInverse();
+  choose_unit(centres, reaches);
+  scale_edges();
   measure(centres, reaches);
 
   double largest = 0.0;
-  for (const double reach : reaches) largest = std::max(largest, reach);
+  for (const double reach : reaches) largest = std::max(largest, unit_ * reach);
   std::vector<std::uint8_t> level_of(centres.size());
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    const double ratio = largest / reaches[i];
+    const double reach = unit_ * reaches[i];
+    const double ratio = largest / reach;
     const int level = ratio < 0x1p23 ? std::ilogb(ratio) : kMostLevels - 1;  // 0/0 too
     level_of[i] = static_cast<std::uint8_t>(level);
     if (levels_.size() <= level_of[i]) levels_.resize(level_of[i] + std::size_t{1});
     Level& one = levels_[level_of[i]];
-    one.reach = std::max(one.reach, reaches[i]);
+    one.reach = std::max(one.reach, reach);
     ++one.bodies;
   }
   require_few_images();
@@ -92,7 +98,48 @@ NearGrids::NearGrids(std::span<const Vec3> centres, std::span<const double> reac
   sort(centres, reaches, level_of);
 }
 
-/// Checks the numbers, finds how far bodies spread along open axes, and bounds rounding: a centre
+/// Checks the numbers, and makes the largest of them 1 to 2, by a power of two: a square then
+/// neither overflows nor loses what margin_ does not hold.
+void NearGrids::choose_unit(std::span<const Vec3> centres, std::span<const double> reaches) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (!centres[i].allFinite()) refuse(numbered("centres", i) + ": must be finite");
+    if (!(reaches[i] >= 0.0) || !std::isfinite(reaches[i]))
+      refuse(numbered("reaches", i) + ": must be finite and >= 0");
+    largest = std::max({largest, centres[i].lpNorm<Eigen::Infinity>(), reaches[i]});
+  }
+  if (!lattice_.edges.allFinite()) refuse("edges: must be finite and linearly independent");
+  for (int k = 0; k < 3; ++k)
+    if (lattice_.periodic[static_cast<std::size_t>(k)])
+      largest = std::max(largest, lattice_.edges.col(k).lpNorm<Eigen::Infinity>());
+  unit_ = std::ldexp(1.0, -std::clamp(exponent_of(largest), -kMostScaled, kMostScaled));
+}
+
+/// Edges in the unit, open ones of length 1 to 2, and their inverse: by columns of one size, whose
+/// determinant neither overflows nor underflows.
+void NearGrids::scale_edges() {
+  Mat3 shape;
+  Vec3 size = Vec3::Ones();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 edge = lattice_.edges.col(k);
+    const int exponent = exponent_of(edge);
+    shape.col(k) = scaled_by_power(edge, -exponent);
+    if (!lattice_.periodic[static_cast<std::size_t>(k)]) continue;
+    const int in_unit = exponent + std::ilogb(unit_);
+    if (in_unit < -kMostScaled && edge != Vec3::Zero())
+      refuse("edges: edge " + std::to_string(k) + " is below 2^-1000 of the largest length");
+    size[k] = std::ldexp(1.0, in_unit);
+  }
+  const Mat3 inverse = shape.inverse();
+  const Vec3 norms = inverse.rowwise().norm();
+  inverse_ = size.cwiseInverse().asDiagonal() * inverse;
+  if (!norms.allFinite() || !inverse_.allFinite())
+    refuse("edges: must be finite and linearly independent");
+  lattice_.edges = shape * size.asDiagonal();
+  heights_ = size.cwiseQuotient(norms);
+}
+
+/// Finds how far bodies spread along open axes, and bounds rounding: a centre
 /// moved by whole edges, a distance and a reduced coordinate take less than 16 operations on
 /// numbers below the sums here.
 void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> reaches) {
@@ -101,15 +148,13 @@ void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> r
   const Mat3 magnitudes = inverse_.cwiseAbs();
   double size = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (!centres[i].allFinite()) refuse(numbered("centres", i) + ": must be finite");
-    if (!(reaches[i] >= 0.0) || !std::isfinite(reaches[i]))
-      refuse(numbered("reaches", i) + ": must be finite and >= 0");
-    const Vec3 reduced = inverse_ * centres[i];
+    const Vec3 centre = unit_ * centres[i];
+    const Vec3 reduced = inverse_ * centre;
     low = low.cwiseMin(reduced);
     high = high.cwiseMax(reduced);
-    most = most.cwiseMax(magnitudes * centres[i].cwiseAbs());
-    size = std::max(size, centres[i].lpNorm<1>());
-    largest = std::max(largest, reaches[i]);
+    most = most.cwiseMax(magnitudes * centre.cwiseAbs());
+    size = std::max(size, centre.lpNorm<1>());
+    largest = std::max(largest, unit_ * reaches[i]);
   }
   Vec3 images = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -137,8 +182,8 @@ void NearGrids::require_few_images() const {
   for (int k = 0; k < 3; ++k)
     if (lattice_.periodic[static_cast<std::size_t>(k)] &&
         2.0 * levels_[0].reach / heights_[k] > kMostImages)
-      refuse("edges: the cell is " + std::to_string(heights_[k]) + " high, and a ball " +
-             std::to_string(2.0 * levels_[0].reach) + ": at most 2^20 images");
+      refuse("edges: the cell is " + std::to_string(heights_[k] / unit_) + " high, and a ball " +
+             std::to_string(2.0 * levels_[0].reach / unit_) + ": at most 2^20 images");
 }
 
 void NearGrids::shape_levels() {
@@ -147,7 +192,8 @@ void NearGrids::shape_levels() {
     if (level.bodies == 0) continue;
     double boxes = 1.0;
     for (int k = 0; k < 3; ++k) {
-      const double width = kBoxWidth * level.reach / heights_[k];
+      // Every look is wider by slack_: boxes of points too, so that it holds some few of them.
+      const double width = std::max(kBoxWidth * level.reach / heights_[k], 2.0 * slack_[k]);
       const double wanted = extent_[k] > kMostBoxes * width ? kMostBoxes : extent_[k] / width;
       const double count = extent_[k] > 0.0 ? std::max(1.0, std::floor(wanted)) : 1.0;
       level.count[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(count);
@@ -168,14 +214,14 @@ void NearGrids::shape_levels() {
 void NearGrids::sort(std::span<const Vec3> centres, std::span<const double> reaches,
                      const std::vector<std::uint8_t>& level_of) {
   const std::size_t count = centres.size();
-  std::vector<std::uint32_t> bucket(count);
+  std::vector<std::size_t> bucket(count);  // some 8 a body: more than 32 bits number
   std::vector<Seat> seats(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Level& level = levels_[level_of[i]];
-    seats[i] = seat_of(static_cast<std::uint32_t>(i), centres[i]);
+    seats[i] = seat_of(static_cast<std::uint32_t>(i), unit_ * centres[i]);
     seats[i].box = box_of(level, place_of(level, seats[i].reduced));
-    bucket[i] = static_cast<std::uint32_t>(bucket_of(level, seats[i].box));
-    ++starts_[bucket[i] + std::size_t{1}];
+    bucket[i] = bucket_of(level, seats[i].box);
+    ++starts_[bucket[i] + 1];
   }
   for (std::size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
@@ -185,7 +231,8 @@ void NearGrids::sort(std::span<const Vec3> centres, std::span<const double> reac
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = next[bucket[i]]++;
     const LatticeImage& home = seats[i].home;
-    bodies_[at] = {centres[i] - lattice_.edges * Vec3(home[0], home[1], home[2]), reaches[i]};
+    bodies_[at] = {unit_ * centres[i] - lattice_.edges * Vec3(home[0], home[1], home[2]),
+                   unit_ * reaches[i]};
     seats_[at] = seats[i];
     level_at_[at] = level_of[i];
   }
@@ -241,6 +288,10 @@ NearGrids::Range NearGrids::range_around(const Level& level, const Seat& seat, d
     }
   }
   return range;
+}
+
+double NearGrids::margin() const {
+  return std::max(margin_ / unit_, std::numeric_limits<double>::min());
 }
 
 void NearGrids::find(std::size_t first, std::size_t last, std::vector<NearPair>& found) const {

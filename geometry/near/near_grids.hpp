@@ -20,7 +20,7 @@ class NearGrids {
   NearGrids(std::span<const Vec3> centres, std::span<const double> reaches, const Lattice& lattice);
 
   std::size_t size() const { return bodies_.size(); }
-  double margin() const { return margin_; }
+  double margin() const;  ///< in the caller's unit of length
   void find(std::size_t first, std::size_t last, std::vector<NearPair>& found) const;
 
  private:
@@ -52,6 +52,8 @@ class NearGrids {
   };
   struct Look;
 
+  void choose_unit(std::span<const Vec3> centres, std::span<const double> reaches);
+  void scale_edges();
   void measure(std::span<const Vec3> centres, std::span<const double> reaches);
   void require_few_images() const;
   void shape_levels();
@@ -66,6 +68,7 @@ class NearGrids {
                    std::vector<NearPair>& found) const;
   void look_along_row(Look& look, Place place, std::int64_t last) const;
 
+  double unit_ = 1.0;  ///< a power of two: lengths below are the caller's times this
   Lattice lattice_;
   Mat3 inverse_;
   Vec3 heights_;  ///< distances of opposite faces

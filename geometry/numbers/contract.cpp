@@ -25,6 +25,11 @@ void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept {
   std::abort();
 }
 
+void wrong_range(const char* call, std::size_t first, std::size_t last) noexcept {
+  std::fprintf(stderr, "tangency: %s: from body %zu to before body %zu\n", call, first, last);
+  std::abort();
+}
+
 void wrong_column(const char* call, const char* what, std::size_t length,
                   std::size_t bodies) noexcept {
   std::fprintf(stderr, "tangency: %s: %s: %zu entries, and there are %zu bodies\n", call, what,

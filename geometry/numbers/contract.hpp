@@ -20,10 +20,14 @@ namespace tangency::contract {
                           std::size_t bodies) noexcept;
 /// "tangency: BodyArray::refresh: body 9, and there are 9 bodies"
 [[noreturn]] void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept;
-/// "tangency: signed_gap: separation = (1, nan, 0): must be finite"
+/// "tangency: MovingBodies::refresh: from body 2 to before body 1"
+[[noreturn]] void wrong_range(const char* call, std::size_t first, std::size_t last) noexcept;
+/// "tangency: MovingBodies: orientations: 3 entries, and there are 4 bodies"
 [[noreturn]] void wrong_column(const char* call, const char* what, std::size_t length,
                                std::size_t bodies) noexcept;
+/// "tangency: signed_gaps: body 1: r3 = -1: a semi-axis must be finite and > 0"
 [[noreturn]] void no_ellipsoid(const char* call, std::size_t index, const char* why) noexcept;
+/// "tangency: signed_gap: separation = (1, nan, 0): must be finite"
 [[noreturn]] void not_finite(const char* call, const char* what, const Vec3& value) noexcept;
 
 inline void require_length(const char* call, const char* what, std::size_t length,

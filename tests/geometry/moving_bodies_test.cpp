@@ -311,7 +311,7 @@ TEST(BrokenContract, OfMovingBodiesEndsTheProcessAndNamesIt) {
   EXPECT_DEATH(MovingBodies(f.axes, std::span(f.turns).first(1)),
                "tangency: MovingBodies: orientations: 1 entries, and there are 2 bodies");
   EXPECT_DEATH(f.bodies.refresh(0, 3), "MovingBodies::refresh: body 2, and there are 2 bodies");
-  EXPECT_DEATH(f.bodies.refresh(2, 1), "MovingBodies::refresh: ");
+  EXPECT_DEATH(f.bodies.refresh(2, 1), "MovingBodies::refresh: from body 2 to before body 1");
   EXPECT_DEATH(signed_gaps(f.bodies, {f.pairs, {}}, {.gap = f.gaps}), "separations: 0 entries");
   EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, f.separations}, std::span(f.normals).first(3), {}),
                "previous_normals: 3");

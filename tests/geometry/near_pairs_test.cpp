@@ -204,7 +204,6 @@ TEST(NearPairs, OfBallsThatJustTouchAreListed) {
 }
 
 // 4 L - 1 is exact for L in [6, 7), and 3 L, which takes it into the cell, is not.
-
 // geometry/near_pairs.hpp (1)
 TEST(NearPairs, OfBallsThatJustTouchAreListedWhateverRounds) {
   Draw draw(kSeed + 9);
@@ -224,8 +223,43 @@ TEST(NearPairs, AreStillFoundWhereOneEdgeIsAsLongAsDoublesGo) {
     const Mat3 edges = Vec3(length, 40.0, 40.0).asDiagonal();
     const std::vector<Vec3> centres{{0.5 * length, 1.0, 20.0}, {0.5 * length, 39.0, 20.0}};
     const auto found = near_pairs(centres, std::vector<double>(2, 1.5), {edges});
-    ASSERT_FALSE(found.empty());
-    EXPECT_EQ(found[0], (NearPair{0, 1, {0, -1, 0}}));
+    // And nothing else, though the margin is as long as many cells.
+    EXPECT_EQ(found, (std::vector<NearPair>{{0, 1, {0, -1, 0}}}));
+  }
+}
+
+// A power of two changes no pair, whatever the squares of lengths would come to.
+TEST(NearPairs, AreTheSameInAnyUnitOfLength) {
+  Draw draw(kSeed + 10);
+  const Mat3 edges = skewed(3.0, -2.0, 4.0);
+  const Balls all = balls(draw, 200, edges, 0.5, 4.0);
+  const Lattice half_open{edges, {true, false, true}};
+  const auto closed = near_pairs(all.centres, all.reaches, {edges});
+  const auto half = near_pairs(all.centres, all.reaches, half_open);
+  const auto open = near_pairs(all.centres, all.reaches);
+  EXPECT_GE(open.size(), 20u);
+  for (const int power : {-1000, -700, -365, 365, 700, 1000}) {
+    SCOPED_TRACE(power);
+    const double unit = std::ldexp(1.0, power);
+    Balls other = all;
+    for (Vec3& centre : other.centres) centre *= unit;
+    for (double& reach : other.reaches) reach *= unit;
+    EXPECT_EQ(near_pairs(other.centres, other.reaches, {unit * edges}), closed);
+    EXPECT_EQ(near_pairs(other.centres, other.reaches, {unit * edges, half_open.periodic}), half);
+    EXPECT_EQ(near_pairs(other.centres, other.reaches), open);
+    EXPECT_GE(NearPairSearch(other.centres, other.reaches, {unit * edges}).margin(), 0x1p-1022);
+  }
+}
+
+// As the example before, in units in which a cell's volume is no double.
+TEST(NearPairs, OfTwoBallsAcrossTheFaceOfATinyOrHugeCell) {
+  for (const double length : {1e-300, 1e-110, 1e110, 1e300}) {
+    SCOPED_TRACE(length);
+    const std::vector<Vec3> centres{Vec3::Constant(0.5 * length), length * Vec3(0.5, 0.5, 0.9),
+                                    length * Vec3(0.5, 0.5, 0.15)};
+    const std::vector<double> reaches(3, 0.13 * length);
+    const std::vector<NearPair> expected{{1, 2, {0, 0, 1}}};
+    EXPECT_EQ(near_pairs(centres, reaches, {length * Mat3::Identity()}), expected);
   }
 }
 
@@ -237,6 +271,36 @@ TEST(NearPairs, OfPointsAreThoseThatCoincide) {
   EXPECT_EQ(found[0], (NearPair{0, 2, {}}));
   EXPECT_TRUE(near_pairs({}, {}).empty());
   EXPECT_TRUE(near_pairs(std::span(points).first(1), std::span(none).first(1)).empty());
+}
+
+// A distance whose square is 0 in double is one all the same.
+TEST(NearPairs, OfPointsThatAreCloseButApartAreNone) {
+  const std::vector<double> none(2, 0.0);
+  for (const double apart : {1e-320, 1e-200, 1e-170, 1.0, 1e170, 1e300}) {
+    const std::vector<Vec3> points{Vec3::Zero(), Vec3(apart, 0.0, 0.0)};
+    EXPECT_TRUE(near_pairs(points, none).empty()) << apart;
+  }
+}
+
+// Nearer to each other than rounding: boxes of the width of a point would number 2^20 on each axis.
+TEST(NearPairs, OfPointsWithinRoundingAreFoundAtOnce) {
+  const double next = 1.0 + 0x1p-52;
+  const std::vector<Vec3> two{Vec3::Ones(), Vec3::Constant(next)};
+  const std::vector<double> none(400, 0.0);
+  const std::vector<NearPair> pair{{0, 1, {}}};
+  EXPECT_EQ(near_pairs(two, std::span(none).first(2)), pair);
+  EXPECT_EQ(near_pairs(two, std::span(none).first(2), {3.0 * Mat3::Identity()}), pair);
+
+  Draw draw(kSeed + 11);
+  for (const double spread : {0.0, 1.0, 30.0, 1000.0}) {  // in units in the last place
+    SCOPED_TRACE(spread);
+    Balls all{{}, none};
+    for (std::size_t i = 0; i < none.size(); ++i)
+      all.centres.push_back(Vec3::Ones() + 0x1p-52 * draw.vector(0.0, spread));
+    all.centres[7] = all.centres[300];
+    expect_all_and_no_others(all, Lattice::open(), 1);
+    expect_all_and_no_others(all, {3.0 * Mat3::Identity()}, 1);
+  }
 }
 
 // geometry/near_pairs.hpp (4)
@@ -275,6 +339,9 @@ TEST(NearPairs, RefuseWhatIsNoBallOrNoLattice) {
   EXPECT_TRUE(message([&] {
                 near_pairs(sound, ones, {1e-9 * Mat3::Identity()});
               }).ends_with("at most 2^20 images"));
+  const Mat3 uneven = Vec3(1e300, 1e-20, 1.0).asDiagonal();
+  EXPECT_EQ(message([&] { near_pairs(sound, ones, {uneven}); }),
+            "edges: edge 1 is below 2^-1000 of the largest length");
   const std::vector<Vec3> far{{1e9, 0.0, 0.0}};
   EXPECT_TRUE(message([&] {
                 near_pairs(far, std::span(ones).first(1), {Mat3::Identity()});
