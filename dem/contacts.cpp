@@ -342,6 +342,41 @@ void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pai
   for (const auto column : ContactColumns::kNumbers) keep(old.*column, columns_.*column);
 }
 
+std::vector<Pair> Contacts::renumber(const std::vector<Pair>& pairs,
+                                     std::span<const std::uint32_t> place) {
+  struct Moved {
+    Pair pair;
+    std::size_t from;
+    bool turned;
+    bool operator<(const Moved& other) const { return pair < other.pair; }
+  };
+  std::vector<Moved> moved;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Pair pair = pairs[k];
+    const bool wall = static_cast<std::size_t>(pair.b) >= place.size();
+    pair.a = static_cast<std::int32_t>(place[static_cast<std::size_t>(pair.a)]);
+    if (!wall) pair.b = static_cast<std::int32_t>(place[static_cast<std::size_t>(pair.b)]);
+    const bool turned = pair.a > pair.b;
+    if (turned) {
+      std::swap(pair.a, pair.b);
+      for (std::int32_t& edges : pair.image) edges = -edges;
+    }
+    moved.push_back({pair, k, turned});
+  }
+  std::sort(moved.begin(), moved.end());
+  const ContactColumns old = columns_;
+  std::vector<Pair> now;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const auto& [pair, from, turned] = moved[k];
+    now.push_back(pair);
+    for (const auto column : ContactColumns::kVectors)
+      (columns_.*column)[k] = turned ? Vec3(-(old.*column)[from]) : (old.*column)[from];
+    if (turned) columns_.arm[k] = old.arm[from] - old.branch[from];
+    for (const auto column : ContactColumns::kNumbers) (columns_.*column)[k] = (old.*column)[from];
+  }
+  return now;
+}
+
 void Contacts::restore(ContactColumns columns, const Particles& particles,
                        const NeighbourList& list) {
   columns_ = std::move(columns);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -127,6 +128,11 @@ class Contacts {
 
   /// Keeps the contacts of pairs that are in both lists.
   void carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now);
+
+  /// Follows particles that were permuted: particle i is now at place[i]. Returns the pairs that the
+  /// contacts are now of, in ascending order: where a and b of one went over to the other order,
+  /// its contact is seen from the other side. Resultants and sums wait for the next update.
+  std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
   /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds their forces
   /// up again.

@@ -112,6 +112,7 @@ class Simulation {
 
  private:
   void prepare_stage();
+  void sort_in_space();
   bool anything_turns() const;
   bool grows_now() const;
   bool is_relaxed() const;

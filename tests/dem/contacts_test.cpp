@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <random>
 #include <vector>
 
 #include "assembly.hpp"
@@ -143,6 +146,37 @@ TEST(Contacts, MomentsAreThoseOfTheForcesAtTheContactPoints) {
   }
   for (std::size_t i = 0; i < moment.size(); ++i)
     EXPECT_LT((crowd_of.contacts.resultants().moment[i] - moment[i]).norm(), 1e-9);
+}
+
+TEST(Contacts, AreTheSameAmongParticlesInAnotherOrder) {
+  Assembly crowd_of;
+  for (int step = 0; step < 5; ++step) crowd_of.update(kFrictional);
+  Assembly mixed = crowd_of;
+  const std::size_t count = mixed.particles.size();
+  std::vector<std::uint32_t> order(count), place(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  for (std::uint32_t k = 0; k < count; ++k) place[order[k]] = k;
+  mixed.particles.permute(order);
+  const std::vector<Pair> pairs = mixed.contacts.renumber(crowd_of.list.pairs(), place);
+  EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+  mixed.list.build(mixed.particles, mixed.cell, 0.3);
+  mixed.contacts.carry_over(pairs, mixed.list.pairs());
+  mixed.contacts.restore(mixed.contacts.columns(), mixed.particles, mixed.list);
+  for (int step = 0; step < 2; ++step) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Resultants &here = mixed.contacts.resultants(), &there = crowd_of.contacts.resultants();
+      EXPECT_LT((here.force[k] - there.force[order[k]]).norm(), 1e-11);
+      EXPECT_LT((here.moment[k] - there.moment[order[k]]).norm(), 1e-11);
+      EXPECT_EQ(here.contacts[k], there.contacts[order[k]]);
+      largest = std::max(largest, there.force[order[k]].norm());
+    }
+    EXPECT_GT(largest, 1.0);
+    // And they go on alike, springs and all.
+    crowd_of.update(kFrictional);
+    mixed.update(kFrictional);
+  }
 }
 
 TEST(Contacts, ShearForcesSurviveARenewedList) {

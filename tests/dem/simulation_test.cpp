@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/spatial_order.hpp>
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
@@ -202,6 +203,35 @@ TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
 
 // dem/fire.hpp (3)
 // dem/simulation.hpp (1)
+// The cell shears by a half in the first stage: places in it change, and their order.
+TEST(Simulation, KeepsManyParticlesInAnOrderOfSpaceFromStageToStage) {
+  const std::string stage =
+      "[[stage]]\nkind = \"servo\"\nstrain_rate = [0.0, 0.0, 0.0]\nshear_rate = [5.0, 0.0, 0.0]\n";
+  Simulation simulation(parse_scene(
+      "schema = 1\n[cell]\n[particles.grain]\ncount = 2100\nmean_radius = 1.0\n[contact]\n"
+      "normal_stiffness = 1e9\nfriction_coefficient = 0.5\n[[stage]]\nkind = \"place\"\n"
+      "arrangement = \"random\"\n" + stage + "duration = 40\n" + stage + "duration = 20\n",
+      "scene.toml"));
+  const auto is_in_order = [&] {
+    const std::vector<std::uint32_t> order =
+        spatial_order(simulation.state().particles, simulation.state().cell);
+    return std::is_sorted(order.begin(), order.end());
+  };
+  EXPECT_TRUE(is_in_order()) << "placed";
+  while (simulation.status() == StageStatus::running) simulation.step();
+  EXPECT_FALSE(is_in_order());
+  const Observation before = simulation.observe();
+  const std::vector<std::int32_t> ids = simulation.state().particles.id;
+  simulation.next_stage();
+  EXPECT_TRUE(is_in_order()) << "sorted";
+  EXPECT_NE(simulation.state().particles.id, ids);
+  const Observation after = simulation.observe();
+  EXPECT_EQ(after.contacts, before.contacts);
+  EXPECT_NEAR(after.elastic_energy, before.elastic_energy, 1e-12 * before.elastic_energy);
+  EXPECT_LT((after.stress.tensor - before.stress.tensor).norm(),
+            1e-12 * before.stress.tensor.norm());
+}
+
 TEST(Relaxation, HasTheSameStateAtEveryThreadCountAndFromASavedState) {
   const TemporaryFolder folder;
   ASSERT_LT(relaxing().state().fire.mixing, 0.1) << "what is saved is not what a stage starts with";
