@@ -24,3 +24,4 @@ if objdump -d "$with" | grep "$fused"; then
 fi
 "$work/build/consumer"
 "$work/build/fabric"
+"$work/build/simulate"
