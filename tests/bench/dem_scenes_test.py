@@ -28,6 +28,7 @@ import sessions  # noqa: E402
 import specs  # noqa: E402
 
 SPHEROIDS = specs.Spec(particles=27, elongation=1 / 0.7)
+LATTICE = specs.Spec(particles=4, state="lattice", copies=3)
 
 
 def measure(*arguments, path=None):
@@ -59,8 +60,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(*map(sorted, tables))
 
     def test_a_lattice_has_twelve_neighbours_and_the_stress_of_its_overlaps(self):
-        spec = specs.Spec(particles=4, state="lattice", copies=3)
-        seen = self.ready("lattice", spec)["placed"]
+        seen = self.ready("lattice", LATTICE)["placed"]
         self.assertEqual(seen["touching"], 6 * seen["particles"])
         places = bodies.read_table(os.path.join(FOLDER.name, "lattice.csv"))
         edge = 3 * specs.lattice_edge()
@@ -77,8 +77,60 @@ class Scenes(unittest.TestCase):
             count = sum(kind["count"] for kind in scene["particles"].values())
             self.assertEqual(count, (spec.particles + spec.large) * spec.copies**3, name)
             self.assertEqual(scene["stage"][-1]["name"], "timed")
+            self.assertTrue(spec.has_room(), name)
             if spec.state not in ("loose", "lattice"):
                 tomllib.loads(specs.sample_text(spec.sample()))
+
+    def test_a_cell_has_room_where_no_particle_can_touch_two_images_of_another(self):
+        # docs/simulator.md: possible where the cell is thinner than 2 (a_1 + a_2).
+        def thinnest(particles, elongation):
+            return specs.Spec(particles=particles, elongation=elongation).has_room()
+        for elongation in (1.0, 3.0, 10.0):
+            a = specs.RADIUS * elongation ** (2 / 3)
+            least = (4 * a) ** 3 * (1 - specs.ROOM_POROSITY) / (4 / 3 * math.pi * specs.RADIUS**3)
+            self.assertFalse(thinnest(math.floor(least), elongation))
+            self.assertTrue(thinnest(math.ceil(least), elongation))
+        # One large one has no other: a_1 + a_2 is of it and a small one.
+        self.assertTrue(specs.Spec(particles=1000, large=1, size_ratio=5.0).has_room())
+        self.assertFalse(specs.Spec(particles=1000, large=2, size_ratio=5.0).has_room())
+        half = specs.Spec(particles=1000, elongation=5.0)
+        self.assertTrue(half.has_room())
+        self.assertFalse(making.dataclasses.replace(half, state="sheared").has_room())
+
+    def test_long_bodies_have_shorter_steps_in_sample_and_scene(self):
+        for elongation, factor in {3.0: 0.3, 5.0: 0.15, 10.0: 0.15}.items():
+            spec = specs.Spec(elongation=elongation, state="sheared")
+            for text in (specs.sample_text(spec.sample()), specs.scene_text(spec, [1.0] * 3, 1, "x.csv")):
+                factors = {s["time_step_factor"] for s in tomllib.loads(text)["stage"] if "time_step_factor" in s}
+                self.assertEqual(factors, {factor})
+
+    def test_a_scene_is_made_anew_where_another_one_has_its_name(self):
+        def made(spec):
+            file = MAKER.scene("again", spec)
+            with open(file, encoding="utf-8") as text:
+                return os.stat(file).st_mtime_ns, tomllib.loads(text.read())
+        first = made(LATTICE)
+        self.assertEqual(made(LATTICE), first)
+        rough = made(making.dataclasses.replace(LATTICE, friction=0.25))
+        self.assertEqual(rough[1]["contact"]["friction_coefficient"], 0.25)
+        # The text of the scene is the same, and its bodies are not.
+        table = os.path.join(FOLDER.name, "again.csv")
+        other = making.dataclasses.replace(LATTICE, friction=0.25, seed=2)
+        before = bodies.read_table(table)
+        made(other)
+        after = bodies.read_table(table)
+        self.assertTrue(after != before)
+        os.remove(table)
+        made(other)
+        self.assertTrue(bodies.read_table(table) == after)
+
+    def test_a_reader_that_has_enough_is_no_error(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        run = subprocess.run([sys.executable, os.path.join(SCRIPTS, "make_scene"), "--list"], stdout=writer,
+                             stderr=subprocess.PIPE, text=True, check=False)
+        os.close(writer)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
 
     def test_growth_changes_no_semi_axis_by_more_than_is_allowed(self):
         def axes(part, spec):
