@@ -10,6 +10,7 @@ import itertools
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,7 @@ SCRIPTS, TOOL, PROGRAM = (os.path.abspath(argument) for argument in sys.argv[1:4
 sys.path.insert(0, SCRIPTS)
 
 import bodies  # noqa: E402
+import costs  # noqa: E402
 import lammps  # noqa: E402
 import making  # noqa: E402
 import sessions  # noqa: E402
@@ -36,6 +38,15 @@ def measure(*arguments, path=None):
                "--program", PROGRAM, "--folder", FOLDER.name]
     environment = dict(os.environ, PATH=path) if path else None
     return subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+
+
+def executable(name, text):
+    """A program of the shell in FOLDER; its file."""
+    file = os.path.join(FOLDER.name, name)
+    os.makedirs(os.path.dirname(file), exist_ok=True)
+    making.write_whole(file, f"#!/bin/sh\n{text}\n")
+    os.chmod(file, 0o755)
+    return file
 
 
 class Scenes(unittest.TestCase):
@@ -196,10 +207,45 @@ class Measuring(unittest.TestCase):
         self.assertEqual(len(sessions.differences(rows("1", "2"))), 1)
 
     def test_threads_of_a_scene_have_the_same_bits(self):
-        scene = MAKER.scene("one", SPHEROIDS)
+        # So many that threads share all loops: dem/parallel.hpp, kParallelThreshold.
+        spec = making.dataclasses.replace(SPHEROIDS, copies=3)
+        scene = MAKER.scene("many", spec)
         run = measure("time", scene, "--threads", "1", "2", "--rounds", "1", "--seconds", "0.01")
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
-        self.assertRegex(run.stdout, r"(?m)^one 1 threads +27 .*\none 2 threads +27 ")
+        self.assertRegex(run.stdout, r"(?m)^many 1 threads +729 .*\nmany 2 threads +729 ")
+
+    def test_lists_compares_the_answers_of_two_builds(self):
+        loose = specs.Spec(particles=60, state="loose")
+        scene = MAKER.scene("few", loose)
+        MAKER.scene("few-drifting", making.dataclasses.replace(loose, drift=True))
+        other = executable("other", f"\"{PROGRAM}\" \"$@\" | sed -u 's/\"touching\":0/\"touching\":3/'")
+        for new, status in ((PROGRAM, 0), (other, 1)):
+            run = measure("lists", scene, "--old", PROGRAM, "--new", new, "--rounds", "1", "--seconds", "0.01")
+            self.assertEqual(run.returncode, status, run.stderr + run.stdout)
+            self.assertRegex(run.stdout, r"(?m)^new few: 60 particles, \d+ pairs, one list ")
+            self.assertEqual("NOT SO: new few: touching is 3, and of old few 0" in run.stdout, status == 1)
+
+    @unittest.skipUnless(shutil.which("valgrind"), "there is no valgrind")
+    def test_instructions_of_one_old_build_alone(self):
+        run = measure("instructions", MAKER.scene("lattice", LATTICE), "--old", PROGRAM)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"(?m)^old \S*lattice\S* +[1-9]\d+ +\d+\.\d$")
+
+    def test_large_scenes_are_those_that_have_a_name_and_all_between(self):
+        for count in (1000, 8000, 10**6):
+            name, spec = costs.dense_scene(count)
+            self.assertEqual(making.named()[name], spec)
+        self.assertEqual(costs.dense_scene(27000)[1].copies, 3)
+        for count in (0, -1000, 999, 27001):
+            run = measure("large", "--particles", str(count))
+            self.assertEqual((run.returncode, run.stdout), (2, ""))
+            self.assertIn(f"--particles {count}: allowed are 1000, 8000", run.stderr)
+
+    def test_phases_are_those_of_the_cycles_that_were_asked_for(self):
+        run = measure("phases", MAKER.scene("one", SPHEROIDS), "--cycles", "30")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        cycles = 30 + specs.SETTLING["linear"]
+        self.assertRegex(run.stdout, rf"(?m)^gaps +\d.*\n(?:.*\n)*cycles +{cycles}\.0$")
 
     def test_a_program_that_ends_is_a_failure_with_its_reason(self):
         with self.assertRaisesRegex(sessions.Failure, "missing.toml"):
@@ -208,17 +254,21 @@ class Measuring(unittest.TestCase):
             sessions.Ours("none", PROGRAM, MAKER.scene("one", SPHEROIDS), "mmx")
 
     def test_without_lammps_it_says_how_to_get_it(self):
-        scene = MAKER.scene("lattice", specs.Spec(particles=4, state="lattice", copies=3))
+        scene = MAKER.scene("lattice", LATTICE)
         run = measure("time", scene, "--lammps", scene, path="/nowhere")
         self.assertEqual(run.returncode, 2)
         self.assertIn(lammps.MISSING, run.stderr)
 
     @unittest.skipUnless(lammps.is_there(), lammps.MISSING)
     def test_lammps_bears_the_same_stress_by_the_same_contacts(self):
-        scene = MAKER.scene("lattice", specs.Spec(particles=4, state="lattice", copies=3))
+        scene = MAKER.scene("lattice", LATTICE)
         run = measure("time", scene, "--lammps", scene, "--rounds", "1", "--seconds", "0.01")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(run.stdout, r"(?m)^lammps lattice +108 +6.000")
+        # Fewer than touch: no skin leaves those out.
+        run = measure("time", scene, "--lammps", scene, "--listed", "1")
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertRegex(run.stderr, r"no skin lists 1\.0000 pairs a particle; one of \S+ m lists 6\.0000")
 
     def test_the_chain_counts_the_cycles_of_all_its_runs(self):
         with open(os.path.join(SCRIPTS, "..", "..", "dem", "scenes", "unload-1000.toml"), encoding="utf-8") as file:
