@@ -247,6 +247,24 @@ class Measuring(unittest.TestCase):
         cycles = 30 + specs.SETTLING["linear"]
         self.assertRegex(run.stdout, rf"(?m)^gaps +\d.*\n(?:.*\n)*cycles +{cycles}\.0$")
 
+    def test_all_tables_need_programs_and_say_which_levels_are_missing(self):
+        command = [os.path.join(SCRIPTS, "measure_all"), os.path.join(FOLDER.name, "tables"), "contact"]
+        def measure_all(build):
+            return subprocess.run(command, env=dict(os.environ, TANGENCY_BUILD=build), capture_output=True,
+                                  text=True, check=False)
+        run = measure_all("/nowhere")
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertIn("/nowhere/bench/bench_dem_scene is not there: build bench_dem_scene", run.stderr)
+        said = "--level ?: this machine and build have ssse3"
+        executable("build/bench/bench_dem_scene", f"echo '{said}'; exit 1")
+        executable("build/dem/tool/tangency-dem", "exit 1")
+        run = measure_all(os.path.join(FOLDER.name, "build"))
+        self.assertEqual(run.returncode, 1)
+        self.assertIn(f"no row by level: neither avx512, avx2 nor sse4 is in what bench_dem_scene said: {said}",
+                      run.stderr)
+        self.assertIn("measure time spheroid-1.43-1000 --lammps lattice-4000\n", run.stdout)
+        self.assertIn("not so: contact", run.stderr)
+
     def test_a_program_that_ends_is_a_failure_with_its_reason(self):
         with self.assertRaisesRegex(sessions.Failure, "missing.toml"):
             sessions.Ours("none", PROGRAM, os.path.join(FOLDER.name, "missing.toml"))
