@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a scene pays for: one dense assembly of 1000 particles, one cycle at a time, with features
-// on and off. Times are a cycle's; `per_pair` is a cycle's over the listed pairs.
+// on and off, on one thread. Times are a cycle's; `per_pair` is a cycle's over the listed pairs.
 //
-//     OMP_NUM_THREADS=1 bench_dem --benchmark_enable_random_interleaving=true
+//     bench_dem --benchmark_enable_random_interleaving=true
 //
 // Checks its answers first: spheres by their own formula bear what nearly round ellipsoids do by
 // the general one, a frictionless scene is the same with turning left out, and every assembly bears
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/simulation.hpp>
 
 namespace {
@@ -143,6 +144,7 @@ bool answers_agree() {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  set_threads(1);
   if (!answers_agree()) return 1;
   bool sound = true;
   for (const Features& features : scenes())

@@ -66,7 +66,7 @@ def jittered(bodies, seed):
 def drifting(spec, bodies):
     """With one velocity for all."""
     mass = specs.DENSITY * 4.0 / 3.0 * math.pi * specs.RADIUS**3
-    step = specs.MOTION["time_step_factor"] * math.sqrt(mass / specs.STIFFNESS)
+    step = spec.motion()["time_step_factor"] * math.sqrt(mass / specs.STIFFNESS)
     speed = DRIFT * specs.RADIUS * spec.size_ratio * spec.elongation / step
     velocity = f"{speed!r},{0.7 * speed!r},{0.4 * speed!r}"
     for name, x, rest in bodies:

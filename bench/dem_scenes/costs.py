@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What takes one run and no turns: instructions, a million particles, the published chain."""
+"""What takes one run and no turns: instructions, phases, a million particles, the published chain."""
 
+import dataclasses
 import json
 import os
 import re
 import shutil
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
+import tomllib
 
 import making
 import specs
@@ -55,15 +58,43 @@ def instructions(given, maker):
     if not shutil.which("valgrind"):
         raise sessions.Failure("there is no valgrind: apt-get install valgrind")
     print(f"{'instructions':28}  {'a cycle':>12}  a listed pair")
-    programs = [("old ", given.old), ("new ", given.new)] if given.old else [("", given.program)]
     for name in given.scenes:
-        for build, program in programs:
+        for build, program in sessions.binaries(given):
             for level in given.level or [""]:
                 few, few_pairs = count_of(program, given.scene_file(name), level, FEW_CYCLES)
                 more, more_pairs = count_of(program, given.scene_file(name), level, MORE_CYCLES)
                 label = f"{build}{name} {level}".strip()
                 print(f"{label:28}  {(more - few) / (MORE_CYCLES - FEW_CYCLES):12.0f}  "
                       f"{(more - few) / (more_pairs - few_pairs):13.1f}", flush=True)
+    return 0
+
+
+# Phases
+
+
+def phases(given, maker):
+    """tangency-dem's own profile of the timed stage and the one before, in which a sample settles."""
+    if given.cycles < 1:
+        raise sessions.Failure(f"--cycles {given.cycles}: allowed is at least 1")
+    for name in given.scenes:
+        scene = given.scene_file(name)
+        with open(scene, encoding="utf-8") as file:
+            text = file.read()
+        ended = text.replace(f"duration = {specs.WITHOUT_END}", f"duration = {given.cycles}")
+        if ended == text:
+            raise sessions.Failure(f"{name}: phases needs a scene of make_scene that is not sheared")
+        with tempfile.TemporaryDirectory(dir=given.folder) as folder:
+            copy = os.path.join(folder, "phases.toml")
+            table = tomllib.loads(text)["stage"][0]["file"]
+            shutil.copy(os.path.join(os.path.dirname(scene), table), folder)
+            making.write_whole(copy, ended)
+            command = [given.tool, "run", copy, "--out", os.path.join(folder, "out"), "--quiet", "--profile",
+                       "--threads", str(given.threads[0])]
+            run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        if run.returncode:
+            raise sessions.Failure(f"{name}: {given.tool} ended with {run.returncode}: {run.stderr.strip()}")
+        print(f"{name}\n{run.stdout}", end="", flush=True)
+        print(run.stderr, end="", file=sys.stderr, flush=True)
     return 0
 
 
@@ -76,12 +107,21 @@ def loose_scene(particles):
     return text.replace(f"frame_interval = {specs.WITHOUT_END}", "frame_interval = 0")
 
 
+def dense_scene(particles):
+    """Name and Spec of so many spheroids at rest, copies of one sample in an order by chance."""
+    one = making.named()["spheroid-1.43-1000"]
+    copies = round((max(particles, 0) / one.particles) ** (1 / 3))
+    if copies < 1 or one.particles * copies**3 != particles:
+        raise sessions.Failure(f"--particles {particles}: allowed are 1000, 8000, ... 1000 n^3")
+    if copies == 1:
+        return "spheroid-1.43-1000", one
+    return f"spheroid-1.43-{particles}-shuffled", dataclasses.replace(one, copies=copies, shuffle=1)
+
+
 def large(given, maker):
     """Set-up by tangency-dem, memory, cycles, and a checkpoint beside a plain write."""
     count = given.particles
-    copies = round((count / 1000) ** (1 / 3))
-    if 1000 * copies**3 != count:
-        raise sessions.Failure(f"--particles {count}: allowed are 1000, 8000, ... 1000 n^3")
+    name, spec = dense_scene(count)
     os.makedirs(given.folder, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=given.folder) as folder:
         scene = os.path.join(folder, "random.toml")
@@ -94,8 +134,7 @@ def large(given, maker):
         print(f"tangency-dem, {count} spheroids at random, one cycle, results of {written / 1e6:.0f} MB: "
               f"{wall:.2f} s, {cpu:.2f} s of processor, at most {peak / 1e9:.3f} GB, "
               f"{peak / count / 1e3:.2f} kB a particle", flush=True)
-        name = f"spheroid-1.43-{count}" + ("-shuffled" if copies > 1 else "")
-        dense = maker.scene(name, making.named()[name])
+        dense = maker.scene(name, spec)
         sessions.note(f"setting up {name}")
         session = sessions.Ours(name, given.program, dense, threads=given.threads[0])
         set_up = session.ready["set_up"]

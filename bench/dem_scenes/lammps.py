@@ -78,6 +78,9 @@ class Lammps(sessions.Program):
             if abs(a_particle - listed) < 1e-3 * listed:
                 break
             low, high = (self.skin, high) if a_particle < listed else (low, self.skin)
+        else:
+            raise sessions.Failure(f"{self.label}: no skin lists {listed:.4f} pairs a particle; one of "
+                                   f"{self.skin:.4g} m lists {a_particle:.4f}")
         ready = ours.ready["placed"]
         if seen["touching"] != ready["touching"]:
             raise sessions.Failure(

@@ -16,25 +16,30 @@ Spec = specs.Spec
 def named():
     """The scenes that have names."""
     scenes = {}
+    # The longest need more of them for their room, or touch two images of another one.
     shapes = {
-        "sphere": (1.0, 1.0), "spheroid-1.43": (1 / 0.7, 1.0), "ellipsoid-3-2-1": (1.5, 2.0),
-        "spheroid-3": (3.0, 1.0), "spheroid-5": (5.0, 1.0), "spheroid-10": (10.0, 1.0)}
-    for name, (elongation, flatness) in shapes.items():
-        dense = Spec(elongation=elongation, flatness=flatness)
+        "sphere": (1.0, 1.0, 1000), "spheroid-1.43": (1 / 0.7, 1.0, 1000), "ellipsoid-3-2-1": (1.5, 2.0, 1000),
+        "spheroid-3": (3.0, 1.0, 1000), "spheroid-5": (5.0, 1.0, 1000), "spheroid-10": (10.0, 1.0, 1400)}
+    for name, (elongation, flatness, count) in shapes.items():
+        dense = Spec(particles=count, elongation=elongation, flatness=flatness)
         change = lambda spec=dense, **keys: dataclasses.replace(spec, **keys)
-        scenes[f"{name}-1000"] = dense
-        scenes[f"{name}-1000-sheared"] = change(state="sheared", pressure=50e6)
-        scenes[f"{name}-1000-hertz"] = change(law="hertz")
-        scenes[f"{name}-1000-frictionless"] = change(friction=0.0)
-        scenes[f"{name}-1000-walls"] = change(walls="xyz")
+        scenes[f"{name}-{count}"] = dense
+        sheared = change(state="sheared", pressure=50e6)
+        if sheared.has_room():
+            scenes[f"{name}-{count}-sheared"] = sheared
+        scenes[f"{name}-{count}-hertz"] = change(law="hertz")
+        scenes[f"{name}-{count}-frictionless"] = change(friction=0.0)
+        scenes[f"{name}-{count}-walls"] = change(walls="xyz")
         for copies in (2, 4, 8, 10):
-            scenes[f"{name}-{1000 * copies**3}"] = change(copies=copies)
-            scenes[f"{name}-{1000 * copies**3}-shuffled"] = change(copies=copies, shuffle=1)
+            scenes[f"{name}-{count * copies**3}"] = change(copies=copies)
+            scenes[f"{name}-{count * copies**3}-shuffled"] = change(copies=copies, shuffle=1)
         # Small ones, to see whether all is well.
-        scenes[f"{name}-125"] = change(particles=125)
-        scenes[f"{name}-125-hertz"] = change(particles=125, law="hertz")
-        scenes[f"{name}-1000-of-125"] = change(particles=125, copies=2)
-        scenes[f"{name}-1000-of-125-shuffled"] = change(particles=125, copies=2, shuffle=1)
+        small = change(particles=125)
+        if small.has_room():
+            scenes[f"{name}-125"] = small
+            scenes[f"{name}-125-hertz"] = change(small, law="hertz")
+            scenes[f"{name}-1000-of-125"] = change(small, copies=2)
+            scenes[f"{name}-1000-of-125-shuffled"] = change(small, copies=2, shuffle=1)
     for copies in (6, 10, 13, 25):
         scenes[f"lattice-{4 * copies**3}"] = Spec(particles=4, state="lattice", copies=copies)
     # One large particle has room in a dense cell, which must be two of its diameters wide for two.
@@ -58,11 +63,12 @@ class Maker:
         self.samples = {}
 
     def scene(self, name, spec):
-        """The file of a scene, made if it is not there."""
+        """The file of a scene, made where it is not there, or is another one of this name."""
         if fault := spec.fault():
             raise ValueError(f"{name}: {fault}")
-        file = os.path.join(self.folder, name + ".toml")
-        if os.path.exists(file):
+        file, table = (os.path.join(self.folder, name + end) for end in (".toml", ".csv"))
+        mark = mark_of(spec)
+        if os.path.exists(table) and last_line_of(file) == mark:
             return file
         os.makedirs(self.folder, exist_ok=True)
         if spec.state == "lattice":
@@ -74,10 +80,9 @@ class Maker:
             all_bodies = bodies.jittered(all_bodies, spec.seed)
         if spec.drift:
             all_bodies = bodies.drifting(spec, all_bodies)
-        table = os.path.join(self.folder, name + ".csv")
         bodies.write_table(table, spec, all_bodies)
         text = specs.scene_text(spec, [spec.copies * edge for edge in size], spec.copies**3, name + ".csv")
-        write_whole(file, text)
+        write_whole(file, f"{text}\n{mark}\n")
         return file
 
     def sample(self, spec):
@@ -102,6 +107,24 @@ class Maker:
         os.replace(os.path.join(out, "frames.xyz"), frames)
         shutil.rmtree(out)
         return frames
+
+
+def mark_of(spec):
+    """The last line of a scene's file: a digest of all that the scene comes from."""
+    with open(bodies.__file__, encoding="utf-8") as source:  # where its bodies stand
+        parts = [repr(spec), source.read()]
+    if spec.state != "lattice":
+        parts.append(specs.sample_text(spec.sample()))
+    parts.append(specs.scene_text(spec, [1.0] * 3, spec.copies**3, ""))
+    return f"# Made from {specs.digest(chr(0).join(parts))}"
+
+
+def last_line_of(file):
+    """Nothing where there is no such file."""
+    if not os.path.exists(file):
+        return ""
+    with open(file, encoding="utf-8") as text:
+        return last_line(text.read())
 
 
 def last_line(text):

@@ -81,7 +81,8 @@ class Ours(Program):
 
     def __init__(self, label, binary, scene, level="", threads=1):
         command = [binary, scene, "--threads", str(threads)] + (["--level", level] if level else [])
-        # Threads sleep while they wait, as tangency-dem has it, unless the user chose.
+        # For --old alone: builds before docs/decisions/0012-threads.md have OpenMP's threads, which
+        # wait busily unless they are told to sleep, as tangency-dem had it; the user may choose.
         policy = os.environ.get("OMP_WAIT_POLICY", "passive")
         super().__init__(label, command, {"OMP_WAIT_POLICY": policy})
         self.scene, self.threads = scene, threads
@@ -169,6 +170,13 @@ def differences(rows):
                 found.append(f"{s.label}: {key} is {end[key]:.10g}, and of {other.session.label} "
                              f"{other.end[key]:.10g}")
     return found
+
+
+def binaries(given):
+    """What builds are called, and their programs."""
+    if given.old or given.new:
+        return [(name, file) for name, file in (("old ", given.old), ("new ", given.new)) if file]
+    return [("", given.program)]
 
 
 def note(text):
