@@ -144,8 +144,7 @@ HWY_INLINE PackVec3 relative_velocity(const ContactBlock& block, std::size_t i, 
     b.lane[k] = block.motion[block.pairs[i + k].b].velocity;
   }
   const PackMotion of_a = motion_of(a), of_b = motion_of(b);
-  return (of_b.velocity + cross(of_b.spin, arm - branch)) -
-         (of_a.velocity + cross(of_a.spin, arm));
+  return (of_b.velocity + cross(of_b.spin, arm - branch)) - (of_a.velocity + cross(of_a.spin, arm));
 }
 
 /// How stiff a contact is in shear: one number, or those along and across a direction.
@@ -208,8 +207,8 @@ HWY_INLINE PackShear shear_of(const ContactBlock& block, std::size_t i, const Pa
   PackVec3 trial = kept - stiffness.times(moved);
   // Takes the normal part of the displacement away, and what rounding has left of earlier ones.
   trial = multiply_take(dot(normal, trial), normal, trial);
-  const Pack limit =
-      multiply_add(normal_force, load(block.law.friction_coefficient + i), load(block.law.cohesion + i));
+  const Pack limit = multiply_add(normal_force, load(block.law.friction_coefficient + i),
+                                  load(block.law.cohesion + i));
   const Pack size = root(dot(trial, trial));
   const PackVec3 force = chosen(size > limit, trial * (limit / size), trial);
   const Pack energy = stiffness.energy(force);
@@ -222,8 +221,7 @@ HWY_INLINE PackShear shear_of(const ContactBlock& block, std::size_t i, const Pa
 HWY_INLINE Pack gained_by_curvature(const Pack& overlap_before, const Pack& energy_before,
                                     const Pack& overlap, const Pack& energy) {
   const Pack ratio = overlap / overlap_before, power = ratio * ratio * root(ratio);
-  return all(0.5) *
-         (((energy - energy_before * power) + energy / power) - energy_before);
+  return all(0.5) * (((energy - energy_before * power) + energy / power) - energy_before);
 }
 
 /// One step of the pairs from i on.
@@ -232,7 +230,7 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
   const ContactState& state = block.state;
   const Pack zero = all(0.0), half = all(0.5), gap = load(block.gap + i);
   const Pack overlap_before = load(state.overlap + i);
-  const PackMask touches = gap < zero, touched = overlap_before > zero;
+  const PackMask touches = gap<zero, touched = overlap_before> zero;
   const PackVec3 normal = load_vectors(block.normal + 3 * i);
   const PackVec3 branch = load_vectors(block.branch + 3 * i);
   const PackVec3 no_force{zero, zero, zero};
@@ -254,13 +252,12 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
   const PackVec3 from_arm = chosen(touched, arm_before, arm);
   const double* const r = block.rate;
   const Pack dt = all(block.dt);
-  const PackVec3 strained =
-      PackVec3{dot({all(r[0]), all(r[3]), all(r[6])}, from_branch),
-               dot({all(r[1]), all(r[4]), all(r[7])}, from_branch),
-               dot({all(r[2]), all(r[5]), all(r[8])}, from_branch)} * dt;
+  const PackVec3 strained = PackVec3{dot({all(r[0]), all(r[3]), all(r[6])}, from_branch),
+                                     dot({all(r[1]), all(r[4]), all(r[7])}, from_branch),
+                                     dot({all(r[2]), all(r[5]), all(r[8])}, from_branch)} *
+                            dt;
   const PackVec3 moved = multiply_add(
-      dt,
-      relative_velocity(block, i, (from_arm + arm) * half, (from_branch + branch) * half),
+      dt, relative_velocity(block, i, (from_arm + arm) * half, (from_branch + branch) * half),
       strained);
 
   PackContact now{normal, branch, arm, no_force, {}, {}};
@@ -289,9 +286,9 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
     const PackVec3 turning = (moved + turn(moved)) * half;
     const PackShear after = shear_of<hertz>(block, i, turn(shear_before), shear_energy_before,
                                             turning, normal, now.normal_force);
-    const PackMask bears = touches & (load(block.law.shear_stiffness + i) > zero) &
-                           ((load(block.law.friction_coefficient + i) > zero) |
-                            (load(block.law.cohesion + i) > zero));
+    const PackMask bears =
+        touches & (load(block.law.shear_stiffness + i) > zero) &
+        ((load(block.law.friction_coefficient + i) > zero) | (load(block.law.cohesion + i) > zero));
     now.shear = only(bears, after.force);
     const Pack shear_energy = only(bears, after.energy);
     energy = energy + shear_energy;
@@ -348,12 +345,10 @@ HWY_ATTR void restored_lanes(const ContactBlock& block) {
   for (std::size_t i = 0; i < block.count; i += pack_lanes()) {
     PackSums sums;
     sums.sliding = sums.boundary = sums.branch = all(0.0);
-    const PackContact contact{load_vectors(state.normal + 3 * i),
-                              load_vectors(state.branch + 3 * i),
-                              load_vectors(state.arm + 3 * i),
-                              load_vectors(state.shear_force + 3 * i),
-                              load(state.normal_force + i),
-                              load(state.normal_stiffness + i)};
+    const PackContact contact{
+        load_vectors(state.normal + 3 * i), load_vectors(state.branch + 3 * i),
+        load_vectors(state.arm + 3 * i),    load_vectors(state.shear_force + 3 * i),
+        load(state.normal_force + i),       load(state.normal_stiffness + i)};
     add_up(contact, force_of(contact), block, i, sums);
     sum.add(sums, i);
   }

@@ -85,13 +85,13 @@ class BlockHertz {
     for (IndexedPair& pair : pairs)
       if (pair.b >= bodies) pair.b = kFlatBody;
     const std::uint64_t answered =
-        bodies == 0 ? 0
-                    : hertz_lanes({narrow_phase.rows().data(), pairs.data(),
-                                   static_cast<int>(count), block.normal[0].data(), overlap.data(),
-                                   contact_modulus.data(), shear_modulus.data(),
-                                   poisson_ratio.data(), force_.data(), stiffness_.data(),
-                                   energy_.data(), along_.data(), across_.data(),
-                                   direction_[0].data()});
+        bodies == 0
+            ? 0
+            : hertz_lanes({narrow_phase.rows().data(), pairs.data(), static_cast<int>(count),
+                           block.normal[0].data(), overlap.data(), contact_modulus.data(),
+                           shear_modulus.data(), poisson_ratio.data(), force_.data(),
+                           stiffness_.data(), energy_.data(), along_.data(), across_.data(),
+                           direction_[0].data()});
     for (std::size_t k = 0; k < count; ++k)
       if ((answered >> k & 1) == 0)
         answer(k, *laws.law[k], overlap[k],
@@ -137,7 +137,8 @@ double ContactLaws::largest_stiffness() const {
 }
 
 bool ContactLaws::bear_shear() const {
-  return std::any_of(law.begin(), law.end(), [](const ContactLaw& one) { return one.bears_shear(); });
+  return std::any_of(law.begin(), law.end(),
+                     [](const ContactLaw& one) { return one.bears_shear(); });
 }
 
 bool ContactLaws::are_hertz() const { return law.front().hertz.has_value(); }
@@ -184,9 +185,9 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              const NeighbourList& list, const ContactLaws& laws, double dt,
                              Branch branch, Profile* profile) {
   const bool bear_shear = laws.bear_shear();
-  const Step step{particles, cell,   list.pairs(),
-                  laws,      dt,     branch,
-                  bear_shear || may_have_shear_, laws.are_hertz()};
+  const Step step{
+      particles,       cell, list.pairs(), laws, dt, branch, bear_shear || may_have_shear_,
+      laws.are_hertz()};
   may_have_shear_ = bear_shear;
   if (count_ != step.pairs.size()) resize(step.pairs.size());
   refresh(particles, profile);
@@ -248,9 +249,9 @@ ContactBlock Contacts::block_at(std::size_t first, std::size_t index) {
   ContactColumns& c = columns_;
   ContactBlock block{};
   block.count = std::min(kPairBlock, count_ - first);
-  block.state = {c.normal[first].data(),    c.branch[first].data(),     c.arm[first].data(),
-                 c.shear_force[first].data(), &c.overlap[first],        &c.normal_force[first],
-                 &c.normal_stiffness[first], &c.normal_energy[first],   &c.shear_stiffness[first],
+  block.state = {c.normal[first].data(),      c.branch[first].data(),  c.arm[first].data(),
+                 c.shear_force[first].data(), &c.overlap[first],       &c.normal_force[first],
+                 &c.normal_stiffness[first],  &c.normal_energy[first], &c.shear_stiffness[first],
                  &c.shear_energy[first]};
   block.force = force_[first].data();
   block.moment_a = moment_a_[first].data();
@@ -382,8 +383,7 @@ void Contacts::restore(ContactColumns columns, const Particles& particles,
   columns_ = std::move(columns);
   may_have_shear_ = true;
   resize(list.pairs().size());
-  for (std::size_t k = 0; k < block_sums_.size(); ++k)
-    restored_lanes(block_at(k * kPairBlock, k));
+  for (std::size_t k = 0; k < block_sums_.size(); ++k) restored_lanes(block_at(k * kPairBlock, k));
   add_up(list, particles.size());
   add_up_blocks();
 }

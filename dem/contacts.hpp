@@ -55,9 +55,9 @@ struct ContactColumns {
   static constexpr std::array kVectors{&ContactColumns::normal, &ContactColumns::branch,
                                        &ContactColumns::arm, &ContactColumns::shear_force};
   static constexpr std::array kNumbers{
-      &ContactColumns::overlap,         &ContactColumns::normal_force,
+      &ContactColumns::overlap,          &ContactColumns::normal_force,
       &ContactColumns::normal_stiffness, &ContactColumns::normal_energy,
-      &ContactColumns::shear_stiffness, &ContactColumns::shear_energy};
+      &ContactColumns::shear_stiffness,  &ContactColumns::shear_energy};
   /// Fills up, or cuts off.
   void resize(std::size_t entries);
 };
@@ -129,9 +129,9 @@ class Contacts {
   /// Keeps the contacts of pairs that are in both lists.
   void carry_over(const std::vector<Pair>& before, const std::vector<Pair>& now);
 
-  /// Follows particles that were permuted: particle i is now at place[i]. Returns the pairs that the
-  /// contacts are now of, in ascending order: where a and b of one went over to the other order,
-  /// its contact is seen from the other side. Resultants and sums wait for the next update.
+  /// Follows particles that were permuted: particle i is now at place[i]. Returns the pairs that
+  /// the contacts are now of, in ascending order: where a and b of one went over to the other
+  /// order, its contact is seen from the other side. Resultants and sums wait for the next update.
   std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
   /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds their forces
@@ -170,8 +170,8 @@ class Contacts {
 
   // Made anew in every update.
   NarrowPhase narrow_phase_;
-  std::vector<MotionRow> motion_;                    ///< of particles and walls
-  std::vector<Vec3> force_, moment_a_, moment_b_;    ///< of each pair, filled up like the columns
+  std::vector<MotionRow> motion_;                  ///< of particles and walls
+  std::vector<Vec3> force_, moment_a_, moment_b_;  ///< of each pair, filled up like the columns
   std::vector<BlockSums> block_sums_;
 };
 

@@ -57,7 +57,8 @@ void NarrowPhase::aim(const Particles& particles) {
           : are_round(particles)    ? Kind::spheres
                                     : Kind::ellipsoids;
   if (kind_ == Kind::spheres) radii_.resize(particles.size());
-  if (kind_ == Kind::ellipses) ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
+  if (kind_ == Kind::ellipses)
+    ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
   if (kind_ == Kind::ellipsoids) bodies_.look_at(particles.semi_axes, particles.orientation);
 }
 
@@ -71,9 +72,9 @@ void NarrowPhase::refresh(const Particles& particles, std::size_t first, std::si
   }
 }
 
-std::size_t NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
-                          std::span<const Vec3> normals, Branch branch,
-                          BlockGeometry& block) const {
+std::size_t NarrowPhase::measure(std::span<const Pair> pairs, const Particles& particles,
+                                 const Cell& cell, std::span<const Vec3> normals, Branch branch,
+                                 BlockGeometry& block) const {
   const std::size_t count = pairs.size();
   bool walls = false;
   for (std::size_t k = 0; k < count; ++k) {
@@ -121,7 +122,7 @@ void NarrowPhase::measure_spheres(std::size_t count, BlockGeometry& block) const
 }
 
 std::size_t NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> normals,
-                                     Branch branch, BlockGeometry& block) const {
+                                            Branch branch, BlockGeometry& block) const {
   BlockGeometry::Column<Vec3> arm_b;
   BlockGeometry::Column<GapTier> tier;
   const auto first = [&](auto& column) { return std::span(column.data(), count); };

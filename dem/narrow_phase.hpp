@@ -71,13 +71,13 @@ class NarrowPhase {
   enum class Kind { spheres, ellipses, ellipsoids };
   void measure_spheres(std::size_t count, BlockGeometry& block) const;
   std::size_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
-                          BlockGeometry& block) const;
+                                 BlockGeometry& block) const;
   void measure_wall(std::size_t k, const Wall& wall, const Particles& particles, const Cell& cell,
                     BlockGeometry& block) const;
 
   Kind kind_ = Kind::spheres;
-  std::vector<double> radii_;          ///< of spheres
-  std::vector<Ellipse> ellipses_;      ///< centred at the origin, as ellipsoids are
+  std::vector<double> radii_;      ///< of spheres
+  std::vector<Ellipse> ellipses_;  ///< centred at the origin, as ellipsoids are
   MovingBodies bodies_;            ///< the ellipsoids
 };
 

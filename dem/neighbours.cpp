@@ -54,8 +54,8 @@ double skin_of(const Particles& particles, std::size_t i, double ratio, double d
   const Vec3& axes = particles.semi_axes[i];
   const double radius = mean_radius_of(axes, particles.dimensions);
   const double spread = axes.maxCoeff() - axes.minCoeff();
-  const double a_step = dt * (particles.velocity[i].norm() +
-                              spread * particles.angular_velocity[i].norm());
+  const double a_step =
+      dt * (particles.velocity[i].norm() + spread * particles.angular_velocity[i].norm());
   return std::max(ratio * radius, std::min(kLeastSteps * a_step, kMostSkin * radius));
 }
 

@@ -2,10 +2,10 @@
 /// @file
 /// Which pairs of particles may touch before the list is next renewed.
 ///
-/// Each particle has a skin, a length in proportion to its own size; thicker where it moves fast. The
-/// list holds the pairs of
-/// images whose gap is at most the sum of both skins, each pair once, in an order that depends on
-/// nothing but the positions. docs/derivations/neighbour-list.md derives how long it lasts.
+/// Each particle has a skin, a length in proportion to its own size; thicker where it moves fast.
+/// The list holds the pairs of images whose gap is at most the sum of both skins, each pair once,
+/// in an order that depends on nothing but the positions. docs/derivations/neighbour-list.md
+/// derives how long it lasts.
 ///
 /// (1) Every pair that touches is listed as long as is_current() is true.
 /// (2) No pair is listed twice; a particle may meet itself through the periodic boundary.
@@ -102,7 +102,7 @@ class NeighbourList {
 
   /// What build() saw; with pairs() all there is to save.
   struct Reference {
-    Mat3 edges = Mat3::Zero();  ///< of the cell
+    Mat3 edges = Mat3::Zero();           ///< of the cell
     std::vector<double> skin;            ///< of each particle, length
     std::vector<Vec3> reduced_position;  ///< in parts of the cell's edges
     std::vector<Quaternion> orientation;

@@ -71,8 +71,8 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
           const double force = (resultants.force[i] + particles.mass[i] * gravity).norm();
           some.sum += force;
           some.force = std::max(some.force, force);
-          some.moment = std::max(some.moment, resultants.moment[i].norm() /
-                                                  particles.semi_axes[i].maxCoeff());
+          some.moment = std::max(some.moment,
+                                 resultants.moment[i].norm() / particles.semi_axes[i].maxCoeff());
           ++some.with_contacts;
         }
         return some;
@@ -138,7 +138,8 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   }
   seen.coordination_number =
       2.0 * static_cast<double>(seen.contacts) / static_cast<double>(particles.size());
-  seen.coordination_std = standard_deviation(contacts.resultants().contacts, seen.coordination_number);
+  seen.coordination_std =
+      standard_deviation(contacts.resultants().contacts, seen.coordination_number);
   double solid = 0.0;
   for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes, particles.dimensions);
   seen.porosity = 1.0 - solid / cell.volume();

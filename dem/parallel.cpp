@@ -47,8 +47,8 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
                  const void* what) {
   Team& all = *team();
   if (all.size == 1) return call(what, 0, count);
-  const std::size_t share = (count + static_cast<std::size_t>(all.size) - 1) /
-                            static_cast<std::size_t>(all.size);
+  const std::size_t share =
+      (count + static_cast<std::size_t>(all.size) - 1) / static_cast<std::size_t>(all.size);
   all.arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, share),

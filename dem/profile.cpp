@@ -10,7 +10,7 @@
 namespace tangency::dem {
 namespace {
 
-constexpr std::array<const char*, kPhases> kNames{"motion", "bodies", "list",     "gaps",
+constexpr std::array<const char*, kPhases> kNames{"motion", "bodies", "list",   "gaps",
                                                   "law",    "sums",   "control"};
 
 double over(double x, double count) { return count > 0.0 ? x / count : 0.0; }

@@ -16,13 +16,13 @@ namespace tangency::dem {
 
 /// What a cycle is made of.
 enum class Phase : std::size_t {
-  motion,    ///< velocities, positions and orientations; with Fire
-  bodies,    ///< the kernel's bodies at the new places
-  list,      ///< is the neighbour list current, and where not, a new one
-  gaps,      ///< signed gaps of the listed pairs
-  law,       ///< forces and works of contacts
-  sums,      ///< resultants of the particles, stress
-  control,   ///< servos, thickness of the cell, the balance that growth waits for
+  motion,   ///< velocities, positions and orientations; with Fire
+  bodies,   ///< the kernel's bodies at the new places
+  list,     ///< is the neighbour list current, and where not, a new one
+  gaps,     ///< signed gaps of the listed pairs
+  law,      ///< forces and works of contacts
+  sums,     ///< resultants of the particles, stress
+  control,  ///< servos, thickness of the cell, the balance that growth waits for
 };
 inline constexpr std::size_t kPhases = 7;
 /// "motion", as they are named above.

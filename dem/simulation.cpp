@@ -78,8 +78,7 @@ void require_same_particles(const State& state, const Scene& scene) {
     const Vec3& axes = particles.semi_axes[i];
     const std::string path = "particles." + name;
     const int dimensions = scene.dimensions;
-    require_equal(path + ".mean_radius",
-                  mean_radius_of(axes, dimensions), shape.mean_radius);
+    require_equal(path + ".mean_radius", mean_radius_of(axes, dimensions), shape.mean_radius);
     require_equal(path + ".elongation", axes[0] / axes[1], shape.elongation);
     require_equal(path + ".flatness", axes[1] / axes[2], shape.flatness);
     require_equal(path + ".density", particles.mass[i] / volume_of(axes, dimensions),
@@ -330,8 +329,7 @@ bool Simulation::is_relaxed() const {
     return false;
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
-  const Balance balance =
-      balance_of(state_.particles, state_.contacts, scene_.gravity);
+  const Balance balance = balance_of(state_.particles, state_.contacts, scene_.gravity);
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;
@@ -440,8 +438,7 @@ double Simulation::stage_fraction() const {
 }
 
 Observation Simulation::observe() const {
-  Observation seen =
-      dem::observe(state_.particles, state_.cell, state_.contacts, scene_.gravity);
+  Observation seen = dem::observe(state_.particles, state_.cell, state_.contacts, scene_.gravity);
   seen.account = state_.energy;
   seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
   return seen;

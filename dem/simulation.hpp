@@ -134,8 +134,8 @@ class Simulation {
   State state_;
   ContactLaws laws_;  ///< the scene's, with the current stage's friction
   std::string changed_laws_;
-  bool turns_ = true;  ///< is there anything that could turn, or seem to?
-  LeastCell least_;    ///< of the particles as they are
+  bool turns_ = true;                 ///< is there anything that could turn, or seem to?
+  LeastCell least_;                   ///< of the particles as they are
   double characteristic_time_ = 0.0;  ///< of the masses and the stage's laws
   Profile* profile_ = nullptr;
 };

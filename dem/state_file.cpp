@@ -258,7 +258,8 @@ bool lengths_are_positive(const State& state, const NeighbourList::Reference& re
   const auto has_volume = [](const Mat3& edges) { return edges.determinant() > 0.0; };
   return has_volume(state.cell.edges) && has_volume(state.cell.reference_edges) &&
          has_volume(reference.edges) &&
-         std::all_of(reference.skin.begin(), reference.skin.end(), [](double s) { return s > 0.0; }) &&
+         std::all_of(reference.skin.begin(), reference.skin.end(),
+                     [](double s) { return s > 0.0; }) &&
          std::all_of(axes.begin(), axes.end(), is_positive);
 }
 

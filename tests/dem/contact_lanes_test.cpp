@@ -55,7 +55,9 @@ ContactArrays draw_block(Draw& draw) {
     const auto a = static_cast<std::uint32_t>(draw.uniform(0, 8));
     block.pairs[k] = {a, a + 1 + static_cast<std::uint32_t>(draw.uniform(0, 7))};
     block.set_law(k, draw_law(draw));
-    block.set_hertz(k, {draw.uniform(1, 9), draw.uniform(50, 200), draw.uniform(0.1, 1),
+    block.set_hertz(k, {draw.uniform(1, 9),
+                        draw.uniform(50, 200),
+                        draw.uniform(0.1, 1),
                         {draw.uniform(20, 80), draw.uniform(20, 80), Vec3::Zero()}});
     const bool touched = !draw.one_in(4);
     block.gap[k] = draw.one_in(4) ? draw.uniform(0, 0.1) : -draw.uniform(0.001, 0.1);
@@ -96,7 +98,7 @@ struct PlainContact {
 
   PlainContact(const ContactArrays& block, std::size_t k, bool hertz)
       : arm(block.arm_before[k]), moment_a(Vec3::Zero()), moment_b(Vec3::Zero()) {
-    const bool touches = block.gap[k] < 0.0, touched = block.overlap[k] > 0.0;
+    const bool touches = block.gap[k]<0.0, touched = block.overlap[k]> 0.0;
     if (!touches && !touched) return;
     if (touches) arm = block.arm[k];
     const Vec3 &normal = block.normal[k], &branch = block.branch[k];
@@ -107,11 +109,10 @@ struct PlainContact {
     const Vec3 strained = block.dt * (block.rate * from_branch);
     const dem::MotionRow &a = block.motion[block.pairs[k].a], &b = block.motion[block.pairs[k].b];
     const auto at = [](const double* v) { return Vec3(v[0], v[1], v[2]); };
-    const Vec3 moved = strained + block.dt * (at(b.velocity) +
-                                              at(b.spin).cross(Vec3(middle_arm - middle)) -
-                                              at(a.velocity) - at(a.spin).cross(middle_arm));
-    const Vec3 force_before =
-        block.normal_force[k] * block.normal_before[k] + block.shear_force[k];
+    const Vec3 moved =
+        strained + block.dt * (at(b.velocity) + at(b.spin).cross(Vec3(middle_arm - middle)) -
+                               at(a.velocity) - at(a.spin).cross(middle_arm));
+    const Vec3 force_before = block.normal_force[k] * block.normal_before[k] + block.shear_force[k];
     sliding = block.shear_energy[k];
     if (touches) {
       overlap = -block.gap[k];
@@ -136,8 +137,8 @@ struct PlainContact {
       branch_work = gained + sliding + mean_force.dot(moved);
     } else if (hertz) {
       const double power = std::pow(overlap / block.overlap[k], 2.5);
-      branch_work = 0.5 * (energy - block.normal_energy[k] * power + energy / power -
-                           block.normal_energy[k]);
+      branch_work =
+          0.5 * (energy - block.normal_energy[k] * power + energy / power - block.normal_energy[k]);
       size *= 1.0 + power + 1.0 / power;
     }
   }
@@ -178,7 +179,8 @@ TEST_P(ContactLanes, AreThePlainEquationsAtEveryInstructionSet) {
       for (std::size_t k = 0; k < kPairs; ++k) {
         const PlainContact plain(before, k, hertz);
         const double allowed = 256.0 * kUnitRoundoff * plain.size;
-        ++seen[(plain.overlap > 0.0 ? 0u : 1u) + (before.overlap[k] > 0.0) * (plain.overlap > 0.0 ? 2u : 0u) +
+        ++seen[(plain.overlap > 0.0 ? 0u : 1u) +
+               (before.overlap[k] > 0.0) * (plain.overlap > 0.0 ? 2u : 0u) +
                (before.overlap[k] > 0.0 || plain.overlap > 0.0 ? 0u : 2u)];
         ASSERT_EQ(after.normal_before[k], before.normal[k]);
         ASSERT_EQ(after.branch_before[k], before.branch[k]);
@@ -230,13 +232,12 @@ TEST_P(ContactLanes, DoNotDependOnPlaceOrNeighboursToTheBit) {
         using A = ContactArrays;
         for (const auto column :
              {&A::gap, &A::normal_stiffness, &A::shear_stiffness, &A::friction_coefficient,
-              &A::cohesion, &A::half_compliance, &A::hertz_force, &A::hertz_stiffness, &A::hertz_energy, &A::along,
-              &A::across, &A::overlap, &A::normal_force, &A::normal_stiffness_now,
-              &A::normal_energy, &A::state_stiffness, &A::shear_energy})
+              &A::cohesion, &A::half_compliance, &A::hertz_force, &A::hertz_stiffness,
+              &A::hertz_energy, &A::along, &A::across, &A::overlap, &A::normal_force,
+              &A::normal_stiffness_now, &A::normal_energy, &A::state_stiffness, &A::shear_energy})
           take(column);
-        for (const auto column : {&A::normal, &A::branch, &A::arm, &A::direction,
-                                  &A::normal_before, &A::branch_before, &A::arm_before,
-                                  &A::shear_force})
+        for (const auto column : {&A::normal, &A::branch, &A::arm, &A::direction, &A::normal_before,
+                                  &A::branch_before, &A::arm_before, &A::shear_force})
           take(column);
         alone.step(1, GetParam());
         EXPECT_EQ(alone.force[0], whole.force[k]) << hwy::TargetName(level) << ", pair " << k;

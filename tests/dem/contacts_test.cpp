@@ -51,7 +51,9 @@ TEST(Contacts, OfTwoSpheresPushAlongTheLineOfCentres) {
   two.particles.add({4.0, 2.0, 2.0}, Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
   two.update(kFrictionless);  // they meet through the boundary at x = 0: 1.5 apart
   const auto& records = two.contacts.records();
-  ASSERT_EQ(std::count_if(records.begin(), records.end(), [](const Contact& c) { return c.touches(); }), 1);
+  ASSERT_EQ(
+      std::count_if(records.begin(), records.end(), [](const Contact& c) { return c.touches(); }),
+      1);
   EXPECT_LT((two.contacts.resultants().force[0] - Vec3(50.0, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_LT((two.contacts.resultants().force[1] + Vec3(50.0, 0.0, 0.0)).norm(), 1e-12);
   EXPECT_LT(two.contacts.resultants().moment[0].norm(), 1e-12);

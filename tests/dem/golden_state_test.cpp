@@ -15,7 +15,8 @@
 namespace tangency::testing {
 namespace {
 
-/// The committed row of a run of this machine's arithmetic, without the kind; "" where there is none.
+/// The committed row of a run of this machine's arithmetic, without the kind; "" where there is
+/// none.
 std::string committed(const GoldenRun& run) {
   std::ifstream file(TANGENCY_TEST_DATA "/golden_states/states.csv");
   const std::string arithmetic = arithmetic_now().append(",");
@@ -30,8 +31,9 @@ class GoldenState : public ::testing::TestWithParam<GoldenRun> {
  protected:
   void SetUp() override {
     if (committed(run_).empty())
-      GTEST_SKIP() << "no row of tests/data/golden_states/states.csv is of this machine's arithmetic, "
-                   << arithmetic_now() << "; golden_states writes one";
+      GTEST_SKIP()
+          << "no row of tests/data/golden_states/states.csv is of this machine's arithmetic, "
+          << arithmetic_now() << "; golden_states writes one";
   }
   void TearDown() override { dem::set_threads(0); }
 

@@ -287,7 +287,8 @@ TEST(Mindlin, UnloadingTakesShearForceDownWithItsStiffness) {
   const Vec3 sheared = state.force;
   ASSERT_GT(sheared.norm(), 0.0);
   // Half the radius of contact, half the stiffness, half the force; loading leaves it.
-  const double lost = shear_step(law, state, {n, n, Vec3::Zero()}, law.normal_response(1e-3, curvatures));
+  const double lost =
+      shear_step(law, state, {n, n, Vec3::Zero()}, law.normal_response(1e-3, curvatures));
   EXPECT_LT((state.force - 0.5 * sheared).norm(), 8 * kUnit * sheared.norm());
   EXPECT_GT(lost, 0.0);
   shear_step(law, state, {n, n, Vec3::Zero()}, law.normal_response(4e-3, curvatures));

@@ -112,9 +112,8 @@ TEST(Observe, BalanceCountsTheWeightOfEachParticle) {
   EXPECT_NEAR(balance.largest_unbalanced_ratio, 50.0 / 37.5, 1e-13);
   EXPECT_NEAR(balance.inertial_fraction, (0.0 + 50.0 + 37.5) / 3.0 / 37.5, 1e-13);
   EXPECT_EQ(balance.rattlers, 1) << "one contact can bear a weight";
-  EXPECT_EQ(
-      observe(particles, cube(10.0), seen.contacts, gravity).balance.inertial_fraction,
-      balance.inertial_fraction);
+  EXPECT_EQ(observe(particles, cube(10.0), seen.contacts, gravity).balance.inertial_fraction,
+            balance.inertial_fraction);
 }
 
 TEST(Observe, RowHasTheAssemblysNumbers) {

@@ -59,7 +59,7 @@ struct ContactArrays {
   }
 
   void step(std::size_t count, bool hertz, bool bears_shear = true) {
-    const dem::HertzColumns columns{hertz_force.data(), hertz_stiffness.data(),
+    const dem::HertzColumns columns{hertz_force.data(),  hertz_stiffness.data(),
                                     hertz_energy.data(), along.data(),
                                     across.data(),       direction[0].data()};
     dem::ContactBlock block{};
@@ -76,9 +76,9 @@ struct ContactArrays {
                  cohesion.data(), half_compliance.data()};
     block.hertz = hertz ? &columns : nullptr;
     block.bears_shear = bears_shear;
-    block.state = {normal_before[0].data(), branch_before[0].data(), arm_before[0].data(),
-                   shear_force[0].data(),   overlap.data(),          normal_force.data(),
-                   normal_stiffness_now.data(), normal_energy.data(), state_stiffness.data(),
+    block.state = {normal_before[0].data(),     branch_before[0].data(), arm_before[0].data(),
+                   shear_force[0].data(),       overlap.data(),          normal_force.data(),
+                   normal_stiffness_now.data(), normal_energy.data(),    state_stiffness.data(),
                    shear_energy.data()};
     block.force = force[0].data();
     block.moment_a = moment_a[0].data();
@@ -98,8 +98,8 @@ struct ContactStep {
 };
 
 /// A touching contact's shear after a step under a push. Returns the work lost to sliding.
-inline double shear_step(const dem::ContactLaw& law, dem::ShearState& state, const ContactStep& step,
-                         const dem::NormalResponse& push) {
+inline double shear_step(const dem::ContactLaw& law, dem::ShearState& state,
+                         const ContactStep& step, const dem::NormalResponse& push) {
   ContactArrays one;
   one.set_law(0, law);
   one.set_hertz(0, push);

@@ -210,7 +210,8 @@ TEST(Simulation, KeepsManyParticlesInAnOrderOfSpaceFromStageToStage) {
   Simulation simulation(parse_scene(
       "schema = 1\n[cell]\n[particles.grain]\ncount = 2100\nmean_radius = 1.0\n[contact]\n"
       "normal_stiffness = 1e9\nfriction_coefficient = 0.5\n[[stage]]\nkind = \"place\"\n"
-      "arrangement = \"random\"\n" + stage + "duration = 40\n" + stage + "duration = 20\n",
+      "arrangement = \"random\"\n" +
+          stage + "duration = 40\n" + stage + "duration = 20\n",
       "scene.toml"));
   const auto is_in_order = [&] {
     const std::vector<std::uint32_t> order =
