@@ -229,7 +229,8 @@ std::vector<double> numbers_after_steps(Crowd crowd, int dimensions) {
   return all;
 }
 
-// dem/motion.hpp (4), dem/particle_lanes.hpp (1)
+// dem/motion.hpp (4)
+// dem/particle_lanes.hpp (1)
 TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
   for (const int dimensions : {2, 3}) {
     const Crowd crowd(1003, 8.0, dimensions);
@@ -245,7 +246,8 @@ TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
   }
 }
 
-// dem/particle_lanes.hpp (2): of a shape alone, beside others, and in lanes that are padded
+// Of a shape alone, beside others, and in lanes that are padded.
+// dem/particle_lanes.hpp (2)
 TEST(MotionLanes, WhatHappensToAParticleDoesNotDependOnThoseBesideIt) {
   const Motion motion{Rotation::full, {0.0, 0.0, -9.81}, 3.0};
   const Crowd crowd(803, 300.0);  // half angles on both sides of where the long series begins
