@@ -115,8 +115,11 @@ HWY_INLINE PackVec3 force_of(const PackContact& contact) {
 HWY_INLINE void add_up(const PackContact& contact, const PackVec3& force, const ContactBlock& block,
                        std::size_t i, PackSums& sums) {
   store(force, block.force + 3 * i);
-  store(cross(force, contact.arm), block.moment_a + 3 * i);
-  store(cross(contact.arm - contact.branch, force), block.moment_b + 3 * i);
+  // A force of 0 may have moments of -0, which this makes the 0 of pairs that are not looked at.
+  const Pack zero = all(0.0);
+  const PackVec3 plus_0{zero, zero, zero};
+  store(cross(force, contact.arm) + plus_0, block.moment_a + 3 * i);
+  store(cross(contact.arm - contact.branch, force) + plus_0, block.moment_b + 3 * i);
   sums.column[0] = force * contact.branch.x;
   sums.column[1] = force * contact.branch.y;
   sums.column[2] = force * contact.branch.z;

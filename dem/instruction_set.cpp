@@ -44,4 +44,14 @@ void use_reproducible_arithmetic() {
 bool uses_reproducible_arithmetic() { return reproducible; }
 
 }  // namespace tangency::dem
+
+namespace tangency::detail {
+
+void use_every_instruction_set() {
+  hwy::DisableTargets(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  dem::reproducible = false;
+}
+
+}  // namespace tangency::detail
 #endif

@@ -19,11 +19,18 @@ std::string instruction_set();
 
 /// From now on this process uses, in the kernel too, instruction sets without fused multiply-adds
 /// alone: SSE4 and what is below it, whose bits are the same. One scene then has one hash on every
-/// x86-64 machine. Slower, by how much: docs/simulator.md. Not while another thread computes; there
-/// is no way back.
+/// x86-64 machine. Slower, by how much: docs/simulator.md. Not while another thread computes.
 void use_reproducible_arithmetic();
 
-/// Has it been called?
+/// Has it been called, and not been taken back?
 bool uses_reproducible_arithmetic();
 
 }  // namespace tangency::dem
+
+namespace tangency::detail {
+
+/// Takes back what use_reproducible_arithmetic() did: for tests, whose process has others beside
+/// them. Not while another thread computes.
+void use_every_instruction_set();
+
+}  // namespace tangency::detail

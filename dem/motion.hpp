@@ -52,7 +52,8 @@ struct MotionWork {
 ///     v <- ((1 - damping dt/2) v + F dt / m) / (1 + damping dt/2),
 /// then positions and orientations a step on, with the affine motion of the cell, then the cell.
 /// Spheres and plane bodies, whose quadratic terms are 0, take the simplified equations.
-/// @throws Diverged  also where a body turns by more than 2^20 rad in the step
+/// @throws Diverged  also where a body turns by more than 2^21 rad about one axis at once: in the
+///     step, or by Euler's equations in one of the five turns that its step is made of
 MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
                 const Motion& motion, double dt);
 

@@ -107,7 +107,8 @@ HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const
   store(velocity, moved.velocity + 3 * at);
   store(there, moved.position + 3 * at);
   fallen = mass * unfused_dot(gravity, velocity);
-  finite = largest_component(there) <= all(__DBL_MAX__);
+  // A sum, since the larger of a NaN and a number may be the number.
+  finite = (absolute(there.x) + absolute(there.y) + absolute(there.z)) <= all(__DBL_MAX__);
   return mass * unfused_dot(mean, mean);
 }
 

@@ -60,8 +60,8 @@ struct MovedSum {
   }
 };
 
-/// dem::move() of the particles [first, last), at most dem::kChunk. An angle of more than 2^20 rad
-/// about one axis in a step counts as blown up.
+/// dem::move() of the particles [first, last), at most dem::kChunk. A turn by more than 2^21 rad,
+/// half of which is more than the largest angle of cosine_sine_lanes(), counts as blown up.
 MovedSum move_lanes(const ParticleColumns& columns, const MovedColumns& moved,
                     const MotionStep& step, std::size_t first, std::size_t last) noexcept;
 
@@ -87,7 +87,8 @@ void steer_lanes(const ParticleColumns& columns, const MovedColumns& moved, doub
                  double push, const double* gravity, bool turns, std::size_t first,
                  std::size_t last) noexcept;
 
-/// Cosine and sine of angles, count at most dem::kChunk, within kSineError: for tests.
+/// Cosine and sine of angles, count at most dem::kChunk, within kSineError; NaN of angles beyond
+/// 2^20 rad: for tests.
 void cosine_sine_lanes(const double* angle, double* cosine, double* sine,
                        std::size_t count) noexcept;
 

@@ -34,6 +34,16 @@ struct Body {
   Vec3 angular_velocity = Vec3::Zero();             ///< in space axes
 };
 
+/// Most edges of the cell that a body may be away from its corner, along each axis. Chosen: half of
+/// what geometry/near_pairs.hpp serves.
+inline constexpr double kMostEdgesAway = 0x1p28;
+/// What a message says of a coordinate beyond it.
+inline constexpr const char* kNearTheCell = "at most 2^28 edges of the cell away from its corner";
+/// Is a coordinate within it?
+inline bool is_near_cell(double coordinate, double edge) {
+  return coordinate >= -kMostEdgesAway * edge && coordinate <= kMostEdgesAway * edge;
+}
+
 enum class Arrangement { lattice, random, explicit_bodies };
 
 /// How they are put into the cell.

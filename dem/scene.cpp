@@ -324,6 +324,9 @@ class Reader {
     if (!type || *type == scene_.particle_types.size())
       section.fail("type", "a name of one of the scene's particle types");
     Body body{*type, *section.optional_real3("position")};
+    for (int k = 0; k < 3 && scene_.cell_size; ++k)
+      if (!is_near_cell(body.position[k], (*scene_.cell_size)[k]))
+        section.fail("position", kNearTheCell);
     if (const auto q = section.optional_real4("orientation")) {
       if (q->isZero(0.0)) section.fail("orientation", "4 finite numbers, not all 0");
       if (scene_.dimensions == 2 && ((*q)[1] != 0.0 || (*q)[2] != 0.0))

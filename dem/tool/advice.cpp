@@ -18,6 +18,10 @@ double two_digits(double x, double (*round)(double)) {
 }
 std::string rounded_down(double x) { return tables::rounded_text(two_digits(x, std::floor), 2); }
 std::string rounded_up(double x) { return tables::rounded_text(two_digits(x, std::ceil), 2); }
+/// Of two semi-axes, of which none is below 1.
+std::string rounded_down_ratio(double x) {
+  return tables::rounded_text(std::max(1.0, two_digits(x, std::floor)), 2);
+}
 /// An integer's text, without an exponent.
 std::string whole_up(double x) {
   return tables::rounded_text(std::round(two_digits(std::ceil(x), std::ceil)), 17);
@@ -87,9 +91,18 @@ std::string earlier_end(const Simulation& simulation) {
     return state.stage_cycle > 1 ? "lower duration to " + std::to_string(state.stage_cycle - 1)
                                  : "";
   if (!stage.growth || state.increments == 0) return "";
-  const Shape shape = simulation.scene().shape_in(0, state.stage, state.increments);
-  return "lower elongation to " + rounded_down(shape.elongation) +
-         (stage.growth->flatness ? " and flatness to " + rounded_down(shape.flatness) : "");
+  const Scene& scene = simulation.scene();
+  const Shape start = scene.shape_in(0, state.stage, 0);
+  const Shape now = scene.shape_in(0, state.stage, state.increments);
+  std::vector<std::string> keys;
+  const auto end_at = [&](const char* key, double first, double reached, double last) {
+    const std::string name = std::string(key) + " to ";
+    if (last > first) keys.push_back("lower " + name + rounded_down_ratio(reached));
+    if (last < first) keys.push_back("raise " + name + rounded_up(reached));
+  };
+  end_at("elongation", start.elongation, now.elongation, stage.growth->elongation);
+  end_at("flatness", start.flatness, now.flatness, stage.growth->flatness.value_or(start.flatness));
+  return joined(keys, " and ");
 }
 
 }  // namespace

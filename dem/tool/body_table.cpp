@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/sample.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
@@ -66,6 +67,9 @@ class BodyTable {
                     {q[0], q[1], q[2], q[3]},
                     numbers(row, velocity_, velocity_key_, none),
                     numbers(row, angular_velocity_, angular_velocity_key_, none)};
+    for (int k = 0; k < 3 && scene_.cell_size; ++k)
+      if (!is_near_cell(body.position[k], (*scene_.cell_size)[k]))
+        throw row.error(position_[static_cast<std::size_t>(k)], kNearTheCell);
     if (scene_.dimensions == 2) {
       require_zero(row, position_, {2});
       require_zero(row, orientation_, {1, 2});

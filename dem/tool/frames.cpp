@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
@@ -104,6 +105,9 @@ std::string xyz_of(const Simulation& simulation) {
   return text;
 }
 
+/// Of a frame for ParaView, seen from the directory of the results.
+std::string file_of(std::int64_t cycle) { return "frames/" + to_text(cycle) + ".vtp"; }
+
 /// The text between `before` and `after` in a line, if both are there.
 std::optional<std::string> between(const std::string& line, const std::string& before,
                                    const std::string& after) {
@@ -120,8 +124,13 @@ Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, 
     : directory_(directory), adds_(adds) {
   if (!adds_ && !holds_any()) return;
   std::filesystem::create_directories(directory_ / "frames");
-  keep_xyz(last_cycle);  // first: it may fail, and only then nothing has been taken away
-  keep_index(last_cycle);
+  const std::vector<Entry> later = read_index(last_cycle);
+  // All that may fail comes first: then nothing has been taken away yet.
+  std::optional<WholeFile> index;
+  if (!later.empty()) index.emplace(directory_ / "frames.pvd").write(index_text());
+  keep_xyz(last_cycle);
+  if (index) index->publish();
+  for (const Entry& entry : later) std::filesystem::remove(directory_ / file_of(entry.cycle));
   if (adds_ || !entries_.empty()) return;
   xyz_.close();
   for (const char* name : {"frames.xyz.part", "frames.pvd"})
@@ -137,18 +146,17 @@ bool Frames::holds_any() const {
   return is_there("frames.pvd") || is_there("frames.xyz") || is_there("frames.xyz.part");
 }
 
-void Frames::keep_index(std::int64_t last_cycle) {
+std::vector<Frames::Entry> Frames::read_index(std::int64_t last_cycle) {
+  std::vector<Entry> later;
   std::ifstream in(directory_ / "frames.pvd");
   for (std::string line; std::getline(in, line);) {
     const auto time = between(line, "timestep=\"", "\"");
     const auto cycle = between(line, "file=\"frames/", ".vtp\"");
     if (!time || !cycle) continue;
     const Entry entry{std::stoll(*cycle), std::stod(*time)};
-    if (entry.cycle <= last_cycle)
-      entries_.push_back(entry);
-    else
-      std::filesystem::remove(directory_ / "frames" / (*cycle + ".vtp"));
+    (entry.cycle <= last_cycle ? entries_ : later).push_back(entry);
   }
+  return later;
 }
 
 void Frames::keep_xyz(std::int64_t last_cycle) {
@@ -177,20 +185,20 @@ void Frames::add(const Simulation& simulation) {
   if (!adds_) return;
   const State& state = simulation.state();
   if (!entries_.empty() && entries_.back().cycle == state.cycle) return;
-  write_whole(directory_ / "frames" / (to_text(state.cycle) + ".vtp"), vtp_of(state));
+  write_whole(directory_ / file_of(state.cycle), vtp_of(state));
   entries_.push_back({state.cycle, state.time});
-  write_index();
+  write_whole(directory_ / "frames.pvd", index_text());
   write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
 }
 
-void Frames::write_index() const {
+std::string Frames::index_text() const {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const Entry& entry : entries_)
-    text += "<DataSet timestep=\"" + to_text(entry.time) + "\" part=\"0\" file=\"frames/" +
-            to_text(entry.cycle) + ".vtp\"/>\n";
-  write_whole(directory_ / "frames.pvd", text + "</Collection>\n</VTKFile>\n");
+    text += "<DataSet timestep=\"" + to_text(entry.time) + "\" part=\"0\" file=\"" +
+            file_of(entry.cycle) + "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
 }
 
 void Frames::finish() {

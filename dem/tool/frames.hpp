@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <tangency/dem/simulation.hpp>
@@ -39,9 +40,10 @@ class Frames {
     std::int64_t cycle;
     double time;
   };
-  void keep_index(std::int64_t last_cycle);
+  /// Reads the entries up to a cycle; returns those of later ones.
+  std::vector<Entry> read_index(std::int64_t last_cycle);
   void keep_xyz(std::int64_t last_cycle);
-  void write_index() const;
+  std::string index_text() const;
   bool holds_any() const;
 
   std::filesystem::path directory_;

@@ -83,6 +83,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Adds the time of its scope to a sum, whether or not the scope ends by an exception.
+class AddedSeconds {
+ public:
+  explicit AddedSeconds(double& sum) : sum_(sum) {}
+  ~AddedSeconds() { sum_ += seconds_since(start_); }
+  AddedSeconds(const AddedSeconds&) = delete;
+  AddedSeconds& operator=(const AddedSeconds&) = delete;
+
+ private:
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
 std::string short_text(double x) { return tables::rounded_text(x, 3); }
 
 class Run {
@@ -121,6 +134,7 @@ class Run {
     } catch (const Diverged& error) {
       warn(error.what());
       results_.finish_without_state();
+      print_profile();
       return not_reached;
     } catch (const WriteError&) {
       save_what_can_be();
@@ -136,9 +150,10 @@ class Run {
 
  private:
   void cycle() {
-    const auto before = Clock::now();
-    simulation_.step();
-    cost_.cycle_seconds += seconds_since(before);
+    {
+      const AddedSeconds timer(cost_.cycle_seconds);
+      simulation_.step();
+    }
     ++cost_.cycles;
     cost_.listed_pair_cycles += static_cast<double>(simulation_.state().list.pairs().size());
 

@@ -262,6 +262,10 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        "scene.toml:14: 2 bodies of type grain: as many as particles.grain.count, 1"},
       {"a body of no type", with(scene_with("explicit"), "type = \"grain\"", "type = \"sand\""),
        "scene.toml:15: body[0].type = 'sand': a name of one of the scene's particle types"},
+      {"a body that is too far away for its neighbours to be found",
+       with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -3e10, 3.0]"),
+       "scene.toml:16: body[0].position = [ 1.0, -3e+10, 3.0 ]: at most 2^28 edges of the cell "
+       "away from its corner"},
       {"a body without orientation",
        scene_with("explicit") + "orientation = [0.0, 0.0, 0.0, 0.0]\n",
        "scene.toml:17: body[0].orientation = [ 0.0, 0.0, 0.0, 0.0 ]: 4 finite numbers, not all 0"},
@@ -279,6 +283,7 @@ TEST(Combinations, ThatAreSoundAreAccepted) {
   EXPECT_EQ(refusal(walled("stress_zz = 1e6\nmax_strain_rate = 0.01\n")), "");
   EXPECT_EQ(refusal(contact("law = \"hertz\"\nyoung_modulus = 1e9\n")), "");
   EXPECT_EQ(refusal(scene_with("shear") + "lateral_stress = 1e6\n"), "");
+  EXPECT_EQ(refusal(with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -2e10, 3.0]")), "");
   EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
 }
 

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -142,6 +144,52 @@ TEST(Frames, ForOvitoHaveEdgesSemiAxesAndQuaternionsInItsOrder) {
     ++frames;
   }
   EXPECT_EQ(frames, 2);
+}
+
+std::map<std::string, std::string> files_below(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path()] = read_file(entry.path());
+  return files;
+}
+
+// An earlier state of the same run, resumed in its directory by a scene that has no frames.
+TEST(Frames, AfterAMiddleStateAreTakenAwayWithTheirEntries) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out"), middle = folder.path("middle.state");
+  const std::string more = "[[stage]]\nkind = \"servo\"\nduration = 30\n[output]\n";
+  const auto run = [&](const std::string& text, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"run", folder.write("scene.toml", text), "--out", out});
+    arguments.push_back("--quiet");
+    return run_tool(arguments);
+  };
+  ASSERT_EQ(run(scene(), {}).status, 0);
+  std::filesystem::copy_file(out + "/final.state", middle);
+  const std::string frames = read_file(out + "/frames.xyz"), index = read_file(out + "/frames.pvd");
+  const Finished longer = run(scene() + more + "frame_interval = 10\n", {"--resume", middle});
+  ASSERT_EQ(longer.status, 0) << longer.err;
+  ASSERT_NE(read_file(out + "/frames.pvd").find("frames/80.vtp"), std::string::npos);
+  ASSERT_TRUE(std::filesystem::exists(out + "/frames/80.vtp"));
+
+  const auto before = files_below(out);
+  const std::string without = scene() + more + "frame_interval = 0\n";
+  ASSERT_LT(index.size(), 512u);
+  ASSERT_GT(frames.size(), 512u);
+  {
+    const FileSizeLimit room_for_the_index(512);
+    EXPECT_EQ(run(without, {"--resume", middle}).status, 2);
+  }
+  EXPECT_TRUE(files_below(out) == before) << "nothing has been taken away";
+
+  const Finished resumed = run(without, {"--resume", middle});
+  ASSERT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_EQ(read_file(out + "/frames.pvd"), index);
+  EXPECT_EQ(read_file(out + "/frames.xyz"), frames);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(out + "/frames"))
+    left.push_back(entry.path().filename());
+  std::sort(left.begin(), left.end());
+  EXPECT_EQ(left, (std::vector<std::string>{"0.vtp", "50.vtp"}));
 }
 
 // Whatever order a run keeps its particles in. The two never meet, so that it changes no bit.

@@ -198,13 +198,74 @@ TEST(MotionLanes, CosineAndSineAreWithinTheirBoundOfTheTruth) {
   EXPECT_GT(largest, 0.5) << "the truth is not the same arithmetic";
 }
 
-TEST(MotionLanes, ATurnOfMoreThanAMillionIsReported) {
-  for (const Rotation rotation : {Rotation::simplified, Rotation::full}) {
-    Crowd crowd(5, 1.0);
-    crowd.particles.angular_velocity[3] = Vec3(1e13, 0.0, 0.0);
-    EXPECT_THROW(move(crowd.particles, crowd.cell, crowd.resultants, {rotation, {}, 0.0}, 1e-3),
-                 Diverged);
+/// Does a step of a body that lies along the axes and turns about one of them blow up?
+bool blows_up(Rotation rotation, int axis, double turn) {
+  Crowd crowd(5, 0.0);
+  constexpr double dt = 0x1p-10;
+  crowd.particles.orientation[0] = Eigen::Quaterniond::Identity();
+  crowd.particles.angular_velocity[0] = turn / dt * Vec3::Unit(axis);
+  for (Vec3& moment : crowd.resultants.moment) moment.setZero();
+  try {
+    move(crowd.particles, crowd.cell, crowd.resultants, {rotation, Vec3::Zero(), 0.0}, dt);
+  } catch (const Diverged&) {
+    return true;
   }
+  EXPECT_NEAR(crowd.particles.orientation[0].norm(), 1.0, 4e-16);
+  return false;
+}
+
+// dem/motion.hpp: Euler's equations turn about x and y twice in a step, about z once.
+TEST(MotionLanes, ATurnOfMoreThanTwoMillionIsReported) {
+  constexpr double below = 1.0 - 1e-12, above = 1.0 + 1e-12;
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_FALSE(blows_up(Rotation::simplified, axis, 0x1p21 * below)) << axis;
+    EXPECT_TRUE(blows_up(Rotation::simplified, axis, 0x1p21 * above)) << axis;
+  }
+  EXPECT_FALSE(blows_up(Rotation::full, 2, 0x1p21 * below));
+  EXPECT_TRUE(blows_up(Rotation::full, 2, 0x1p21 * above));
+  EXPECT_FALSE(blows_up(Rotation::full, 0, 0x1p22 * below));
+  EXPECT_TRUE(blows_up(Rotation::full, 0, 0x1p22 * above));
+
+  const std::array<double, 2> angle{0x1p20, 0x1p20 * above};
+  std::array<double, 2> cosine, sine;
+  detail::cosine_sine_lanes(angle.data(), cosine.data(), sine.data(), 2);
+  EXPECT_TRUE(std::isfinite(cosine[0]) && std::isfinite(sine[0]));
+  EXPECT_TRUE(std::isnan(cosine[1]) && std::isnan(sine[1]));
+}
+
+// In any component, body and lane, full ones and padded ones.
+TEST(MotionLanes, ANumberThatIsNoneIsReported) {
+  using Columns = std::vector<Vec3>* (*)(Crowd&);
+  struct Case {
+    const char* name;
+    Columns column;
+    Rotation rotation;
+  };
+  const Columns force = [](Crowd& c) { return &c.resultants.force; };
+  const Columns velocity = [](Crowd& c) { return &c.particles.velocity; };
+  const Columns position = [](Crowd& c) { return &c.particles.position; };
+  const Columns moment = [](Crowd& c) { return &c.resultants.moment; };
+  const Columns spin = [](Crowd& c) { return &c.particles.angular_velocity; };
+  at_every_level([&](std::int64_t level) {
+    for (const Case& one : {Case{"force", force, Rotation::none},
+                            {"velocity", velocity, Rotation::none},
+                            {"position", position, Rotation::none},
+                            {"moment", moment, Rotation::simplified},
+                            {"moment", moment, Rotation::full},
+                            {"spin", spin, Rotation::simplified},
+                            {"spin", spin, Rotation::full}})
+      for (std::size_t i = 0; i < 13; ++i)
+        for (int k = 0; k < 3; ++k)
+          for (const double none : {std::numeric_limits<double>::quiet_NaN(),
+                                    std::numeric_limits<double>::infinity()}) {
+            Crowd crowd(13, 1.0);
+            (*one.column(crowd))[i][k] = none;
+            EXPECT_THROW(move(crowd.particles, crowd.cell, crowd.resultants,
+                              {one.rotation, Vec3::Zero(), 0.0}, 1e-3),
+                         Diverged)
+                << hwy::TargetName(level) << ", " << one.name << " " << k << " of " << i;
+          }
+  });
 }
 
 /// All that a few steps and their energies are made of.

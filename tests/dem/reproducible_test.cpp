@@ -24,12 +24,6 @@ std::string hash_of(const GoldenRun& run) {
   return state_hash(simulation.state());
 }
 
-/// Takes back what use_reproducible_arithmetic() asked of Highway: for the tests beside it.
-void use_every_instruction_set() {
-  hwy::DisableTargets(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 // dem/instruction_set.hpp
 TEST(Reproducible, ArithmeticIsThatOfEveryInstructionSetWithoutFusedMultiplyAdds) {
   const GoldenRun& run = kGoldenRuns[0];
@@ -42,8 +36,9 @@ TEST(Reproducible, ArithmeticIsThatOfEveryInstructionSetWithoutFusedMultiplyAdds
   dem::use_reproducible_arithmetic();
   EXPECT_TRUE(dem::uses_reproducible_arithmetic());
   const std::string used = dem::instruction_set(), hash = hash_of(run);
-  use_every_instruction_set();
+  detail::use_every_instruction_set();
   EXPECT_EQ(dem::instruction_set(), best);
+  EXPECT_FALSE(dem::uses_reproducible_arithmetic()) << "as the test found it";
   int alike = 0;
   for (const auto& [name, other] : hashes) {
     const bool fused = name.starts_with("AVX");
@@ -65,8 +60,9 @@ nlohmann::json summary_of(const std::string& scene, const std::string& out, bool
   return nlohmann::json::parse(read_file(out + "/summary.json"));
 }
 
-// Random places and orientations, of particles enough that some sines of two versions differ; a
-// shape by its cube roots, and a shear to a strain: all that a libm could have a part in.
+// Random places and orientations, of particles enough that some sines of two versions differ,
+// shapes and skins by their cube roots, and a shear to a strain. What else of the simulator could
+// call a libm, build/StatesTakeNoFunctionOfLibm sees.
 TEST(Reproducible, RunsOfTheToolHaveOneHashWhateverTheLibrarysFunctionsAre) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", R"(schema = 1

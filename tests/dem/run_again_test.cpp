@@ -137,6 +137,10 @@ TEST(RunAgain, AfterABlowUpTheLastSoundCheckpointIsThereStill) {
     EXPECT_EQ(run.err.find("tangency-dem: the run blew up: "), 0u) << run.err;
     EXPECT_EQ(read_file(out + "/history.csv").find("inf"), std::string::npos);
   }
+  const Finished profiled = run_quietly(scene, out, {"--resume", state, "--profile"});
+  EXPECT_EQ(profiled.status, 1);
+  EXPECT_TRUE(profiled.out.starts_with("phase ")) << profiled.out;
+  EXPECT_NE(profiled.out.find("\nmotion "), profiled.out.npos) << profiled.out;
 }
 
 TEST(RunAgain, RefusesAHistoryThatItDidNotWriteAndLeavesIt) {
@@ -351,6 +355,8 @@ TEST(ExplicitBodies, OfABadTableAreRefusedWithTheirLine) {
   EXPECT_EQ(message("0,0,0,2", "0,0,0,0"), file + ":3: qw = 0: 4 finite numbers, not all 0");
   EXPECT_EQ(message("50,", "nan,").find(file + ":3: y = nan: "), 0u);
   EXPECT_EQ(message("50,", "1e300,").find(file + ":3: y = 1e300: one of 3 "), 0u);
+  EXPECT_EQ(message("50,", "2e10,"),
+            file + ":3: y = 2e10: at most 2^28 edges of the cell away from its corner");
   EXPECT_EQ(message("0.5,0,-1", "0.5,-1e31,0").find(file + ":2: vy = -1e31: one of 3 "), 0u);
   EXPECT_EQ(message("type", "kind").find(file + ":1: "), 0u);
   EXPECT_EQ(message("qz", "q").find(file + ":1: "), 0u);

@@ -331,8 +331,6 @@ TEST(RunCommand, FailsWithItsReasonWhenAStageDoesNotEnd) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("out") + "/checkpoint.state"));
 }
 
-// Interrupted in the middle, then resumed in its own directory: every file is as if
-// the run had gone through.
 // A run that has frames already keeps them, up to where it goes on.
 TEST(RunCommand, WithoutAFrameIntervalWritesNoFrames) {
   const TemporaryFolder folder;
@@ -386,6 +384,8 @@ TEST(RunCommand, EndsWithOneStateUnderTwoNames) {
   EXPECT_TRUE(std::filesystem::equivalent(final_state, checkpoint));
 }
 
+// Interrupted in the middle, then resumed in its own directory: every file is as if
+// the run had gone through.
 TEST(RunCommand, ContinuesAnInterruptedRunToTheSameFiles) {
   const TemporaryFolder folder;
   const std::string text =

@@ -353,21 +353,33 @@ TEST(RunToAThinCell, StopsAtOnceWhereAContactIsDoubled) {
               ": particle 0 touches two images of particle 1, 10.0");
 }
 
-/// Disks compacted, then grown into needles.
-TEST(RunToAThinCell, ByGrowthStopsAndNamesTheElongationReached) {
+/// Particles compacted, then given other shapes by the keys of `growth`.
+std::string grown(const std::string& cell, const std::string& particles,
+                  const std::string& growth) {
   const std::string motion =
       "mean_stress = 50e6\nmax_strain_rate = 0.5\ntime_step_factor = 0.3\ndamping = 0.3\n"
       "stress_tolerance = 0.1\n";
-  const std::string line = stop_of(
-      "schema = 1\n[cell]\ndimensions = 2\n[particles.disk]\ncount = 7\nmean_radius = 10.0\n"
-      "[contact]\nnormal_stiffness = 1.5e10\n[[stage]]\nkind = \"place\"\n"
-      "[[stage]]\nkind = \"compress\"\n" +
-      motion +
-      "[[stage]]\nkind = \"grow\"\nelongation = 9.0\nincrements = 900\n"
-      "max_inertial_fraction = 0.1\n" +
-      motion + "[output]\nhistory_interval = 50\nframe_interval = 0\n");
+  return "schema = 1\n[cell]\n" + cell + "[particles.grain]\nmean_radius = 10.0\n" + particles +
+         "[contact]\nnormal_stiffness = 1.5e10\n[[stage]]\nkind = \"place\"\n"
+         "[[stage]]\nkind = \"compress\"\n" +
+         motion + "[[stage]]\nkind = \"grow\"\nincrements = 900\nmax_inertial_fraction = 0.1\n" +
+         growth + motion + "[output]\nhistory_interval = 50\nframe_interval = 0\n";
+}
+
+// Disks into needles.
+TEST(RunToAThinCell, ByGrowthStopsAndNamesTheElongationReached) {
+  const std::string line =
+      stop_of(grown("dimensions = 2\n", "count = 7\n", "elongation = 9.0\nflatness = 1.0\n"));
   expect_line(line, "grow stopped in cycle ", "; lower elongation to ");
-  EXPECT_NE(line.find("or raise particles.disk.count to "), line.npos) << line;
+  EXPECT_NE(line.find("or raise particles.grain.count to "), line.npos) << line;
+  EXPECT_EQ(line.find("flatness"), line.npos) << line << ": as it is, 1, and in the plane no other";
+}
+
+TEST(RunToAThinCell, ByGrowthOfOneRatioWhileTheOtherShrinksNamesBoth) {
+  const std::string line =
+      stop_of(grown("", "count = 27\nelongation = 2.0\n", "elongation = 1.0\nflatness = 9.0\n"));
+  expect_line(line, "grow stopped in cycle ", "; raise elongation to 1.");
+  EXPECT_NE(line.find(" and lower flatness to "), line.npos) << line;
 }
 
 TEST(RunToAThinCell, ByShearKeepsTheResultsBeforeAndGoesOnUnderASceneThatEndsThere) {
