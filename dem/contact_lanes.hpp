@@ -18,7 +18,8 @@
 namespace tangency::dem {
 
 /// A particle's motion, half a step ago, as the lanes read it: a line of cache, for random access.
-struct alignas(64) MotionRow {
+/// Rows have to stand where lines begin (geometry/large_pages.hpp).
+struct MotionRow {
   double velocity[3];
   double unused;
   double spin[3];  ///< in space coordinates

@@ -23,6 +23,7 @@
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/profile.hpp>
+#include <tangency/geometry/large_pages.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -170,7 +171,7 @@ class Contacts {
 
   // Made anew in every update.
   NarrowPhase narrow_phase_;
-  std::vector<MotionRow> motion_;                  ///< of particles and walls
+  std::vector<MotionRow, LargePages<MotionRow>> motion_;  ///< of particles and walls
   std::vector<Vec3> force_, moment_a_, moment_b_;  ///< of each pair, filled up like the columns
   std::vector<BlockSums> block_sums_;
 };

@@ -20,7 +20,7 @@ struct ContactArrays {
   using Vectors = std::array<Vec3, kPairs>;
 
   std::array<IndexedPair, kPairs> pairs;
-  std::array<dem::MotionRow, 16> motion{};
+  alignas(64) std::array<dem::MotionRow, 16> motion{};
   Numbers gap, normal_stiffness{}, shear_stiffness{}, friction_coefficient{}, cohesion{};
   Numbers half_compliance{};
   Vectors normal, branch, arm;
