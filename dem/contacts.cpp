@@ -199,24 +199,21 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
 }
 
 void Contacts::update_blocks(const Step& step, Profile* profile) {
-  if (profile == nullptr) {
-    for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
-               [&](std::size_t first, std::size_t last) {
-                 for (std::size_t k = first; k < last; ++k) update_block(k, step, false);
-               });
-    return;
-  }
-  // Blocks take turns on all threads: their time on the clock is shared as the times of blocks are.
+  const bool is_timed = profile != nullptr;
   const auto start = BlockClock::now();
-  std::vector<BlockTimes> times(block_sums_.size());
-  for_ranges(times.size(), kParallelThreshold / kPairBlock,
+  std::vector<BlockTimes> times(is_timed ? block_sums_.size() : 0);
+  for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
              [&](std::size_t first, std::size_t last) {
-               for (std::size_t k = first; k < last; ++k) times[k] = update_block(k, step, true);
+               for (std::size_t k = first; k < last; ++k) {
+                 const BlockTimes one = update_block(k, step, is_timed);
+                 if (is_timed) times[k] = one;
+               }
              });
+  if (times.empty()) return;
+  // Blocks take turns on all threads: their time on the clock is shared as the times of blocks are.
   BlockTimes all;
   for (const BlockTimes& one : times) all += one;
   const double seconds = seconds_since(start), share = all.gaps / (all.gaps + all.law);
-  if (times.empty()) return;
   (*profile)[Phase::gaps] += share * seconds;
   (*profile)[Phase::law] += (1.0 - share) * seconds;
   profile->slow_pairs += all.slow;
