@@ -6,6 +6,9 @@
 #pragma once
 
 #include <hwy/targets.h>
+#ifdef __SSE__
+#include <immintrin.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -102,10 +105,26 @@ inline void run_cycles(dem::Simulation& simulation, int cycles) {
   for (int cycle = 0; cycle < cycles; ++cycle) simulation.step();
 }
 
+/// 8 hexadecimal digits that tell processors apart by their approximate inverse roots, where the
+/// lanes of AVX2 start: those of different makers have other last bits.
+inline std::string approximate_roots() {
+  std::uint32_t hash = 0;
+#ifdef __SSE__
+  for (int k = 1; k <= 4096; ++k) {
+    const __m128 root = _mm_rsqrt_ps(_mm_set1_ps(static_cast<float>(k) * 0x1.9p-9f));
+    hash = (hash ^ std::bit_cast<std::uint32_t>(_mm_cvtss_f32(root))) * 0x9e3779b1u;
+    hash ^= hash >> 15;
+  }
+#endif
+  std::array<char, 9> text;
+  std::snprintf(text.data(), text.size(), "%08x", static_cast<unsigned>(hash));
+  return text.data();
+}
+
 /// Which kind of arithmetic the lanes have with an instruction set of Highway: gap_batch.hpp and
 /// contact_lanes.hpp let last bits depend on it.
 inline std::string arithmetic_of(std::int64_t level) {
-  if (level == HWY_AVX2) return "AVX2";
+  if (level == HWY_AVX2) return "AVX2-" + approximate_roots();
   return (level & (HWY_SSE4 | HWY_SSSE3 | HWY_SCALAR | HWY_EMU128)) != 0
              ? "no-FMA"
              : std::string(hwy::TargetName(level)).substr(0, 4);
