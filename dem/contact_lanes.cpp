@@ -24,16 +24,12 @@ using dem::ContactState;
 /// degrees, where a step turns neighbours by a hundredth of that.
 constexpr double kSameBranchCosine = 0.9;
 
-HWY_INLINE Pack load(const double* from) { return {hn::LoadU(D(), from)}; }
 /// p where yes, else 0.
 HWY_INLINE Pack only(const PackMask& yes, const Pack& p) {
   return {hn::IfThenElseZero(yes.low, p.low)};
 }
 HWY_INLINE PackVec3 only(const PackMask& yes, const PackVec3& v) {
   return {only(yes, v.x), only(yes, v.y), only(yes, v.z)};
-}
-HWY_INLINE PackVec3 cross(const PackVec3& a, const PackVec3& b) {
-  return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
 }
 
 /// The smallest rotation that takes one unit vector to another; of opposite ones, where that is not

@@ -3,12 +3,8 @@
 
 namespace tangency::dem {
 
-NormalResponse ContactLaw::normal_response(double overlap,
-                                           const PrincipalCurvatures& relative) const {
-  if (!hertz) {
-    const double force = normal_stiffness * overlap;
-    return {force, normal_stiffness, 0.5 * force * overlap, {shear_stiffness, shear_stiffness}};
-  }
+NormalResponse ContactLaw::hertz_response(double overlap,
+                                          const PrincipalCurvatures& relative) const {
   const HertzContact contact = hertz_contact(relative.curvature, overlap, *hertz);
   return {contact.force,
           contact.stiffness,

@@ -62,9 +62,9 @@ struct ContactLaw {
     return shear_stiffness > 0.0 && (friction_coefficient > 0.0 || cohesion > 0.0);
   }
 
-  /// Linear: K_n overlap. Hertz: of the relative curvatures, which the linear law does not read.
+  /// Of a Hertz contact: of the relative curvatures.
   /// @param overlap  > 0
-  NormalResponse normal_response(double overlap, const PrincipalCurvatures& relative) const;
+  NormalResponse hertz_response(double overlap, const PrincipalCurvatures& relative) const;
 };
 
 }  // namespace tangency::dem

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,12 +20,6 @@ static_assert(ContactBlock::kPairs == kPairBlock);
 
 /// Walls of a cell: their rows stand after those of the particles.
 constexpr std::size_t kWalls = 6;
-
-using BlockClock = std::chrono::steady_clock;
-
-double seconds_since(BlockClock::time_point start) {
-  return std::chrono::duration<double>(BlockClock::now() - start).count();
-}
 
 std::size_t blocks_of(std::size_t pairs) { return (pairs + kPairBlock - 1) / kPairBlock; }
 
@@ -74,10 +67,17 @@ class BlockHertz {
     direction_.fill(Vec3::Zero());
     BlockColumn<double> overlap{}, contact_modulus, shear_modulus, poisson_ratio;
     for (std::size_t k = 0; k < count; ++k) overlap[k] = block.gap[k] < 0.0 ? -block.gap[k] : 0.0;
+    const ContactLaw* last = nullptr;
+    double of_contact = 0.0, of_shear = 0.0;
     for (std::size_t k = 0; k < kPairBlock; ++k) {
       const Material& material = *laws.law[k]->hertz;
-      contact_modulus[k] = material.contact_modulus();
-      shear_modulus[k] = material.shear_modulus();
+      if (laws.law[k] != last) {
+        of_contact = material.contact_modulus();
+        of_shear = material.shear_modulus();
+        last = laws.law[k];
+      }
+      contact_modulus[k] = of_contact;
+      shear_modulus[k] = of_shear;
       poisson_ratio[k] = material.poisson_ratio;
     }
     BlockColumn<IndexedPair> pairs = block.pairs;
@@ -109,7 +109,7 @@ class BlockHertz {
     direction_[k].setZero();
     force_[k] = stiffness_[k] = energy_[k] = along_[k] = across_[k] = 0.0;
     if (!(overlap > 0.0)) return;
-    const NormalResponse response = law.normal_response(overlap, curvatures);
+    const NormalResponse response = law.hertz_response(overlap, curvatures);
     force_[k] = response.force;
     stiffness_[k] = response.stiffness;
     energy_[k] = response.energy;
@@ -193,14 +193,14 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
   refresh(particles, profile);
   update_blocks(step, profile);
   const PhaseTimer timer(profile, Phase::sums);
-  add_up(list, particles.size());
+  add_up_particles(list, particles.size());
   if (profile != nullptr) profile->touching_pairs += totals().contacts;
   return add_up_blocks();
 }
 
 void Contacts::update_blocks(const Step& step, Profile* profile) {
   const bool is_timed = profile != nullptr;
-  const auto start = BlockClock::now();
+  const auto start = Clock::now();
   std::vector<BlockTimes> times(is_timed ? block_sums_.size() : 0);
   for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
              [&](std::size_t first, std::size_t last) {
@@ -242,7 +242,8 @@ void Contacts::refresh(const Particles& particles, Profile* profile) {
 }
 
 /// Contacts as they are saved, and where a block's results go.
-ContactBlock Contacts::block_at(std::size_t first, std::size_t index) {
+ContactBlock Contacts::block_at(std::size_t index) {
+  const std::size_t first = index * kPairBlock;
   ContactColumns& c = columns_;
   ContactBlock block{};
   block.count = std::min(kPairBlock, count_ - first);
@@ -259,10 +260,10 @@ ContactBlock Contacts::block_at(std::size_t first, std::size_t index) {
 
 Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step, bool is_timed) {
   BlockTimes times;
-  BlockClock::time_point start;
-  if (is_timed) start = BlockClock::now();
+  Clock::time_point start;
+  if (is_timed) start = Clock::now();
   const std::size_t first = index * kPairBlock;
-  ContactBlock block = block_at(first, index);
+  ContactBlock block = block_at(index);
   const auto pairs = std::span(step.pairs).subspan(first, block.count);
   BlockGeometry geometry;
   times.slow = static_cast<std::int64_t>(narrow_phase_.measure(
@@ -270,7 +271,7 @@ Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step,
       step.branch, geometry));
   if (is_timed) {
     times.gaps = seconds_since(start);
-    start = BlockClock::now();
+    start = Clock::now();
   }
   const BlockLaws laws(step.laws, step.particles, geometry);
   block.pairs = geometry.pairs.data();
@@ -380,12 +381,19 @@ void Contacts::restore(ContactColumns columns, const Particles& particles,
   columns_ = std::move(columns);
   may_have_shear_ = true;
   resize(list.pairs().size());
-  for (std::size_t k = 0; k < block_sums_.size(); ++k) restored_lanes(block_at(k * kPairBlock, k));
-  add_up(list, particles.size());
+  add_up(particles, list);
+}
+
+void Contacts::add_up(const Particles& particles, const NeighbourList& list) {
+  for_ranges(block_sums_.size(), kParallelThreshold / kPairBlock,
+             [&](std::size_t first, std::size_t last) {
+               for (std::size_t k = first; k < last; ++k) restored_lanes(block_at(k));
+             });
+  add_up_particles(list, particles.size());
   add_up_blocks();
 }
 
-void Contacts::add_up(const NeighbourList& list, std::size_t particles) {
+void Contacts::add_up_particles(const NeighbourList& list, std::size_t particles) {
   resultants_.force.resize(particles);
   resultants_.moment.resize(particles);
   resultants_.contacts.resize(particles);

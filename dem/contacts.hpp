@@ -135,9 +135,11 @@ class Contacts {
   /// order, its contact is seen from the other side. Resultants and sums wait for the next update.
   std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
-  /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds their forces
-  /// up again.
+  /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds them up.
   void restore(ContactColumns columns, const Particles& particles, const NeighbourList& list);
+
+  /// Resultants and sums of the contacts as they are: after carry_over() where none follows them.
+  void add_up(const Particles& particles, const NeighbourList& list);
 
   std::size_t size() const { return count_; }
   /// As long as size(); the columns go on.
@@ -158,10 +160,10 @@ class Contacts {
   void refresh(const Particles& particles, Profile* profile);
   void update_blocks(const Step& step, Profile* profile);
   BlockTimes update_block(std::size_t index, const Step& step, bool is_timed);
-  ContactBlock block_at(std::size_t first, std::size_t index);
+  ContactBlock block_at(std::size_t index);
   void resize(std::size_t pairs);
   ContactWork add_up_blocks();
-  void add_up(const NeighbourList& list, std::size_t particles);
+  void add_up_particles(const NeighbourList& list, std::size_t particles);
 
   std::size_t count_ = 0;
   ContactColumns columns_;

@@ -38,7 +38,7 @@ struct Candidate {
 };
 
 /// An ellipsoid with its row in the batch, whose support function takes a part of the time of
-/// Ellipsoid::support(), which holds to the ends of the range, and errs by some roundings.
+/// Ellipsoid::support() and errs by some roundings where the body is moderate().
 struct RowBody {
   const Ellipsoid& body;
   const tangency::detail::LaneBody& row;
@@ -48,6 +48,7 @@ struct RowBody {
 };
 
 double support(const RowBody& body, const Vec3& n) {
+  if (!body.body.moderate()) return body.body.support(n);
   return (Eigen::Map<const Mat3>(body.row.factor).transpose() * n).norm();
 }
 double support(const Ellipse& body, const Vec3& n) { return body.support(n.head<2>()); }

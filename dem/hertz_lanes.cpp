@@ -27,10 +27,6 @@ constexpr double kMostMean = 64.0;
 // Curvatures whose relative difference is below 4 of these are equal: chosen, below their rounding.
 constexpr double kEqual = 0x1p-50;
 
-HWY_INLINE Pack load(const double* from) {
-  return {TANGENCY_PARTS(hn::LoadU(D(), from), hn::LoadU(D(), from + register_lanes()))};
-}
-
 /// Columns a_k R e_k.
 struct PackFactor {
   PackVec3 column[3];
@@ -69,10 +65,6 @@ HWY_INLINE PackFrame frame_of(const PackVec3& n) {
   return {{multiply_add(signed_x * n.x, over, one), sign * xy, -signed_x},
           {xy, multiply_add(n.y * n.y, over, sign), -n.y},
           n};
-}
-
-HWY_INLINE PackVec3 cross(const PackVec3& a, const PackVec3& b) {
-  return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
 }
 
 /// A body's tensor of curvature, weight F'F.

@@ -22,7 +22,7 @@ HWY_INLINE PackVec3 force_on(const ParticleColumns& c, std::size_t at, const Pac
 }
 
 HWY_INLINE PackInertia inertia_at(const ParticleColumns& c, std::size_t at) {
-  return inertia_of(load_numbers(c.mass + at), load_vectors(c.semi_axes + 3 * at), c.is_plane);
+  return inertia_of(load(c.mass + at), load_vectors(c.semi_axes + 3 * at), c.is_plane);
 }
 
 /// Of one pack, the sums of its shifts and turns.
@@ -32,7 +32,7 @@ struct PackProducts {
 
 HWY_INLINE PackProducts products_of(const ParticleColumns& c, std::size_t at, const double* gravity,
                                     bool turns) {
-  const Pack mass = load_numbers(c.mass + at);
+  const Pack mass = load(c.mass + at);
   const PackVec3 velocity = load_vectors(c.velocity + 3 * at);
   const PackVec3 force = force_on(c, at, mass, gravity);
   PackProducts p{mass * unfused_dot(velocity, velocity), unfused_dot(force, velocity),
@@ -78,7 +78,7 @@ HWY_ATTR void steer_lanes(const ParticleColumns& columns, const MovedColumns& mo
       columns, moved, first, last,
       [&](const ParticleColumns& c, const MovedColumns& m, std::size_t at, std::size_t) HWY_ATTR {
         const PackVec3 v = load_vectors(c.velocity + 3 * at);
-        const Pack mass = load_numbers(c.mass + at);
+        const Pack mass = load(c.mass + at);
         const PackVec3 a = force_on(c, at, mass, gravity) * (all(1.0) / mass);
         store(v * all(keep) + a * all(push), m.velocity + 3 * at);
         if (!turns) return;

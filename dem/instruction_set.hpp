@@ -19,7 +19,9 @@ std::string instruction_set();
 
 /// From now on this process uses, in the kernel too, instruction sets without fused multiply-adds
 /// alone: SSE4 and what is below it, whose bits are the same. One scene then has one hash on every
-/// x86-64 machine. Slower, by how much: docs/simulator.md. Not while another thread computes.
+/// x86-64 machine, but where the kernel's rare single calls (GapTier past fast) ask functions of
+/// the C library whose bits depend on it. Slower, by how much: docs/simulator.md. Not while another
+/// thread computes.
 void use_reproducible_arithmetic();
 
 /// Has it been called, and not been taken back?

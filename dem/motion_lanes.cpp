@@ -49,7 +49,7 @@ HWY_INLINE void turn_freely(PackQuaternion& q, PackVec3& momentum, const PackVec
 HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const MotionStep& step,
                      std::size_t at, PackMask& finite) {
   const PackVec3 axes = load_vectors(c.semi_axes + 3 * at);
-  const PackInertia inertia = inertia_of(load_numbers(c.mass + at), axes, c.is_plane);
+  const PackInertia inertia = inertia_of(load(c.mass + at), axes, c.is_plane);
   const PackQuaternion q = load_quaternions(c.orientation + 4 * at);
   const PackRotation rotation(q);
   const PackVec3 moment = rotation.to_body(load_vectors(c.moment + 3 * at));
@@ -91,7 +91,7 @@ HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const 
 /// The same of positions and velocities. Returns mass |mean velocity|^2.
 HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const MotionStep& step,
                       std::size_t at, Pack& fallen, PackMask& finite) {
-  const Pack mass = load_numbers(c.mass + at);
+  const Pack mass = load(c.mass + at);
   const PackVec3 before = load_vectors(c.velocity + 3 * at);
   const PackVec3 force = load_vectors(c.force + 3 * at);
   const double *g = step.gravity, *r = step.rate;
@@ -144,7 +144,7 @@ HWY_ATTR void cosine_sine_lanes(const double* angle, double* cosine, double* sin
                               sines[dem::kChunk + kMostLanes];
   for (std::size_t k = 0; k < count; ++k) angles[k] = angle[k];
   for (std::size_t k = 0; k < count; k += pack_lanes()) {
-    const PackAngle turned = cosine_sine(load_numbers(angles + k));
+    const PackAngle turned = cosine_sine(load(angles + k));
     store(turned.cosine, cosines + k);
     store(turned.sine, sines + k);
   }

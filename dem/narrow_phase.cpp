@@ -171,8 +171,8 @@ PrincipalCurvatures NarrowPhase::relative_curvature(const IndexedPair& pair,
     const double curvature = 1.0 / radii_[a] + other;
     return {{curvature, curvature}, {Vec3::Zero(), Vec3::Zero()}};
   }
-  if (b >= bodies_.size()) return surface_curvature((bodies_)[a], normal);
-  return contact_curvature((bodies_)[a], (bodies_)[b], normal).relative;
+  if (b >= bodies_.size()) return surface_curvature(bodies_[a], normal);
+  return contact_curvature(bodies_[a], bodies_[b], normal).relative;
 }
 
 }  // namespace tangency::dem

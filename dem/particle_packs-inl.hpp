@@ -20,10 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::detail::HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
-
-HWY_INLINE Pack load_numbers(const double* from) { return {hn::LoadU(D(), from)}; }
-
 HWY_INLINE Pack unfused_dot(const PackVec3& a, const PackVec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -31,16 +27,6 @@ HWY_INLINE PackVec3 times(const PackVec3& a, const PackVec3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-/// (x, y, z) is a vector, as Eigen stores it.
-struct PackQuaternion {
-  Pack x, y, z, w;
-};
-
-HWY_INLINE PackQuaternion load_quaternions(const double* from) {
-  PackQuaternion q;
-  hn::LoadInterleaved4(D(), from, q.x.low, q.y.low, q.z.low, q.w.low);
-  return q;
-}
 HWY_INLINE void store(const PackQuaternion& q, double* to) {
   hn::StoreInterleaved4(q.x.low, q.y.low, q.z.low, q.w.low, D(), to);
 }

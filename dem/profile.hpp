@@ -14,6 +14,12 @@
 
 namespace tangency::dem {
 
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// What a cycle is made of.
 enum class Phase : std::size_t {
   motion,   ///< velocities, positions and orientations; with Fire
@@ -48,14 +54,12 @@ class PhaseTimer {
     if (profile_ != nullptr) start_ = Clock::now();
   }
   ~PhaseTimer() {
-    if (profile_ != nullptr)
-      (*profile_)[phase_] += std::chrono::duration<double>(Clock::now() - start_).count();
+    if (profile_ != nullptr) (*profile_)[phase_] += seconds_since(start_);
   }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
-  using Clock = std::chrono::steady_clock;
   Profile* profile_;
   Phase phase_;
   Clock::time_point start_;

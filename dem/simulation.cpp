@@ -128,7 +128,7 @@ Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
   state_.particles.permute(spatial_order(state_.particles, state_.cell));
   state_.laws = scene_.laws;
-  renew_list(0.0);
+  renew_list({}, 0.0);
   update_contacts(0.0);
   next_stage();
   require_single_contacts();
@@ -191,8 +191,8 @@ void Simulation::next_stage() {
   state_.servos.assign(finished() ? 0 : stage().drive->loading.targets.size(), {});
   state_.fire = {};
   state_.increments = 0;
-  sort_in_space();
   prepare_stage();
+  sort_in_space();
 }
 
 /// Puts particles that have mixed back into an order of space, contacts and all.
@@ -203,10 +203,8 @@ void Simulation::sort_in_space() {
   std::vector<std::uint32_t> place(order.size());
   for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
   state_.particles.permute(order);
-  const std::vector<Pair> pairs = state_.contacts.renumber(state_.list.pairs(), place);
-  state_.list.build(state_.particles, state_.cell, kSkinRatio);
-  state_.contacts.carry_over(pairs, state_.list.pairs());
-  state_.contacts.restore(state_.contacts.columns(), state_.particles, state_.list);
+  renew_list(state_.contacts.renumber(state_.list.pairs(), place), time_step());
+  state_.contacts.add_up(state_.particles, state_.list);
 }
 
 double Simulation::time_step() const {
@@ -296,12 +294,12 @@ void Simulation::update_contacts(double dt) {
 void Simulation::keep_list_current(double dt) {
   const PhaseTimer timer(profile_, Phase::list);
   if (state_.list.is_current(state_.particles, state_.cell)) return;
-  renew_list(dt);
+  renew_list(state_.list.pairs(), dt);
   if (profile_ != nullptr) ++profile_->list_builds;
 }
 
-void Simulation::renew_list(double dt) {
-  const std::vector<Pair> before = state_.list.pairs();
+/// @param before  the pairs that the contacts are of
+void Simulation::renew_list(std::vector<Pair> before, double dt) {
   try {
     state_.list.build(state_.particles, state_.cell, kSkinRatio, dt);
   } catch (const std::invalid_argument& error) {

@@ -124,7 +124,7 @@ class Simulation {
   void move_particles(double dt);
   double cycles_to_a_packing() const;
   void keep_list_current(double dt);
-  void renew_list(double dt);
+  void renew_list(std::vector<Pair> before, double dt);
   void update_contacts(double dt);
   Motion motion() const;
   double kinetic_energy_now() const;

@@ -147,7 +147,7 @@ void add_run(tables::Program& program) {
   command.flag("--profile", words->options.profile,
                "Print the time of the cycles by phase after the run");
   command.flag("--reproducible", words->options.reproducible,
-               "Compute without fused multiply-adds: state_hash is that of every machine");
+               "Compute without fused multiply-adds: one state_hash on every x86-64 processor");
   command.footer(kRunHelp);
   command.flag("--quiet", words->options.quiet, "No progress");
   command.runs([words] {

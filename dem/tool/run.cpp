@@ -28,8 +28,6 @@
 namespace tangency::dem {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Above it the motion is no longer slow, and the stresses are not those of a sound run: measured
 /// on shear tests of one sample at growing strain rates.
 constexpr double kSoundInertialFraction = 0.015;
@@ -77,10 +75,6 @@ double mean_radius(const Scene& scene) {
   for (const Batch& batch : scene.batches())
     sum += static_cast<double>(batch.count) * batch.shape.mean_radius;
   return sum / static_cast<double>(scene.particle_count());
-}
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 /// Adds the time of its scope to a sum, whether or not the scope ends by an exception.

@@ -111,7 +111,7 @@ HWY_INLINE void write(const PackAnswer& answer, const LaneBlock& to, std::size_t
 /// The lanes of `which` alone.
 HWY_INLINE void write_some(const PackAnswer& answer, std::uint64_t which, const LaneBlock& to,
                            std::size_t i) {
-  constexpr std::size_t kLanes = TANGENCY_PACK_REGISTERS * HWY_MAX_BYTES / sizeof(double);
+  constexpr std::size_t kLanes = TANGENCY_PACK_REGISTERS * kMostLanes;
   double gap[kLanes], gap_error[kLanes], normal[3 * kLanes], arm_a[3 * kLanes], arm_b[3 * kLanes];
   LaneBlock here = to;
   here.gap = gap, here.gap_error = gap_error;
@@ -132,9 +132,9 @@ HWY_INLINE void write_some(const PackAnswer& answer, std::uint64_t which, const 
 }
 
 /// The branch that each of the asked lanes is on, which have a normal of a moment ago, from another
-/// near it; those that are settled as
-/// bits. A branch is followed and not jumped to, and bodies that are apart are never said to
-/// overlap. Out of line, as it would take registers from what every pack needs.
+/// near it; those that are settled as bits. A branch is followed and not jumped to, and bodies that
+/// are apart are never said to overlap. Out of line, as it would take registers from what every
+/// pack needs.
 HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const PackVec3& from,
                                        const PackMask& asked) {
   const PackPair pair = load_pair(block, i);

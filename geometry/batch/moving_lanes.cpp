@@ -17,19 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::detail::HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
 // The least radius of curvature is a lower bound: two quotients are rounded.
 constexpr double kBelow = 1.0 - 0x1p-40;
-
-struct PackQuaternion {
-  Pack x, y, z, w;
-};
-
-HWY_INLINE PackQuaternion load_quaternions(const double* from) {
-  PackQuaternion q;
-  hn::LoadInterleaved4(D(), from, q.x.low, q.y.low, q.z.low, q.w.low);
-  return q;
-}
 
 HWY_INLINE Pack sum_of_squares(const Pack& a, const Pack& b) { return multiply_add(a, a, b * b); }
 

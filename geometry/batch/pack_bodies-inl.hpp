@@ -18,7 +18,7 @@ namespace {
 
 /// Where the bodies of the lanes of one register start.
 struct Rows {
-  const double* lane[HWY_MAX_BYTES / sizeof(double)];
+  const double* lane[kMostLanes];
 };
 
 /// Four columns: a transposition, which is what a gather instruction does slowly.
@@ -56,7 +56,7 @@ HWY_INLINE void load_columns(const Rows& rows, std::size_t c, Register* column) 
   }
 #else
   for (std::size_t k = 0; k < 4; ++k) {
-    HWY_ALIGN double values[HWY_MAX_BYTES / sizeof(double)];
+    HWY_ALIGN double values[kMostLanes];
     for (std::size_t r = 0; r < register_lanes(); ++r) values[r] = lane[r][c + k];
     column[k] = hn::Load(D(), values);
   }

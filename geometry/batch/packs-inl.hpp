@@ -46,6 +46,9 @@ struct PackMask {
 #define TANGENCY_PARTS(low, high) low
 #endif
 
+/// The most numbers that a register of any machine with this instruction set has.
+constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
+
 HWY_INLINE std::size_t register_lanes() { return hn::Lanes(D()); }
 HWY_INLINE std::size_t pack_lanes() { return TANGENCY_PACK_REGISTERS * hn::Lanes(D()); }
 
@@ -235,6 +238,9 @@ HWY_INLINE Pack trace_of_product(const PackSymmetric3& a, const PackSymmetric3& 
 HWY_INLINE Pack minor(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
   return multiply_take(c, d, a * b);
 }
+HWY_INLINE PackVec3 cross(const PackVec3& a, const PackVec3& b) {
+  return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
+}
 HWY_INLINE PackSymmetric3 adjugate(const PackSymmetric3& s) {
   return {minor(s.yy, s.zz, s.yz, s.yz), minor(s.zz, s.xx, s.zx, s.zx),
           minor(s.xx, s.yy, s.xy, s.xy), minor(s.zx, s.xy, s.xx, s.yz),
@@ -256,6 +262,9 @@ HWY_INLINE PackSymmetric3 with_square(const PackSymmetric3& s, const Pack& w, co
           multiply_add(p.y, v.z, s.yz), multiply_add(p.z, v.x, s.zx), multiply_add(p.x, v.y, s.xy)};
 }
 
+HWY_INLINE Pack load(const double* from) {
+  return {TANGENCY_PARTS(hn::LoadU(D(), from), hn::LoadU(D(), from + register_lanes()))};
+}
 HWY_INLINE void store(const Pack& p, double* to) {
   hn::StoreU(p.low, D(), to);
 #if TANGENCY_PACK_REGISTERS == 2
@@ -280,6 +289,19 @@ HWY_INLINE void store(const PackVec3& v, double* to) {
   hn::StoreInterleaved3(v.x.high, v.y.high, v.z.high, D(), to + 3 * register_lanes());
 #endif
 }
+
+#if TANGENCY_PACK_REGISTERS == 1
+/// (x, y, z) is a vector, as Eigen stores it.
+struct PackQuaternion {
+  Pack x, y, z, w;
+};
+
+HWY_INLINE PackQuaternion load_quaternions(const double* from) {
+  PackQuaternion q;
+  hn::LoadInterleaved4(D(), from, q.x.low, q.y.low, q.z.low, q.w.low);
+  return q;
+}
+#endif
 
 }  // namespace
 }  // namespace tangency::detail::HWY_NAMESPACE

@@ -17,6 +17,7 @@ using tangency::Vec3;
 using tangency::dem::ContactLaw;
 using tangency::dem::NormalResponse;
 using tangency::dem::ShearState;
+using tangency::testing::linear_push;
 using tangency::testing::shear_step;
 
 const Vec3 kNormal = Vec3(1.0, 2.0, 2.0) / 3.0;
@@ -27,23 +28,27 @@ constexpr ContactLaw kLaw{100.0, 50.0, 0.5, 0.0};
 Vec3 sheared(const ContactLaw& law, const Vec3& before, const Vec3& normal_before,
              const Vec3& normal, const Vec3& displacement, double normal_force) {
   ShearState state{before, law.shear_stiffness, before.squaredNorm() / (2.0 * law.shear_stiffness)};
-  NormalResponse response = law.normal_response(normal_force / law.normal_stiffness, {});
+  const NormalResponse response = linear_push(law, normal_force / law.normal_stiffness);
   shear_step(law, state, {normal_before, normal, displacement}, response);
   return state.force;
 }
 
 TEST(ContactLaw, NormalForceIsLinearInOverlapAndItsEnergyThatOfASpring) {
-  const NormalResponse response = kLaw.normal_response(0.25, {});
-  EXPECT_EQ(response.force, 25.0);
-  EXPECT_EQ(response.stiffness, 100.0);
-  EXPECT_EQ(response.energy, 0.5 * 100.0 * 0.25 * 0.25);
+  tangency::testing::ContactArrays one;
+  one.set_law(0, kLaw);
+  one.gap[0] = -0.25;
+  one.normal[0] = kNormal;
+  one.step(1, false);
+  EXPECT_EQ(one.normal_force[0], 25.0);
+  EXPECT_EQ(one.normal_stiffness_now[0], 100.0);
+  EXPECT_EQ(one.normal_energy[0], 0.5 * 100.0 * 0.25 * 0.25);
 }
 
 // dem/contact_law.hpp (4)
 TEST(ContactLaw, WorkOnTheShearSpringIsStoredOrSlidAway) {
   // Out along the tangent until it slides, back until it slides the other way.
   ShearState state;
-  const NormalResponse response = kLaw.normal_response(0.1, {});
+  const NormalResponse response = linear_push(kLaw, 0.1);
   double work = 0.0, slid = 0.0, limit = 0.0;
   for (int step = 0; step < 300; ++step) {
     const Vec3 moved = (step < 100 ? 0.002 : -0.002) * kTangent + 1e-4 * step * kNormal;

@@ -130,18 +130,22 @@ inline std::string arithmetic_of(std::int64_t level) {
              : std::string(hwy::TargetName(level)).substr(0, 4);
 }
 
+/// Only this instruction set from now on; 0: all.
+inline void use_level(std::int64_t level) {
+  hwy::SetSupportedTargetsForTest(level);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 /// Runs with each instruction set that this machine and this build have, the best one last.
 template <class Run>
 void at_every_level(Run&& run) {
   std::vector<std::int64_t> levels = hwy::SupportedAndGeneratedTargets();
   std::sort(levels.rbegin(), levels.rend());
   for (const std::int64_t level : levels) {
-    hwy::SetSupportedTargetsForTest(level);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    use_level(level);
     run(level);
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  use_level(0);
 }
 
 /// What a row of the file begins with: the arithmetic that runs here now have.

@@ -261,7 +261,7 @@ TEST(Mindlin, ShearNeverGainsEnergyInAClosedCycle) {
       for (int k = 1; k <= steps; ++k) {
         overlap = from + (to - from) * k / steps;
         const Vec3 step = moved / steps * t, before = state.force;
-        lost += shear_step(law, state, {n, n, step}, law.normal_response(overlap, curvatures));
+        lost += shear_step(law, state, {n, n, step}, law.hertz_response(overlap, curvatures));
         work -= 0.5 * (before + state.force).dot(step);
       }
     };
@@ -283,15 +283,15 @@ TEST(Mindlin, UnloadingTakesShearForceDownWithItsStiffness) {
   const ContactLaw law = hertz_law(1e9);
   const Vec3 n = Vec3::UnitZ();
   ShearState state;
-  shear_step(law, state, {n, n, Vec3(1e-5, 0.0, 0.0)}, law.normal_response(4e-3, curvatures));
+  shear_step(law, state, {n, n, Vec3(1e-5, 0.0, 0.0)}, law.hertz_response(4e-3, curvatures));
   const Vec3 sheared = state.force;
   ASSERT_GT(sheared.norm(), 0.0);
   // Half the radius of contact, half the stiffness, half the force; loading leaves it.
   const double lost =
-      shear_step(law, state, {n, n, Vec3::Zero()}, law.normal_response(1e-3, curvatures));
+      shear_step(law, state, {n, n, Vec3::Zero()}, law.hertz_response(1e-3, curvatures));
   EXPECT_LT((state.force - 0.5 * sheared).norm(), 8 * kUnit * sheared.norm());
   EXPECT_GT(lost, 0.0);
-  shear_step(law, state, {n, n, Vec3::Zero()}, law.normal_response(4e-3, curvatures));
+  shear_step(law, state, {n, n, Vec3::Zero()}, law.hertz_response(4e-3, curvatures));
   EXPECT_LT((state.force - 0.5 * sheared).norm(), 8 * kUnit * sheared.norm());
 }
 

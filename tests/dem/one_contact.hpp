@@ -88,6 +88,12 @@ struct ContactArrays {
   }
 };
 
+/// The push of a linear contact.
+inline dem::NormalResponse linear_push(const dem::ContactLaw& law, double overlap) {
+  const double force = law.normal_stiffness * overlap, shear = law.shear_stiffness;
+  return {force, law.normal_stiffness, 0.5 * force * overlap, {shear, shear, Vec3::Zero()}};
+}
+
 /// How a contact moves during a step.
 struct ContactStep {
   Vec3 previous_normal;  ///< unit

@@ -60,27 +60,7 @@ Family extremes() {
 }
 
 std::vector<Family> make_families() {
-  std::vector<Family> all;
-  for (const auto& shape : verify::contact_classes()) all.push_back(contacts(shape, 1000));
-  Family hostile{"adversarial", {}, {}};
-  verify::for_each_adversarial_pair(kSeed, 1000, [&](const verify::AdversarialPair& p) {
-    hostile.a.push_back(verify::to_ellipsoid(p.a));
-    hostile.b.push_back(verify::to_ellipsoid(p.b));
-  });
-  all.push_back(std::move(hostile));
-  const auto add = [&](const auto& shape, auto source) {
-    Family f{shape.name, {}, {}};
-    for (int i = 0; i < 60; ++i) {
-      const verify::EllipsoidPair p = source.next();
-      f.a.push_back(verify::to_ellipsoid(p.a));
-      f.b.push_back(verify::to_ellipsoid(p.b));
-    }
-    all.push_back(std::move(f));
-  };
-  for (const auto& shape : verify::extreme_families()) {
-    add(shape, verify::ExtremePairs(shape, kSeed));
-  }
-  for (const auto& shape : verify::deep_families()) add(shape, verify::DeepPairs(shape, kSeed));
+  std::vector<Family> all = testing::drawn_families();
   all.push_back(extremes());
   return all;
 }

@@ -56,29 +56,18 @@ struct Moving {
   MovingBodies bodies;
 };
 
+/// Those that have a separation: it is given.
 std::vector<Family> families() {
-  std::vector<Family> all;
-  for (const auto& shape : verify::contact_classes()) all.push_back(testing::contacts(shape, 1000));
-  const auto add = [&](const auto& shape, auto source) {
-    Family f{shape.name, {}, {}};
-    for (int i = 0; i < 60; ++i) {
-      const verify::EllipsoidPair p = source.next();
-      f.a.push_back(verify::to_ellipsoid(p.a));
-      f.b.push_back(verify::to_ellipsoid(p.b));
+  std::vector<Family> all = testing::drawn_families();
+  for (Family& f : all) {
+    Family kept{f.name, {}, {}};
+    for (std::size_t i = 0; i < f.a.size(); ++i) {
+      if (!(f.b[i].centre() - f.a[i].centre()).allFinite()) continue;
+      kept.a.push_back(f.a[i]);
+      kept.b.push_back(f.b[i]);
     }
-    all.push_back(std::move(f));
-  };
-  for (const auto& shape : verify::extreme_families())
-    add(shape, verify::ExtremePairs(shape, kSeed));
-  for (const auto& shape : verify::deep_families()) add(shape, verify::DeepPairs(shape, kSeed));
-  Family hostile{"adversarial", {}, {}};
-  verify::for_each_adversarial_pair(kSeed, 1000, [&](const verify::AdversarialPair& p) {
-    const Ellipsoid a = verify::to_ellipsoid(p.a), b = verify::to_ellipsoid(p.b);
-    if (!(b.centre() - a.centre()).allFinite()) return;
-    hostile.a.push_back(a);
-    hostile.b.push_back(b);
-  });
-  all.push_back(std::move(hostile));
+    f = std::move(kept);
+  }
   return all;
 }
 
