@@ -264,11 +264,13 @@ class Programme:
         A contact of two spheres of RADIUS with the overlap d bears (4/3) E' sqrt(RADIUS/2) d^1.5,
         E' = E/(2 (1 - nu^2)); it is STIFFNESS d at the mean overlap d of the linear sample."""
         of, b = Stages(), dict(body(self.scale.particles))
-        overlap = 7.39e9 / STIFFNESS_OF_LAW
-        modulus = 0.75 * STIFFNESS_OF_LAW / (0.5 * stages.RADIUS * overlap)**0.5
+        overlap = 7.39e9 / stages.STIFFNESS
+        modulus = 0.75 * stages.STIFFNESS / (0.5 * stages.RADIUS * overlap)**0.5
         b["contact"] = {"law": "hertz", "young_modulus": 2 * (1 - 0.3**2) * modulus,
                         "largest_overlap": 0.15, "friction_coefficient": stages.FRICTION}
-        sample = self._add("hertz", "p050", seed, "hertz", b, of.unload("hertz", 50e6),
+        # The old law's balance would end an unload at once: the new law acts for a while first.
+        sample = self._add("hertz", "p050", seed, "hertz", b, of.hold("hertz", 50e6, 500),
+                           of.unload("p050", 50e6),
                            after=f"spheroid-p050-s{seed}", tables=["final.state"], cost=2)
         self._shear("hertz", "p050-", seed, "hertz", b, 50e6, sample)
 
@@ -297,14 +299,16 @@ class Programme:
                               ("ellipse", f"ellipse-e15-s{seed}"), ("disk", f"ellipse-e00-s{seed}")):
             plane = family in ("ellipse", "disk")
             old = self.runs[after]
-            pressures = (4e6, 2e6, 1e6) if not plane else tuple(map(scale_plane, (4e6, 2e6, 1e6)))
+            pressures = (4e6, 1e6, 0.25e6)
+            if plane:
+                pressures = tuple(map(scale_plane, pressures))
             for k, pressure in enumerate(pressures):
                 after = self._add(family, f"limit{k + 1}", seed, "limits", old.body,
                                   Stages(plane).unload(f"limit{k + 1}", pressure,
                                                        friction_coefficient=0.0,
                                                        max_unbalanced_ratio=0.05,
-                                                       stress_tolerance=0.05)
-                                  , after=after, tables=["final.state"], cost=3)
+                                                       stress_tolerance=0.05),
+                                  after=after, tables=["final.state"], cost=3)
 
     def _apart(self, seed):
         """The published contact scheme, growth at the published rate, a sample of 8000."""
@@ -330,9 +334,6 @@ class Programme:
                           cost=10)
         reached = self._release("large", seed, "large", b, large, (50e6,))
         self._shear("large", "p050-", seed, "large", b, 50e6, reached[50e6])
-
-
-STIFFNESS_OF_LAW = stages.STIFFNESS
 
 
 def scale_plane(pressure):

@@ -108,7 +108,7 @@ def isostatic(study):
              for family in ("sphere", "spheroid", "triaxial")}
     sphere, spheroid, triaxial = means(found)
     met = abs(sphere - 6.0) <= 0.12 and abs(spheroid - 10.0) <= 0.4 and spheroid < triaxial <= 12.0
-    return Finding(*series(found), met, "a line over the root of the mean overlap at 4, 2, 1 MPa")
+    return Finding(*series(found), met, "a line over the root of the mean overlap at 4, 1 and 0.25 MPa")
 
 
 @rows.row("isostatic-plane", "5.3.1", "The same in the plane", "not given",
