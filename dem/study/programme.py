@@ -219,22 +219,22 @@ class Programme:
                         reached[pressure])
 
     def _plane(self, seed):
-        """Disks and ellipses at a mean stress at which overlaps are those of 50e6 in space."""
-        of, scale = Stages(plane=True), self.scale
+        """Disks and ellipses at a mean stress at which overlaps are those of 10e6 in space."""
+        of, scale, pressure = Stages(plane=True), self.scale, scale_plane(10e6)
         b = body(scale.particles, plane=True, kind="ellipse")
         after = self._add("ellipse", "e00", seed, "plane", b, of.random(seed),
-                          of.compact(scale_plane(50e6)), of.relax("e00", scale_plane(50e6)),
+                          of.compact(pressure), of.relax("e00", pressure),
                           history=20, tables=["final.state"], cost=3)
-        self._shear("ellipse", "e00-", seed, "plane", b, scale_plane(50e6), after, of=of)
+        self._shear("ellipse", "e00-", seed, "plane", b, pressure, after, of=of)
         for e in (0.05, 0.1, 0.15, 0.2, 0.25, 0.3):
             name = f"e{round(100 * e):02d}"
             after = self._add("ellipse", name, seed, "plane", b,
-                              of.grow("grow", scale_plane(50e6), e,
+                              of.grow("grow", pressure, e,
                                       max(4, round(0.25 * scale.increments))),
-                              of.relax(name, scale_plane(50e6)), after=after, history=20,
+                              of.relax(name, pressure), after=after, history=20,
                               tables=["final.state"], cost=3)
             if e <= 0.2:  # as published
-                self._shear("ellipse", f"{name}-", seed, "plane", b, scale_plane(50e6), after, of=of)
+                self._shear("ellipse", f"{name}-", seed, "plane", b, pressure, after, of=of)
 
     def _lode(self, seed):
         """True triaxial tests of spheres and of spheroids at 30e6."""
@@ -299,7 +299,7 @@ class Programme:
                               ("ellipse", f"ellipse-e15-s{seed}"), ("disk", f"ellipse-e00-s{seed}")):
             plane = family in ("ellipse", "disk")
             old = self.runs[after]
-            pressures = (4e6, 1e6, 0.25e6)
+            pressures = (4e6, 1e6, 0.25e6)  # chosen
             if plane:
                 pressures = tuple(map(scale_plane, pressures))
             for k, pressure in enumerate(pressures):
