@@ -32,13 +32,13 @@ class Scale:
     large: int = 8000
     small: tuple = (27, 125)  # of tests 1 and 3
     history: int = 10  # cycles between rows of a shear
-    micro: int = 200  # and between rows of micro.csv
+    micro: int = 100  # and between rows of micro.csv
     more_small: int = 3  # seeds of tests 1 and 3 for one of the others
 
 
 # Fewer than 64 are too few for a cell that is sheared in the plane or of triaxial bodies.
 REDUCED = Scale(particles=64, seeds=(1,), strain=0.1, increments=40, large=125, small=(27, 64),
-                micro=100, more_small=1)
+                more_small=1)
 
 
 def with_seeds(scale, count):
@@ -54,7 +54,9 @@ class Run:
     stages: tuple
     after: str | None = None  # the run whose final.state is resumed
     output: dict = dataclasses.field(default_factory=dict)
-    tables: tuple = ()  # states of which averages are taken: names below the run's directory
+    # States of which averages are taken: names below the run's directory, with @polar at the end
+    # by the polar partition.
+    tables: tuple = ()
     cost: float = 1.0  # seconds of one core, roughly: for the order and the time left
 
 
@@ -123,6 +125,7 @@ class Programme:
         if points:
             keys["save_points"] = True
             tables += [f"states/shear-{point}.state" for point in "ABCD"]
+            tables += ["states/shear-C.state@polar", "final.state@polar"]
         stage = of.shear(pressure, strain or self.scale.strain, **keys)
         return self._add(family, f"{what}shear", seed, part, body_, stage, after=after,
                          history=self.scale.history, micro=self.scale.micro, tables=tables,

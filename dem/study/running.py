@@ -117,7 +117,9 @@ class Job:
             name = table_name(state)
             if not os.path.exists(self.path("tables", name)):
                 # Written beside and renamed by the tool.
-                yield [tool, "micro", self.path(state), "--json", self.path("tables", name)]
+                file, _, partition = state.partition("@")
+                yield [tool, "micro", self.path(file), "--partition", partition or "near-uniform",
+                       "--json", self.path("tables", name)]
 
     def seconds(self):
         try:
@@ -134,8 +136,8 @@ class Job:
 
 
 def table_name(state):
-    """tables/NAME of a state's averages."""
-    return os.path.basename(state).removesuffix(".state") + ".json"
+    """tables/NAME of a state's averages: shear-A.json, shear-C.polar.json."""
+    return os.path.basename(state).replace(".state", "").replace("@", ".") + ".json"
 
 
 class Progress:
