@@ -199,12 +199,13 @@ class Programme:
         lattice = self._add("horizontal", "lattice", seed, "horizontal", b,
                             of.lattice(seed, axes="plane"), of.compact(10e6), history=20,
                             tables=["final.state"], cost=0.5)
-        ramp = {"mean_stress_start": 10e6, "ramp_eccentricity": 0.01}
+        middle = 0.5 * (10e6 + DENSE)  # the ramp in two stages, as a state half way is looked at
         first = self._add("horizontal", "growth", seed, "horizontal", b,
-                          of.grow("grow005", DENSE, 0.005, 8, **ramp), after=lattice, history=10,
+                          of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
+                                  ramp_eccentricity=0.005), after=lattice, history=10,
                           micro=scale.micro // 4, tables=["final.state"], cost=2)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
-                          of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=55e6,
+                          of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
                                   ramp_eccentricity=0.01),
                           of.grow("grow18", DENSE, E_LONG, scale.increments),
                           of.relax("p100", DENSE), after=first, history=20,
@@ -325,9 +326,9 @@ class Programme:
             start = () if count == scale.particles and family == "published" else (
                 of.lattice(seed, axes="plane"), of.compact(0.1 * pressure))
             self._add(family, "growth", seed, "published", b, *start,
-                      of.grow("grow01", pressure, 0.01, 10, mean_stress_start=0.1 * pressure,
+                      of.grow("grow01", pressure, 0.01, mean_stress_start=0.1 * pressure,
                               ramp_eccentricity=0.01, cycles_per_percent=1000),
-                      of.grow("grow22", pressure, 0.22, 210, cycles_per_percent=1000),
+                      of.grow("grow22", pressure, 0.22, cycles_per_percent=1000),
                       after=None if start else f"horizontal-lattice-s{seed}", history=50, cost=100)
         if seed != scale.seeds[0]:
             return

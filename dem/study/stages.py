@@ -82,10 +82,12 @@ class Stages:
                 "mean_stress": pressure, **self.moving(GROWTH_RATE), "stress_tolerance": 0.01,
                 "max_unbalanced_ratio": 0.05}
 
-    def grow(self, name, pressure, eccentricity, increments, **keys):
-        return {"kind": "grow", "name": name, "elongation": elongation_of(eccentricity),
-                "increments": increments, "mean_stress": pressure, **self.moving(GROWTH_RATE),
-                "stress_tolerance": 0.02, **keys}
+    def grow(self, name, pressure, eccentricity, increments=None, **keys):
+        """In increments, each of which waits; or with cycles_per_percent, which waits less often."""
+        if increments:
+            keys["increments"] = increments
+        return {"kind": "grow", "name": name, "eccentricity": eccentricity,
+                "mean_stress": pressure, **self.moving(GROWTH_RATE), "stress_tolerance": 0.02, **keys}
 
     def relax(self, name, pressure, **keys):
         return {"kind": "relax", "name": name, "friction_coefficient": 0.0,
