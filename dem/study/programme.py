@@ -202,11 +202,11 @@ class Programme:
         middle = 0.5 * (10e6 + DENSE)  # the ramp in two stages, as a state half way is looked at
         first = self._add("horizontal", "growth", seed, "horizontal", b,
                           of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
-                                  ramp_eccentricity=0.005), after=lattice, history=10,
+                                  ramp_eccentricity=0.005, stress_tolerance=0.01), after=lattice, history=10,
                           micro=scale.micro // 4, tables=["final.state"], cost=2)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
                           of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
-                                  ramp_eccentricity=0.01),
+                                  ramp_eccentricity=0.01, stress_tolerance=0.01),
                           of.grow("grow18", DENSE, E_LONG, scale.increments),
                           of.relax("p100", DENSE), after=first, history=20,
                           micro=scale.micro // 2, tables=["final.state"], cost=6)

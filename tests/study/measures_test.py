@@ -97,8 +97,19 @@ class TestOfATest(unittest.TestCase):
             measures.correlation([1, 2, 3], [1, 1, 1])
         with self.assertRaises(Unmeasurable):
             measures.least_squares_slope([1, 1], [1, 2])
-        with self.assertRaises(Unmeasurable):
+
+    def test_a_missing_column_is_a_fault_and_an_empty_one_is_not(self):
+        with self.assertRaises(KeyError):
             made_test().last("no such column")
+        test = made_test()
+        test.table.columns["value"] = [None] * len(test.strain)
+        with self.assertRaises(Unmeasurable):
+            test.last("value")
+
+    def test_a_column_of_the_ratio_is_taken_as_it_is(self):
+        test = made_test()
+        test.table.columns["a_s"] = [7.0] * len(test.strain)
+        self.assertEqual(test.start("a_s"), 7.0)
 
 
 class TestOfATable(unittest.TestCase):
