@@ -112,7 +112,8 @@ class Programme:
     def _add(self, family, what, seed, part, body_, *own, after=None, history=50, micro=STAGE_ENDS,
              tables=(), cost=1.0):
         name = f"{family}-{what}-s{seed}"
-        output = {"history_interval": history, "frame_interval": STAGE_ENDS, "micro_interval": micro}
+        output = {"history_interval": history, "frame_interval": STAGE_ENDS,
+                  "micro_interval": micro}
         count = sum(keys["count"] for keys in body_["particles"].values())
         self.runs[name] = Run(name, part, seed, body_, own, after, output, tuple(tables),
                               cost * count / 1000)
@@ -148,7 +149,8 @@ class Programme:
         """Tests 4a-4e: grown at DENSE from random places, released, sheared."""
         of, scale, b = Stages(), self.scale, body(self.scale.particles)
         start = [of.random(seed), of.compact(DENSE)]
-        steps = [of.grow(f"grow{round(100 * e):02d}", DENSE, e, max(4, round(share * scale.increments)))
+        steps = [of.grow(f"grow{round(100 * e):02d}", DENSE, e,
+                         max(4, round(share * scale.increments)))
                  for e, share in ((0.01, 0.06), (0.05, 0.22), (E_SHORT, 0.32))]
         short = self._add("spheroid", "growth", seed, "table", b, *start, *steps, history=20,
                           micro=scale.micro // 2, tables=["final.state"], cost=4)
@@ -186,7 +188,8 @@ class Programme:
         """Growth to e = 0.22, as fast as the tests' and slowly."""
         of, scale, b = Stages(), self.scale, body(self.scale.particles)
         self._add("spheroid", "growth3", seed, "growth", b,
-                  *[of.grow(f"grow{round(100 * e)}", DENSE, e, max(4, round(0.23 * scale.increments)))
+                  *[of.grow(f"grow{round(100 * e)}", DENSE, e,
+                            max(4, round(0.23 * scale.increments)))
                     for e in (0.2, 0.22)],
                   after=f"spheroid-growth2-s{seed}", history=20, micro=scale.micro // 2, cost=3)
         self._add("slow", "growth", seed, "growth", b, of.random(seed), of.compact(DENSE),
@@ -194,7 +197,7 @@ class Programme:
                           max_inertial_fraction=0.002), history=20, cost=15)
 
     def _horizontal(self, seed):
-        """The published start: a cubic lattice whose axes will grow across the load; p follows e."""
+        """The published start: a lattice whose axes will grow across the load; p follows e."""
         of, scale, b = Stages(), self.scale, body(self.scale.particles)
         lattice = self._add("horizontal", "lattice", seed, "horizontal", b,
                             of.lattice(seed, axes="plane"), of.compact(10e6), history=20,
@@ -202,7 +205,8 @@ class Programme:
         middle = 0.5 * (10e6 + DENSE)  # the ramp in two stages, as a state half way is looked at
         first = self._add("horizontal", "growth", seed, "horizontal", b,
                           of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
-                                  ramp_eccentricity=0.005, stress_tolerance=0.01), after=lattice, history=10,
+                                  ramp_eccentricity=0.005, stress_tolerance=0.01), after=lattice,
+                          history=10,
                           micro=scale.micro // 4, tables=["final.state"], cost=2)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
                           of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
@@ -289,7 +293,8 @@ class Programme:
         for family, b, keys in (("triaxial", triaxial, {"flatness": 1.25}), ("twosize", two, {})):
             e = 1 / 9 if family == "triaxial" else E_LONG
             dense = self._add(family, "p100", seed, "shapes", b, of.random(seed),
-                              of.compact(DENSE), of.grow("grow", DENSE, e, scale.increments, **keys),
+                              of.compact(DENSE), of.grow("grow", DENSE, e, scale.increments,
+                                                         **keys),
                               of.relax("p100", DENSE), history=20, tables=["final.state"], cost=6)
             reached = self._release(family, seed, "shapes", b, dense, (50e6,))
             self._shear(family, "p050-", seed, "shapes", b, 50e6, reached[50e6])
@@ -300,7 +305,8 @@ class Programme:
         for family, after in (("sphere", f"sphere-p010-s{seed}"),
                               ("spheroid", f"spheroid-p010-s{seed}"),
                               ("triaxial", f"triaxial-p050-s{seed}"),
-                              ("ellipse", f"ellipse-e15-s{seed}"), ("disk", f"ellipse-e00-s{seed}")):
+                              ("ellipse", f"ellipse-e15-s{seed}"),
+                              ("disk", f"ellipse-e00-s{seed}")):
             plane = family in ("ellipse", "disk")
             old = self.runs[after]
             pressures = (4e6, 1e6, 0.25e6)  # chosen

@@ -2,9 +2,9 @@
 """What each run is, for readers of the results: a line of runs.csv for each use of a run.
 
 Columns: run (folder below runs/), kind (growth, unload, shear, sample or limit), stage (its name in
-history.csv), test (of Table 5.2; 4a-table is 4a with the e = 0.11 of the table, 4a with the text's 0.176), family, shape, elongation (a / b
-at the stage's end), flatness, particles, pressure (Pa), preparation, law, intermediate_ratio,
-contacts, seed, status (complete, failed or missing).
+history.csv), test (of Table 5.2; 4a-table is 4a with the e = 0.11 of the table, 4a with the 0.176
+of the text), family, shape, elongation (a / b at the stage's end), flatness, particles, pressure
+(Pa), preparation, law, intermediate_ratio, contacts, seed, status (complete, failed or missing).
 """
 from stages import elongation_of
 
