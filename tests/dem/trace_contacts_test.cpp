@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The published scheme of curves as the contacts of a run, beside the certified answers.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -211,6 +212,31 @@ TEST(TraceContacts, OfAShearAreNearTheFollowedOnes) {
   EXPECT_NEAR(trace.end.porosity, follow.end.porosity, 0.01);
   EXPECT_LT(trace.profile.unanswered_contacts, trace.profile.touching_pairs / 100);
   EXPECT_EQ(follow.profile.unanswered_contacts, 0);
+}
+
+// A body inside another one: the scheme answers for those that overlap.
+TEST(TraceContacts, WithoutAnAnswerAreInTheSummaryAndTheProfileOfARun) {
+  const auto summary_of = [](const std::string& contacts) {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write(
+        "scene.toml",
+        "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n[motion]\ncontacts = \"" + contacts +
+            "\"\n[particles.large]\ncount = 1\nmean_radius = 20.0\nelongation = 1.3\n"
+            "[particles.small]\ncount = 1\nmean_radius = 5.0\nelongation = 1.4\n[contact]\n"
+            "normal_stiffness = 1e10\n[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\n"
+            "[[body]]\ntype = \"large\"\nposition = [40.0, 40.0, 40.0]\n"
+            "[[body]]\ntype = \"small\"\nposition = [42.0, 41.0, 42.0]\n"
+            "[[stage]]\nkind = \"servo\"\nduration = 1\n[output]\nframe_interval = 0\n");
+    const std::string out = folder.path("out");
+    EXPECT_EQ(run_tool({"run", scene, "--out", out, "--quiet", "--profile"}).status, 0);
+    return nlohmann::json::parse(read_file(out + "/summary.json"));
+  };
+  const auto trace = summary_of("trace"), follow = summary_of("follow");
+  EXPECT_EQ(trace["unanswered_contacts"], 1);
+  EXPECT_EQ(trace["profile"]["unanswered_contacts_a_cycle"], 1.0);
+  EXPECT_EQ(trace["state_hash"], follow["state_hash"]) << "the certified answer is taken";
+  EXPECT_FALSE(follow.contains("unanswered_contacts"));
+  EXPECT_FALSE(follow["profile"].contains("unanswered_contacts_a_cycle"));
 }
 
 void run_cycles(Simulation& simulation, int cycles) {
