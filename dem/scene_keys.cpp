@@ -57,8 +57,9 @@ constexpr std::array kKeys{
     Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySign, "", "", "Acceleration"},
     Key{"motion", "rotation", text, "-", "full", kNoRange, "none simplified full", "",
         "Euler's equations: full, without their quadratic terms, or none at all"},
-    Key{"motion", "contacts", text, "-", "follow", kNoRange, "follow global", "",
-        "Of several ways out of an overlap: that of the step before, or the shortest"},
+    Key{"motion", "contacts", text, "-", "follow", kNoRange, "follow global trace", "",
+        "Of several ways out of an overlap: that of the step before, or the shortest; trace: that "
+        "of the published scheme of curves, slow"},
 
     Key{"particles", "count", integer, "-", "", between(1, kMostParticles), "", "",
         "Number of particles of this type"},
@@ -96,6 +97,14 @@ constexpr std::array kKeys{
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,
         "Name in the column stage of history.csv"},
+    Key{"stage", "save", boolean, "-", "false", kNoRange, "", kStageKinds,
+        "Keep the state at the stage's end: states/NAME.state, NAME the stage's"},
+    Key{"stage", "save_strains", reals, "-", "(none)", above_to(0.0, 3.0), "", "shear",
+        "Axial strains, ascending, at each of which the state is kept: states/NAME-0.05.state"},
+    Key{"stage", "save_points", boolean, "-", "false", kNoRange, "", "shear",
+        "Keep the states at the start, where yielding begins, at the peak of friction and where "
+        "the volume begins to stay constant: states/NAME-A.state to -D.state, found in the rows of "
+        "history.csv"},
     Key{"stage", "arrangement", text, "-", "lattice", kNoRange, "lattice random explicit", "place",
         "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
         "[[body]] "
@@ -115,9 +124,13 @@ constexpr std::array kKeys{
         "Mean stress to hold; a shear that holds none keeps its volume"},
     Key{"stage", "lateral_stress", real, "Pa", "(not held)", kPositive, "", "shear",
         "Stress to hold along the lateral axes, instead of a mean stress"},
+    Key{"stage", "intermediate_ratio", real, "-", "(not held)", between(0.0, 1.0), "",
+        "shear servo",
+        "b to hold in s_yy - s_xx = b (s_zz - s_xx), in space: true triaxial; in a shear beside "
+        "mean_stress"},
     Key{"stage", "axial_strain_rate", real, "1/s", "", kPositive, "", "shear",
-        "Compression along z (in the plane y); the lateral axes extend at constant volume but for "
-        "what is held"},
+        "Compression along z (in the plane y); the lateral axes extend at constant volume, with an "
+        "intermediate_ratio in the proportions of its deviator, but for what is held"},
     Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
         "Logarithmic axial compression at which the stage ends"},
     Key{"stage", "strain_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
@@ -165,6 +178,8 @@ constexpr std::array kKeys{
         "relax unload",
         "The same; without: velocities are turned towards the forces, and taken away where they "
         "run against them, by the fast inertial relaxation engine"},
+    Key{"stage", "rotational_damping", real, "sqrt(K_max/m_min)", "(damping)", between(0.0, 10.0),
+        "", kMovingKinds, "The same rate of the angular velocity, where damping is a number"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, kLargestTimeStepFactor), "", kMovingKinds, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", kNotNegative, "",
@@ -184,6 +199,9 @@ constexpr std::array kKeys{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; the start and a stage's end have one too. With 0 there are none at "
         "all"},
+    Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
+        "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
+        "there are none at all"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",
@@ -226,6 +244,10 @@ std::string_view type_text(KeyType type) {
       return "3 numbers";
     case real4:
       return "4 numbers";
+    case reals:
+      return "numbers";
+    case boolean:
+      return "boolean";
     case text:
     case path:
       return "text";
@@ -248,7 +270,8 @@ using SchemaLine = std::array<std::string, 6>;
 
 SchemaLine schema_line(const Key& key) {
   const std::string allowed =
-      key.type == path   ? std::string("a file's name")
+      key.type == path      ? std::string("a file's name")
+      : key.type == boolean ? std::string("true, false")
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
   std::string meaning(key.meaning);
@@ -298,6 +321,10 @@ std::string allowed_values(const Key& key) {
       return "3 finite numbers " + range_text(key.range) + unit;
     case real4:
       return "4 finite numbers " + range_text(key.range) + unit;
+    case reals:
+      return "a list of finite numbers " + range_text(key.range) + unit;
+    case boolean:
+      return "true or false";
     case path:
       return "the name of a file";
     case text:

@@ -40,13 +40,24 @@ struct Place {
 struct Drive {
   Loading loading;
   std::optional<double> damping;  ///< in 1 / characteristic_time(); without: as in fire.hpp
-  double time_step_factor;        ///< in characteristic_time()
+  /// Alike of angular velocities; without: damping.
+  std::optional<double> rotational_damping;
+  double time_step_factor;  ///< in characteristic_time()
   std::optional<double> friction_coefficient;
   std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
   std::optional<double> max_unbalanced_ratio;  ///< of every particle
   std::optional<double> axial_strain;          ///< compression reached, logarithmic
   std::optional<std::int64_t> duration;        ///< cycles
   std::int64_t max_cycles;
+};
+
+/// States of a stage that a run keeps beside its last one.
+struct KeptStates {
+  bool end = false;             ///< of its end
+  std::vector<double> strains;  ///< of a shear: where its axial strain is first so large; ascending
+  bool points = false;          ///< of a shear: at the points of shear_points.hpp
+
+  bool any() const { return end || points || !strains.empty(); }
 };
 
 /// Either places or moves; one that moves may also grow the particles, and then ends when they are
@@ -56,11 +67,13 @@ struct Stage {
   std::optional<Place> place;
   std::optional<Drive> drive;
   std::optional<Growth> growth;  ///< set besides drive
+  KeptStates kept{};
 };
 
 struct OutputIntervals {
   std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
   double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
+  std::int64_t contacts = 0;                ///< cycles; 0: no tables of contacts
 };
 
 struct Scene {
