@@ -88,7 +88,7 @@ TABLE = {
     "zf": (("zf",), 0, 1, -2.5, 1.5)}
 E5 = ("[E5] said to be at 10 MPa, where the peak is highest; its own row adds up to 100 at "
       "a_s = 1.57 alone")
-SPLIT = ("[C] the split implies a ratio of moduli of 0.417 at 10 MPa; 6.5.3.3 calls their dominance "
+SPLIT = ("[C] the split implies a ratio of moduli of 0.417; 6.5.3.3 calls their dominance "
          "shared")
 
 
