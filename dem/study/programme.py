@@ -203,14 +203,16 @@ class Programme:
                             of.lattice(seed, axes="plane"), of.compact(10e6), history=20,
                             tables=["final.state"], cost=0.5)
         middle = 0.5 * (10e6 + DENSE)  # the ramp in two stages, as a state half way is looked at
+        # While the lattice falls together a servo of the default gain takes thousands of cycles.
+        ramp = {"servo_gain": 0.05, "stress_tolerance": 0.01}
         first = self._add("horizontal", "growth", seed, "horizontal", b,
                           of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
-                                  ramp_eccentricity=0.005, stress_tolerance=0.01), after=lattice,
-                          history=10,
-                          micro=scale.micro // 4, tables=["final.state"], cost=2)
+                                  ramp_eccentricity=0.005, **ramp),
+                          after=lattice, history=10, micro=scale.micro, tables=["final.state"],
+                          cost=2)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
                           of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
-                                  ramp_eccentricity=0.01, stress_tolerance=0.01),
+                                  ramp_eccentricity=0.01, **ramp),
                           of.grow("grow18", DENSE, E_LONG, scale.increments),
                           of.relax("p100", DENSE), after=first, history=20,
                           micro=scale.micro // 2, tables=["final.state"], cost=6)
