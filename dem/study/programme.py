@@ -326,7 +326,7 @@ class Programme:
         """The published contact scheme, growth at the published rate, a sample of 8000."""
         of, scale, b = Stages(), self.scale, body(self.scale.particles)
         self._shear("trace", "p010-", seed, "trace", b | {"motion": {"contacts": "trace"}}, 10e6,
-                    f"spheroid-p010-s{seed}")
+                    f"spheroid-p010-s{seed}", strain=scale.strain / 2)
         for family, count, pressure in (("published", scale.particles, DENSE),
                                         ("published27", scale.small[0], 7e6),
                                         ("published125", scale.small[1], 47e6)):
