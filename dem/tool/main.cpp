@@ -71,6 +71,12 @@ logarithmic and count from the start of the stage:
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
   stage_cycle           cycles of the stage
+  elongation eccentricity
+                        a / b and (a - b) / (a + b) of the scene's first type of particles, now
+  packing_density       1 - porosity
+  void_ratio            porosity / packing_density
+  contact_density       1/m^3, 2 contacts / cell volume; with dimensions = 2 1/m^2
+  overlap_fraction      mean_overlap over twice the mean of the mean radii
 
 More keys of summary.json:
   particles, cycles, threads
