@@ -97,6 +97,8 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  relaxation_share      of the last stage of kind grow: the share of its cycles in which no
+                        increment was made
   largest_unbalanced_ratio, largest_unbalanced_moment_ratio
                         of any particle that has contacts: unbalanced force, and moment over
                         its largest semi-axis, over the mean contact force
