@@ -288,7 +288,7 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        "do not have yet"},
       {"too fast a rate", grow("eccentricity = 0.5\ncycles_per_percent = 1\n"),
        "scene.toml:16: stage[1].cycles_per_percent = 1: 2 or more: an increment would change a "
-       "semi-axis by 0.0179 of itself, and at most 0.01 is allowed"},
+       "semi-axis by 0.0178 of itself, and at most 0.01 is allowed"},
       {"a ramp without its end", grow("eccentricity = 0.2\nmean_stress_start = 1e5\n"),
        "scene.toml:16: stage[1].mean_stress_start = 1e+05: together with ramp_eccentricity"},
       {"a ramp without its start", grow("eccentricity = 0.2\nramp_eccentricity = 0.1\n"),

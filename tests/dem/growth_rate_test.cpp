@@ -151,8 +151,7 @@ TEST(GrowthUnderARamp, HoldsTheMeanStressOfItsEccentricity) {
 // Without waiting the servo alone keeps to the ramp, in each cycle; at a rate that it can follow.
 TEST(GrowthUnderARamp, IsFollowedByTheServoWhereNothingWaits) {
   Simulation simulation =
-      compacted(ramped("eccentricity = 0.01\ncycles_per_percent = 1000\nservo_gain = "
-                       "0.2\ntime_step_factor = 0.2\n"));
+      compacted(ramped("eccentricity = 0.01\ncycles_per_percent = 1000\nservo_gain = 0.2\n"));
   double worst = 0.0;
   while (simulation.status() == StageStatus::running) {
     simulation.step();
