@@ -17,6 +17,7 @@
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/sample.hpp>
+#include <tangency/dem/start_axes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -34,6 +35,7 @@ struct Place {
   double bounding_fraction;  ///< of a random arrangement without a cell size
   /// Of an explicit arrangement whose bodies do not stand in the scene: a table of them.
   std::string file;
+  StartAxes axes{};
 };
 
 /// How a stage moves, and when it ends: as soon as all that is set holds.
@@ -89,6 +91,7 @@ struct Scene {
   std::vector<Stage> stages;  ///< the first, and no other, places
   OutputIntervals output;
 
+  /// Spheres have the directed axis of what they grow into.
   std::vector<Batch> batches() const;
   std::size_t particle_count() const;
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }

@@ -92,6 +92,12 @@ logarithmic and count from the start of the stage:
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
   stage_cycle           cycles of the stage
+  elongation eccentricity
+                        a / b and (a - b) / (a + b) of the scene's first type of particles, now
+  packing_density       1 - porosity
+  void_ratio            porosity / packing_density
+  contact_density       1/m^3, 2 contacts / cell volume; with dimensions = 2 1/m^2
+  overlap_fraction      mean_overlap over twice the mean of the mean radii
   asymmetry             |s - s'| / mean stress of the stress before it is made symmetric, by
                         moments out of balance; 0 without stress
   boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
@@ -119,6 +125,8 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  relaxation_share      of the last stage of kind grow: the share of its cycles in which no
+                        increment was made
   strain_at_A, strain_at_B, strain_at_C, strain_at_D, D_is_last_row
                         of the last stage with save_points: axial strains of its states, and
                         whether D is the last row for want of a constant volume

@@ -305,7 +305,7 @@ class Run {
     const auto compare = [&](const std::string& what, double is, double wanted) {
       unmet.push_back(what + " " + short_text(is) + " of " + short_text(wanted));
     };
-    for (const Target& target : stage.loading.targets)
+    for (const Target& target : simulation_.loading().targets)
       compare(target.name, target.measured(seen.stress), target.wanted);
     if (stage.axial_strain) compare("axial strain", seen.axial_strain, *stage.axial_strain);
     if (stage.duration)
