@@ -8,7 +8,9 @@
 #include <string>
 #include <system_error>
 
+#include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/tool/micro.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
@@ -25,6 +27,7 @@ constexpr const char* kProgramDescription =
 constexpr const char* kProgramHelp = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
 `tangency-dem report --help` says what a report of it shows;
+`tangency-dem micro --help` what it tells of forces and directions, and the columns of micro.csv;
 `tangency-dem schema` lists every key of a scene.
 )";
 
@@ -126,6 +129,50 @@ Exit status:
   2    DIR is not one of a run that has written its history, or report.html cannot be written
 )";
 
+constexpr const char* kMicroHelp = R"(
+Contacts are those between particles: contacts with walls are counted and in no average.
+Compression is positive. Partitions of directions, by N = --classes from 1 to 100:
+  near-uniform   24 N^2 classes of nearly equal area; in the plane 8 N equal arcs
+  polar          N rings of 2 N sectors about z, N from 2; in the plane 2 N equal arcs
+
+Prints coordination, averages over orientations, the anisotropies of order 2 with their
+standard errors (a magnitude is the root of the sum of squares of all components), the stress as
+it is summed over contacts and as the theory makes it of the anisotropies, and what each of
+these gives to the shear stress ratio. What is not defined is -: all without contacts, of spheres
+what needs the axis of a body, in the plane what is of order 4.
+
+JSON, null where something is not defined:
+  fabric, normal_force, tangential_force, branch_normal, branch_tangential, branch_length,
+  long_axes, local_contacts (in body axes), contact_vectors (in space axes)
+                        second 3x3, fourth 3x3x3x3, magnitude, their standard errors, and the
+                        share of the variance of class means that orders 2, and 2 and 4, leave
+  f0, z0, mean_branch_length
+                        means over orientations
+  coordination_number, contact_density (contact sides per volume), stress (as summed: not made
+  symmetric), stress_force_fabric (its parts, their sum, and that of the published seven)
+  published, contact_sums
+                        the same of forces and branches by the two other estimators: class means
+                        at the middles of classes, and sums over contacts
+  dimensions, particles, contacts, wall_contacts, cycle, time, volume, cell, partition,
+  classes, class_count, empty_classes
+  coordination          mean, without_rattlers, rattlers, std, skewness, excess_kurtosis,
+                        histogram
+  stresses              measured, seven, eight, fourth (models of orders 2 and 4), noshape,
+                        independent (class means multiplied): tensor, mean, principal, a_s
+  s0, D_n, shares, shares_eight, axisymmetric_shares, signed_magnitudes, signs, joint_signs,
+  coaxiality, part_coaxiality, axisymmetry, stress_asymmetry, force_asymmetry,
+  branch_asymmetry, vector_normal_angle_mean_deg, vector_normal_angle_largest_deg,
+  direction_groups, radial_rings (polar), plane, mean_normal_force
+In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
+amplitudes.
+
+Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
+angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length
+(class means of force, branch and branch length), fl (of force (x) contact vector), and the
+models of order 2 (E2, fn2, ...) and of orders 2 and 4 (E4, ...) there. All sides are twice the
+contacts, and E times area adds up to 1.
+)";
+
 /// DIR where none is given: the scene's name without its ending, in the working directory.
 fs::path default_directory(const fs::path& scene) { return scene.stem().string() + "-out"; }
 
@@ -167,6 +214,48 @@ void add_report(tables::Program& program) {
   command.runs([directory] { return report(*directory); });
 }
 
+/// N of --classes, which has another meaning and default in each partition.
+micromechanics::Classes classes_of(const std::string& partition, int count, bool is_given) {
+  const auto kind = partition_named(partition);
+  if (!is_given) return {kind, micromechanics::Classes::usual_count(kind)};
+  if (const int fewest = micromechanics::Classes::fewest(kind); count < fewest)
+    throw tables::UsageError("--classes " + std::to_string(count) + ": with --partition " +
+                             partition + " from " + std::to_string(fewest) + " to " +
+                             std::to_string(micromechanics::Classes::kMost));
+  return {kind, count};
+}
+
+void add_micro(tables::Program& program) {
+  struct Words {
+    MicroOptions options;
+    std::string partition = "near-uniform";
+    int count = 0;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command =
+      program.subcommand("micro", "Micromechanics of a state: fabric, forces and their stress");
+  command.option("STATE", words->options.state, "A .state file of a run").required();
+  command.option("--partition", words->partition, "Classes of directions")
+      .one_of({"near-uniform", "polar"})
+      .shows_default();
+  const tables::Option count =
+      command.option("--classes", words->count, "N of the partition [4; polar 18]")
+          .between(1, micromechanics::Classes::kMost);
+  command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command
+      .option("--histogram", words->options.histogram,
+              "A row a class of directions as CSV; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(kMicroHelp);
+  command.runs([words, count] {
+    words->options.classes = classes_of(words->partition, words->count, count.given());
+    return micro(words->options);
+  });
+}
+
 void add_schema(tables::Program& program) {
   program.subcommand("schema", "Print every key of a scene").runs([] {
     std::ostringstream text;
@@ -185,6 +274,7 @@ int main(int argc, char** argv) {
   program.footer(kProgramHelp);
   add_run(program);
   add_report(program);
+  add_micro(program);
   add_schema(program);
   return program.run(argc, argv);
 }
