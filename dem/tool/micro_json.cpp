@@ -247,6 +247,14 @@ void put_stresses(Json& to, const MicroSummary& summary) {
   to["signed_magnitudes"] = magnitudes_of(summary.state);
 }
 
+/// A line a key: tensors nested over many lines are no easier to read.
+std::string lines_of(const Json& all) {
+  std::string text;
+  for (const auto& [key, value] : all.items())
+    text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": " + value.dump();
+  return text + "\n}\n";
+}
+
 }  // namespace
 
 std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary) {
@@ -279,7 +287,7 @@ std::string micro_json(const State& state, const Packing& packing, const MicroSu
   all["direction_groups"] = axis_groups_of(summary);
   all["radial_rings"] = radial_rings(packing, summary);
   all["plane"] = plane_of(summary);
-  return all.dump(1) + "\n";
+  return lines_of(all);
 }
 
 }  // namespace tangency::dem
