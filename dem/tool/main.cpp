@@ -3,14 +3,19 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/micro.hpp>
+#include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
@@ -27,8 +32,11 @@ constexpr const char* kProgramDescription =
 constexpr const char* kProgramHelp = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
 `tangency-dem report --help` says what a report of it shows;
-`tangency-dem micro --help` what it tells of forces and directions, and the columns of micro.csv;
-`tangency-dem schema` lists every key of a scene.
+`tangency-dem schema` lists every key of a scene;
+`tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
+that these make of a state;
+`tangency-dem micro --help` says what it tells of forces and directions, and the columns of
+micro.csv.
 )";
 
 constexpr const char* kRunHelp = R"(
@@ -44,6 +52,21 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
+                     the end of each stage a table as `tangency-dem contacts` makes of a state
+  states/            states that stages keep, each to be resumed from like final.state:
+    NAME.state         of the end of stage NAME, with save = true
+    NAME-0.05.state    where the axial strain is first 0.05, with save_strains = [0.05]; the number
+                       is the shortest that reads back to the same double
+    NAME-A.state to NAME-D.state   at four points of a shear, with save_points = true: A its start;
+                       B where yielding begins: the stress ratio a_s (over axial strain, slopes
+                       within 0.002) rises at most 0.2 times as fast as where it is steepest; C at
+                       the peak friction angle, as below; D where the volume begins to stay
+                       constant: after C it changes by less than 0.02 per axial strain within
+                       0.05, else the last row. B, C and D are rows of history.csv, so that
+                       history_interval bounds how well they are known. At the stage's end its
+                       cycles up to the last of them are run once more, which takes their time;
+                       a stage that does not reach its end has A alone
 
 Columns of history.csv. Compression is positive in stress and axial strain; strains are
 logarithmic and count from the start of the stage:
@@ -94,13 +117,17 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  strain_at_A, strain_at_B, strain_at_C, strain_at_D, D_is_last_row
+                        of the last stage with save_points: axial strains of its states, and
+                        whether D is the last row for want of a constant volume
   largest_unbalanced_ratio, largest_unbalanced_moment_ratio
                         of any particle that has contacts: unbalanced force, and moment over
                         its largest semi-axis, over the mean contact force
 
 Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with history, frames
 and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
-the same DIR history and frames are carried on. The scene must have the same particles;
+the same DIR history, frames, contacts/ and states/ are carried on, and what is there of later
+cycles is taken away. The scene must have the same particles;
 stages may be added after those that the state has passed, and contact laws may differ,
 which is said. A DIR with the results of another run is refused; --replace takes them away.
 
@@ -129,48 +156,43 @@ Exit status:
   2    DIR is not one of a run that has written its history, or report.html cannot be written
 )";
 
-constexpr const char* kMicroHelp = R"(
-Contacts are those between particles: contacts with walls are counted and in no average.
-Compression is positive. Partitions of directions, by N = --classes from 1 to 100:
-  near-uniform   24 N^2 classes of nearly equal area; in the plane 8 N equal arcs
-  polar          N rings of 2 N sectors about z, N from 2; in the plane 2 N equal arcs
+constexpr const char* kContactsHelp = R"(
+STATE is a final.state, checkpoint.state or one of states/ of a run. A row a contact, sorted by
+a, b and the image; contacts with walls are left out. Without a contact: the header alone.
+  a b         particles, numbered from 0 in the order of the scene, a <= b
+  ix iy iz    the image of b that is touched: moved by so many edges of the cell
+  x y z       point of contact, m, beside a where a is (positions are not wrapped into the cell)
+  nx ny nz    unit normal, from a to b
+  gap         m, < 0: minus the overlap
+  bx by bz    branch vector, m: centre of b's image less centre of a
+  ax ay az    arm, m: point of contact less centre of a
+  fn          normal force, N; a push is positive
+  fx fy fz    the whole force of a on b, N
+  sliding     1 where the shear force is at the Coulomb limit, else 0: at that of the scene's
+              [contact], since a state does not know a friction_coefficient of its stage; in the
+              contacts/CYCLE.csv of a run at that of the stage
+Numbers read back to the same double.
 
-Prints coordination, averages over orientations, the anisotropies of order 2 with their
-standard errors (a magnitude is the root of the sum of squares of all components), the stress as
-it is summed over contacts and as the theory makes it of the anisotropies, and what each of
-these gives to the shear stress ratio. What is not defined is -: all without contacts, of spheres
-what needs the axis of a body, in the plane what is of order 4.
+Exit status:
+  0    done
+  2    STATE is no state of this program's version, or FILE cannot be written
+)";
 
-JSON, null where something is not defined:
-  fabric, normal_force, tangential_force, branch_normal, branch_tangential, branch_length,
-  long_axes, local_contacts (in body axes), contact_vectors (in space axes)
-                        second 3x3, fourth 3x3x3x3, magnitude, their standard errors, and the
-                        share of the variance of class means that orders 2, and 2 and 4, leave
-  f0, z0, mean_branch_length
-                        means over orientations
-  coordination_number, contact_density (contact sides per volume), stress (as summed: not made
-  symmetric), stress_force_fabric (its parts, their sum, and that of the published seven)
-  published, contact_sums
-                        the same of forces and branches by the two other estimators: class means
-                        at the middles of classes, and sums over contacts
-  dimensions, particles, contacts, wall_contacts, cycle, time, volume, cell, partition,
-  classes, class_count, empty_classes
-  coordination          mean, without_rattlers, rattlers, std, skewness, excess_kurtosis,
-                        histogram
-  stresses              measured, seven, eight, fourth (models of orders 2 and 4), noshape,
-                        independent (class means multiplied): tensor, mean, principal, a_s
-  s0, D_n, shares, shares_eight, axisymmetric_shares, signed_magnitudes, signs, joint_signs,
-  coaxiality, part_coaxiality, axisymmetry, stress_asymmetry, force_asymmetry,
-  branch_asymmetry, vector_normal_angle_mean_deg, vector_normal_angle_largest_deg,
-  direction_groups, radial_rings (polar), plane, mean_normal_force
-In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
-amplitudes.
+constexpr const char* kParticlesHelp = R"(
+STATE is a final.state, checkpoint.state or one of states/ of a run. A row a particle:
+  id          from 0 in the order of the scene
+  type        from 0 in the alphabetical order of the types' names
+  x y z       centre, m, not wrapped into the cell
+  r1 r2 r3    semi-axes, m
+  qw qx qy qz unit quaternion, body to space
+  vx vy vz    velocity relative to the strain of the cell, m/s, half a step ago
+  wx wy wz    angular velocity in space axes, 1/s, half a step ago
+  contacts    that it has, those with walls included; one with its own image counts twice
+Numbers read back to the same double.
 
-Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
-angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length
-(class means of force, branch and branch length), fl (of force (x) contact vector), and the
-models of order 2 (E2, fn2, ...) and of orders 2 and 4 (E4, ...) there. All sides are twice the
-contacts, and E times area adds up to 1.
+Exit status:
+  0    done
+  2    STATE is no state of this program's version, or FILE cannot be written
 )";
 
 /// DIR where none is given: the scene's name without its ending, in the working directory.
@@ -256,6 +278,32 @@ void add_micro(tables::Program& program) {
   });
 }
 
+/// A command that writes a table of a state.
+void add_table(tables::Program& program, const char* name, const char* what, const char* help,
+               std::function<std::string(const State&)> table) {
+  struct Words {
+    std::string state, out;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command = program.subcommand(name, what);
+  command.option("STATE", words->state, "State of a run").required();
+  command.option("--out", words->out, "File for the table [standard output]").not_empty();
+  command.footer(help);
+  command.runs([words, table = std::move(table)] {
+    const std::string text = table(load_state(words->state));
+    tables::OutputFile out(words->out.empty() ? "-" : words->out);
+    out.write(text);
+    out.commit();
+    return success;
+  });
+}
+
+void add_tables(tables::Program& program) {
+  add_table(program, "contacts", "Table of a state's contacts", kContactsHelp,
+            [](const State& state) { return contact_table(state, state.laws); });
+  add_table(program, "particles", "Table of a state's particles", kParticlesHelp, particle_table);
+}
+
 void add_schema(tables::Program& program) {
   program.subcommand("schema", "Print every key of a scene").runs([] {
     std::ostringstream text;
@@ -274,6 +322,7 @@ int main(int argc, char** argv) {
   program.footer(kProgramHelp);
   add_run(program);
   add_report(program);
+  add_tables(program);
   add_micro(program);
   add_schema(program);
   return program.run(argc, argv);
