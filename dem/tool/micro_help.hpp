@@ -42,6 +42,41 @@ JSON, null where something is not defined:
 In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
 amplitudes.
 
+Columns of micro.csv, which a run with a micro_interval writes: cycle, time, stage, stage_cycle
+and axial_strain as in history.csv; empty cells where something is not defined. X stands for r
+contact normals, n normal force, t tangential force, z normal and zt tangential branch, len
+branch length, E long axes, lambda contact vectors:
+  contacts wall_contacts particles rattlers coordination_number
+  coordination_without_rattlers coordination_std coordination_skewness
+  coordination_excess_kurtosis empty_classes contact_density
+                        rattlers have fewer than two contacts
+  f0 z0 mean_branch_length
+                        means over orientations
+  mean_normal_force     over contacts
+  A_X A_error_X a_axial_X
+                        magnitude with the sign of X:a^r; the root of the sum of squares of its
+                        standard errors; component zz, in the plane yy
+  a_cv a_cv_error a1 a1_error
+                        contact vectors in body axes: magnitude, component along the body's axis
+  b_X b_error_X         magnitudes of order 4
+  unexplained2_X unexplained4_X
+                        share of the variance of class means that orders 2, and 2 and 4, leave
+  asymmetry_t asymmetry_zt vector_normal_angle_mean_deg vector_normal_angle_largest_deg
+  stress_asymmetry
+  mean_stress s1 s2 s3 a_s, and with _seven, _eight, _fourth, _noshape, _independent
+                        mean, principal values, sqrt(3/2) |deviator| / mean (in the plane
+                        sin(phi)): measured, and by the theory as in the JSON
+  s0 D_n                isotropic part; factor of the mean stress by signed magnitudes
+  P_xx P_yy P_zz axial_deg_P commutator_P
+                        of the parts P of the stress: diagonals, axes against the measured stress
+  share_X axisymmetric_X (r n t z zt rz rf zf) share_shape a_s_axisymmetric
+                        what each gives to a_s_seven; by signed magnitudes alone
+  a_s_small a_s_coaxial sin(phi) of coaxial tensors in the plane
+  axial_deg_X commutator_X axisymmetry_X sign_X joint_X
+                        axes and signs against a^r; df is a^n - a^t, dz is a^z - a^zt
+  fraction_x fraction_y fraction_z normal_force_x normal_force_y normal_force_z
+                        contacts whose normal is mainly along an axis, and their normal force
+
 Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
 angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length
 (class means of force, branch and branch length), fl (of force (x) contact vector), and the
