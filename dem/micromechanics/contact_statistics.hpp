@@ -7,7 +7,7 @@
 /// The model, of spheroids: contact vectors have the density per solid angle S(beta) = (1/4 pi)
 /// (1 + a1 P2(cos beta)), beta from the axis of symmetry. a1 is a^cv along that axis, a principal
 /// value and no modulus; it is from -1 to 2, else the density is negative somewhere. Signs, units
-/// and errors are those of contact_arrays.hpp and spheroid.hpp. Nothing is kept between calls: any
+/// and errors are those of body_arrays.hpp and spheroid.hpp. Nothing is kept between calls: any
 /// number of threads may call.
 #pragma once
 
@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <tangency/dem/micromechanics/body_arrays.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
@@ -63,20 +64,6 @@ std::optional<std::size_t> length_class(const Vec3& semi_axes, const Vec3& direc
 ///
 /// (3) equals quadrature over the surface, near the sphere too
 double area_law_a1(const Spheroid& s);
-
-/// A body a particle, as ContactArrays::bodies numbers them.
-struct BodyArrays {
-  std::span<const Quaternion> orientation;  ///< unit, body to space
-  std::span<const Vec3> semi_axes;
-};
-/// @throws std::invalid_argument  other lengths than `particles`, `bodies` or `arm` empty
-void require_sound(const ContactArrays& contacts, const BodyArrays& bodies);
-
-/// With its standard deviation. Contacts of one particle and the two sides of a contact may depend
-/// on each other: deviations account for both. NaN where there are too few data to tell.
-struct Estimate {
-  double value = 0.0, error = 0.0;
-};
 
 /// Of one side of a contact: what does it depend on? A correlation coefficient, and its deviation
 /// if there were no dependence. NaN where one of both does not vary.

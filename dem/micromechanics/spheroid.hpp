@@ -23,6 +23,9 @@ struct Spheroid {
   double along = 1.0, across = 1.0;
 };
 
+/// @throws std::invalid_argument unless both semi-axes are finite and > 0
+void require_sound(const Spheroid& s);
+
 enum class Shape { sphere, prolate, oblate, triaxial };
 
 /// Chosen: semi-axes within this relative distance count as equal; growth and text files round.
