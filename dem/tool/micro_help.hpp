@@ -38,7 +38,7 @@ JSON, null where something is not defined:
   s0, D_n, shares, shares_eight, axisymmetric_shares, signed_magnitudes, signs, joint_signs,
   coaxiality, part_coaxiality, axisymmetry, stress_asymmetry, force_asymmetry,
   branch_asymmetry, vector_normal_angle_mean_deg, vector_normal_angle_largest_deg,
-  direction_groups, radial_rings (polar), plane, mean_normal_force
+  direction_groups, radial_rings (polar), contact_statistics, plane, mean_normal_force
 In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
 amplitudes.
 
@@ -76,6 +76,16 @@ branch length, E long axes, lambda contact vectors:
                         axes and signs against a^r; df is a^n - a^t, dz is a^z - a^zt
   fraction_x fraction_y fraction_z normal_force_x normal_force_y normal_force_z
                         contacts whose normal is mainly along an axis, and their normal force
+  f_short f_intermediate f_long pair_ss pair_si pair_sl pair_ii pair_il pair_ll
+                        shares of contact sides by the length of the contact vector, of contacts
+                        by both; of bodies of one shape, as what follows
+  f_short_model f_intermediate_model f_long_model pair_model_ss and the like
+                        calculated from a1
+  P2 P4 P2_model        <P2>, <P4> of the cosine of normal and axis of symmetry, and calculated
+                        from a1; in the plane <cos 2 gamma>
+  a_axial_r_rot         of <P2> a^E over sides: what the bodies' axes explain of a^r
+  chi_squared chi_degrees chi_p
+                        are local normals independent of how bodies lie?
 
 Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
 angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length
