@@ -132,12 +132,12 @@ MicroSummary micro_summary(const Packing& packing, const mm::Classes& classes) {
   summary.state = mm::second_order_state(summary.averages, summary.dimensions);
   summary.plane = mm::plane_state(summary.averages, summary.dimensions);
   summary.stresses = stresses_of(summary, arrays);
+  summary.axis_groups = mm::axis_groups(arrays.normal, arrays.force);
   if (arrays.size() == 0) return summary;
   double sum = 0.0;
   for (const double force : packing.contacts.normal_force) sum += force;
   summary.bodies = body_summary(arrays, bodies_of(packing));
   summary.mean_normal_force = sum / static_cast<double>(arrays.size());
-  summary.axis_groups = mm::axis_groups(arrays.normal, arrays.force);
   measure_vector_angles(summary, packing.contacts);
   return summary;
 }

@@ -49,9 +49,18 @@ class Made {
   TemporaryFolder folder_;
 };
 
-/// Spheroids of two sizes, compacted, grown and relaxed, some 120 contacts.
+/// Spheroids of two sizes, compacted, grown, relaxed and sheared with friction, with rows of
+/// micro.csv.
+std::string sheared_scene() {
+  return with(with(growing_scene(3), "elongation = 1.2\n", "elongation = 1.3\n"), "[output]\n",
+              "[[stage]]\nkind = \"shear\"\nmean_stress = 50e6\naxial_strain_rate = 0.05\n"
+              "axial_strain = 0.02\ntime_step_factor = 0.3\n[output]\nmicro_interval = 100\n"
+              "history_interval = 100\n");
+}
+
+/// Some 200 contacts.
 const Made& spheroids() {
-  static const Made made(with(growing_scene(3), "elongation = 1.2\n", "elongation = 1.3\n"));
+  static const Made made(sheared_scene());
   return made;
 }
 
@@ -77,6 +86,14 @@ Table table_of(const std::string& text) {
 
 double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
 
+std::vector<double> numbers_of(const Json& nested) {
+  if (nested.is_number()) return {nested.get<double>()};
+  std::vector<double> all;
+  for (const Json& part : nested)
+    for (const double x : numbers_of(part)) all.push_back(x);
+  return all;
+}
+
 /// Fails where a number of `found` is off its fellow by more than 1e-12 of the largest beside it.
 void expect_near(const Json& found, const Json& expected, const std::string& where) {
   if (found.is_object()) {
@@ -86,9 +103,11 @@ void expect_near(const Json& found, const Json& expected, const std::string& whe
     }
     return;
   }
-  std::vector<double> x, y;
-  for (const auto& [path, value] : found.flatten().items()) x.push_back(value.get<double>());
-  for (const auto& [path, value] : expected.flatten().items()) y.push_back(value.get<double>());
+  if (found.is_null()) {
+    EXPECT_TRUE(expected.is_null()) << where;
+    return;
+  }
+  const std::vector<double> x = numbers_of(found), y = numbers_of(expected);
   ASSERT_EQ(x.size(), y.size()) << where;
   double largest = 0.0;
   for (const double value : y) largest = std::max(largest, std::abs(value));
@@ -202,10 +221,13 @@ TEST(MicroCommand, RingsOfAPolarPartitionAreThereAndOfAnotherNot) {
   EXPECT_TRUE(spheroids().json()["radial_rings"].is_null());
   const Json rings = spheroids().json({"--partition", "polar", "--classes", "6"})["radial_rings"];
   ASSERT_EQ(rings.size(), 6u);
-  // The mean away from the axis changes its sign with the side.
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(rings[k]["model4"], -rings[5 - k]["model4"].get<double>(),
-                1e-9 * std::abs(rings[1]["model4"].get<double>()));
+  // Of both sides of contacts the component away from the axis is one, and compression turns
+  // forces towards the axis.
+  const double largest = std::abs(rings[1]["value"].get<double>());
+  EXPECT_LT(rings[1]["value"].get<double>(), 0.0);
+  for (const char* name : {"value", "model2", "model4"})
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(rings[k][name], rings[5 - k][name].get<double>(), 1e-9 * largest);
 }
 
 TEST(MicroCommand, OfThePlaneHasThePlanesTensors) {
@@ -300,16 +322,8 @@ TEST(MicroCommand, RefusesWhatIsNoStateOrNoPartitionWithOneLine) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"no.state"});
 }
 
-/// A shear with rows of micro.csv.
-std::string sheared_scene() {
-  return with(growing_scene(3), "[output]\n",
-              "[[stage]]\nkind = \"shear\"\nmean_stress = 50e6\naxial_strain_rate = 0.05\n"
-              "axial_strain = 0.02\ntime_step_factor = 0.3\n[output]\nmicro_interval = 100\n"
-              "history_interval = 100\n");
-}
-
 TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
-  const Made made(sheared_scene());
+  const Made& made = spheroids();
   const Table rows = table_of(read_file(made.file("out/micro.csv")));
   const Table history = table_of(read_file(made.file("out/history.csv")));
   for (const char* column : {"cycle", "time", "stage", "stage_cycle", "axial_strain", "contacts"})
@@ -348,7 +362,8 @@ TEST(MicroCsv, TakesThePartitionOfTheScene) {
 }
 
 TEST(MicroCsv, IsNotThereWithoutAnInterval) {
-  EXPECT_FALSE(std::filesystem::exists(spheroids().file("out/micro.csv")));
+  const Made made(with(sheared_scene(), "micro_interval = 100\n", ""));
+  EXPECT_FALSE(std::filesystem::exists(made.file("out/micro.csv")));
 }
 
 }  // namespace

@@ -43,9 +43,10 @@ constexpr const char* kResults[] = {"final.state", "history.csv", "micro.csv", "
                                     "frames.pvd"};
 
 void expect_same_results(const std::string& a, const std::string& b) {
-  for (const char* file : kResults)
-    if (std::filesystem::exists(a + "/" + file) || std::filesystem::exists(b + "/" + file))
-      EXPECT_TRUE(read_file(a + "/" + file) == read_file(b + "/" + file)) << file;
+  for (const char* file : kResults) {
+    EXPECT_EQ(std::filesystem::exists(a + "/" + file), std::filesystem::exists(b + "/" + file));
+    EXPECT_TRUE(read_file(a + "/" + file) == read_file(b + "/" + file)) << file;
+  }
   auto of_a = nlohmann::json::parse(read_file(a + "/summary.json"));
   auto of_b = nlohmann::json::parse(read_file(b + "/summary.json"));
   for (const char* key : {"wall_seconds", "ns_per_listed_pair_per_cycle"})

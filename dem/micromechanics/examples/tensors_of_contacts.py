@@ -156,6 +156,8 @@ def main(contact_file, particle_file):
             ("", n, shares, False), ("published", [c[3] for c in classes], shares, True),
             ("contact_sums", n, inverse, True)):
         to = found.setdefault(name, {}) if name else found
+        if min(weights) <= 0.0:  # order 2 alone makes a density below 0 there: no sums
+            continue
         to["f0"], to["normal_force"], to["tangential_force"] = vectors(places, weights, n, force, projected)
         to["z0"], to["branch_normal"], to["branch_tangential"] = vectors(places, weights, n, branch, projected)
         to["mean_branch_length"], to["branch_length"], _ = vectors(places, weights, n, length, projected)
