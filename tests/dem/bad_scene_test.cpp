@@ -279,6 +279,40 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        "scene.toml:14: stage[0].seed = 3: not with arrangement = \"explicit\""},
       {"lateral and mean stress", scene_with("shear") + "mean_stress = 1e6\nlateral_stress = 1e6\n",
        "scene.toml:18: stage[1].lateral_stress = 1e+06: not together with mean_stress"},
+      {"a ratio in the plane",
+       with(scene_with("shear"), "size = [90.0, 90.0, 90.0]", "dimensions = 2") +
+           "mean_stress = 1e6\nintermediate_ratio = 0.5\n",
+       "scene.toml:18: stage[1].intermediate_ratio = 0.5: with dimensions = 3 alone"},
+      {"a ratio at constant volume", scene_with("shear") + "intermediate_ratio = 0.5\n",
+       "scene.toml:17: stage[1].intermediate_ratio = 0.5: with mean_stress alone"},
+      {"a ratio beside equal lateral stresses",
+       scene_with("shear") + "lateral_stress = 1e6\nintermediate_ratio = 0.5\n",
+       "scene.toml:18: stage[1].intermediate_ratio = 0.5: with mean_stress alone"},
+      {"a ratio of stresses that are all held",
+       servo("stress_xx = 1e6\nstress_yy = 1e6\nstress_zz = 1e6\nintermediate_ratio = 0.5\n" +
+             rate),
+       "scene.toml:19: stage[1].intermediate_ratio = 0.5: not together with stresses that it "
+       "follows from"},
+      {"a ratio of turned stresses",
+       servo("mean_stress = 1e6\nmajor_direction = 10.0\nintermediate_ratio = 0.5\n" + rate),
+       "scene.toml:17: stage[1].major_direction = 10.0: not together with intermediate_ratio"},
+      {"a shear whose lateral axis strains too fast",
+       with(scene_with("shear"), "axial_strain_rate = 0.01", "axial_strain_rate = 20.0") +
+           "mean_stress = 1e6\nintermediate_ratio = 1.0\n",
+       "scene.toml:15: stage[1].axial_strain_rate = 20.0: a finite number < 12.2 (1/s), a strain "
+       "of "
+       "0.1 a time step"},
+      {"a rate of turns without one of shifts", scene_with("relax") + "rotational_damping = 0.5\n",
+       "scene.toml:17: stage[1].rotational_damping = 0.5: where damping is a number alone"},
+      {"turns damped so that they turn round",
+       scene_with("compress") + "rotational_damping = 10.0\ntime_step_factor = 0.25\n",
+       "scene.toml:17: stage[1].rotational_damping = 10.0: with time_step_factor = 0.25 a finite "
+       "number <= 8: a step that damps more would turn velocities round"},
+      {"the scheme of curves in the plane",
+       with(with(scene_with("shear"), "size = [90.0, 90.0, 90.0]", "dimensions = 2"), "[motion]",
+            "[motion]\ncontacts = \"trace\""),
+       "scene.toml:5: motion.contacts = 'trace': with dimensions = 2 follow or global: trace is of "
+       "ellipsoids"},
       {"an explicit scene without bodies", place("arrangement = \"explicit\"\n"),
        "scene.toml:13: stage[0].arrangement = 'explicit': with a file, or a list of [[body]] "
        "tables"},
@@ -315,6 +349,10 @@ TEST(Combinations, ThatAreSoundAreAccepted) {
   EXPECT_EQ(refusal(scene_with("compress") + "save = true\n" + stage_of("compress")), "");
   EXPECT_EQ(refusal(with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -2e10, 3.0]")), "");
   EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
+  EXPECT_EQ(refusal(scene_with("shear") + "mean_stress = 1e6\nintermediate_ratio = 1\n"), "");
+  EXPECT_EQ(refusal(servo("mean_stress = 1e6\nintermediate_ratio = 0.5\nmax_strain_rate = 0.01\n")),
+            "");
+  EXPECT_EQ(refusal(scene_with("relax") + "damping = 0.1\nrotational_damping = 0.2\n"), "");
 }
 
 // 2^53 + 1 and the largest integer of TOML.

@@ -193,10 +193,16 @@ TEST_F(Tables, TellWhichContactsSlide) {
 // A state does not know the friction of a stage, and the run does.
 TEST_F(Tables, OfARunTellWhichSlideByTheFrictionOfTheStage) {
   run(sheared_scene("friction_coefficient = 0.2\n"));
-  const std::string of_run = read_file(out_ + "/contacts/" + std::to_string(state_.cycle) + ".csv");
+  const std::string table_of_run = out_ + "/contacts/" + std::to_string(state_.cycle) + ".csv";
+  const std::string of_run = read_file(table_of_run);
   const auto rows = numbers_of(of_run, kContactHeader);
   EXPECT_GT(sliding_and_not(rows, 0.2).first, 0);
   EXPECT_EQ(sliding_and_not(contacts(), 0.5).first, 0);
+  // Nor does the run when it is over, so that it leaves the table as it is.
+  const Finished again =
+      run_tool({"run", folder_.path("scene.toml"), "--out", out_, "--quiet", "--resume", file_});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(read_file(table_of_run), of_run);
 }
 
 TEST_F(Tables, LeaveOutContactsWithWalls) {

@@ -83,14 +83,14 @@ TEST(ShearPoints, DoNotTakeAConstantVolumeBeforeThePeak) {
   EXPECT_TRUE(shear_points(made)->d_is_last_row);
 }
 
-// A start so gentle that its slope is below the share of what comes is no yielding.
-TEST(ShearPoints, DoNotTakeAGentleStartForYielding) {
+// A rise that ends before the steep one comes is no yielding.
+TEST(ShearPoints, DoNotTakeTheEndOfAGentleStartForYielding) {
   auto made = rows(0.0002, 2000, steady);
   const double delay = 0.02;
-  for (ShearPointRow& row : made)
-    row.stress_ratio = row.axial_strain < delay
-                           ? row.axial_strain
-                           : delay + 1.0 - std::exp(-(row.axial_strain - delay) / 0.01);
+  for (ShearPointRow& row : made) {
+    const double after = std::max(0.0, row.axial_strain - delay);
+    row.stress_ratio = std::min(5.0 * row.axial_strain, 0.025) + 1.0 - std::exp(-after / 0.01);
+  }
   EXPECT_NEAR(static_cast<double>(shear_points(made)->b) * 0.0002,
               delay - 0.01 * std::log(kYieldShare), 0.002);
 }
