@@ -2,6 +2,7 @@
 #include <tangency/dem/micromechanics/normal_rotation.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <tangency/dem/micromechanics/rotation_models.hpp>
