@@ -25,17 +25,23 @@ double chi_squared_tail(double chi_squared, std::int64_t degrees) {
   if (degrees < 1)
     throw std::invalid_argument("degrees = " + std::to_string(degrees) + ": must be at least 1");
   if (!(chi_squared > 0.0)) return std::isnan(chi_squared) ? kNone : 1.0;
-  if (std::isinf(chi_squared)) return 0.0;
+  constexpr double kBeyond = 1e100;  // derived: far above any whole number of degrees
+  if (chi_squared > kBeyond) return 0.0;
   // Q(degrees/2, half) as its finite sum: of half^j e^-half/j!, j whole or half a number.
+  constexpr double kLarge = 0x1p500;  // chosen: terms grow to the power of half
   const double half = 0.5 * chi_squared;
   const bool odd = degrees % 2 != 0;
-  double tail = odd ? std::erfc(std::sqrt(half)) : 0.0;
-  double j = odd ? 0.5 : 0.0;
-  double logarithm = -half + (odd ? std::log(2.0 * std::sqrt(half / pi)) : 0.0);
-  for (; 2.0 * j < static_cast<double>(degrees) - 1.0; j += 1.0) {
-    tail += std::exp(logarithm);
-    logarithm += std::log(half / (j + 1.0));
+  double term = odd ? 2.0 * std::sqrt(half / pi) : 1.0, sum = 0.0, logarithm = -half;
+  for (double j = odd ? 0.5 : 0.0; 2.0 * j < static_cast<double>(degrees) - 1.0; j += 1.0) {
+    sum += term;
+    term *= half / (j + 1.0);
+    if (sum < kLarge) continue;
+    sum /= kLarge;
+    term /= kLarge;
+    logarithm += std::log(kLarge);
   }
+  const double tail =
+      (odd ? std::erfc(std::sqrt(half)) : 0.0) + std::exp(logarithm + std::log(sum));
   return std::min(tail, 1.0);
 }
 
