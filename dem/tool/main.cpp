@@ -10,9 +10,12 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/contact_tables.hpp>
+#include <tangency/dem/tool/micro.hpp>
+#include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
@@ -31,7 +34,9 @@ constexpr const char* kProgramHelp = R"(
 `tangency-dem report --help` says what a report of it shows;
 `tangency-dem schema` lists every key of a scene;
 `tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
-that these make of a state.
+that these make of a state;
+`tangency-dem micro --help` says what it tells of forces and directions, and the columns of
+micro.csv.
 )";
 
 constexpr const char* kRunHelp = R"(
@@ -47,6 +52,8 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  micro.csv          with a micro_interval: fabric, forces and stress, a row every so many cycles
+                     and at the end of each stage; columns: tangency-dem micro --help
   contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
                      the end of each stage a table as `tangency-dem contacts` makes of a state
   states/            states that stages keep, each to be resumed from like final.state:
@@ -246,6 +253,48 @@ void add_report(tables::Program& program) {
   command.runs([directory] { return report(*directory); });
 }
 
+/// N of --classes, which has another meaning and default in each partition.
+micromechanics::Classes classes_of(const std::string& partition, int count, bool is_given) {
+  const auto kind = partition_named(partition);
+  if (!is_given) return {kind, micromechanics::Classes::usual_count(kind)};
+  if (const int fewest = micromechanics::Classes::fewest(kind); count < fewest)
+    throw tables::UsageError("--classes " + std::to_string(count) + ": with --partition " +
+                             partition + " from " + std::to_string(fewest) + " to " +
+                             std::to_string(micromechanics::Classes::kMost));
+  return {kind, count};
+}
+
+void add_micro(tables::Program& program) {
+  struct Words {
+    MicroOptions options;
+    std::string partition = "near-uniform";
+    int count = 0;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command =
+      program.subcommand("micro", "Micromechanics of a state: fabric, forces and their stress");
+  command.option("STATE", words->options.state, "A .state file of a run").required();
+  command.option("--partition", words->partition, "Classes of directions")
+      .one_of({"near-uniform", "polar"})
+      .shows_default();
+  const tables::Option count =
+      command.option("--classes", words->count, "N of the partition [4; polar 18]")
+          .between(1, micromechanics::Classes::kMost);
+  command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command
+      .option("--histogram", words->options.histogram,
+              "A row a class of directions as CSV; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(kMicroHelp);
+  command.runs([words, count] {
+    words->options.classes = classes_of(words->partition, words->count, count.given());
+    return micro(words->options);
+  });
+}
+
 /// A command that writes a table of a state.
 void add_table(tables::Program& program, const char* name, const char* what, const char* help,
                std::function<std::string(const State&)> table) {
@@ -291,6 +340,7 @@ int main(int argc, char** argv) {
   add_run(program);
   add_report(program);
   add_tables(program);
+  add_micro(program);
   add_schema(program);
   return program.run(argc, argv);
 }
