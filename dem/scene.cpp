@@ -21,6 +21,9 @@ namespace {
 /// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
 constexpr double kMostGrowthOfAnIncrement = 0.01;
 
+/// Classes of micro.csv by default, the published ones [Ouadfel1998, section 2.3.2].
+constexpr std::int64_t kClassesOfNearUniform = 4, kRingsOfPolar = 18;
+
 /// What walls are called in [contact.NAME-NAME].
 constexpr std::string_view kWallName = "wall";
 
@@ -49,10 +52,7 @@ class Reader {
     read_particles();
     read_contacts();
     read_stages();
-    const Section output(source_, table("output"), "output", "output");
-    scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
-                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
-                     output.integer("contact_interval")};
+    read_output();
     return std::move(scene_);
   }
 
@@ -67,6 +67,19 @@ class Reader {
     if (!node->is_table())
       source_.fail(node->source(), std::string(name) + " = " + text_of(*node) + ": a table");
     return *node->as_table();
+  }
+
+  void read_output() {
+    const Section output(source_, table("output"), "output", "output");
+    scene_.output = {output.integer("history_interval"),    output.integer("frame_interval"),
+                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
+                     output.integer("contact_interval"),    output.integer("micro_interval")};
+    scene_.output.polar = output.text("partition") == "polar";
+    const std::int64_t usual = scene_.output.polar ? kRingsOfPolar : kClassesOfNearUniform;
+    const std::int64_t classes = output.optional_integer("classes").value_or(usual);
+    if (scene_.output.polar && classes < 2)
+      output.refuse("classes", classes, "2 or more with partition = \"polar\"");
+    scene_.output.classes = static_cast<int>(classes);
   }
 
   void read_cell() {

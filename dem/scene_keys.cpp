@@ -195,6 +195,13 @@ constexpr std::array kKeys{
     Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
         "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
         "there are none at all"},
+    Key{"output", "micro_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
+        "Between two rows of micro.csv; a stage's end has one too. With 0 there is none at all"},
+    Key{"output", "partition", text, "-", "near-uniform", kNoRange, "near-uniform polar", "",
+        "micro.csv: how directions are sorted: near-uniform has 24 N^2 classes, polar N rings of "
+        "2 N sectors about z; in the plane 8 N and 2 N arcs"},
+    Key{"output", "classes", integer, "-", "(4; polar 18)", between(1, 100), "", "",
+        "micro.csv: N of the partition; polar from 2"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",

@@ -53,6 +53,8 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  micro.csv          with a micro_interval: fabric, forces and stress, a row every so many cycles
+                     and at the end of each stage; columns: tangency-dem micro --help
   contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
                      the end of each stage a table as `tangency-dem contacts` makes of a state
   states/            states that stages keep, each to be resumed from like final.state:

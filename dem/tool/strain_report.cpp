@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <tuple>
 #include <utility>
 
 #include <tangency/dem/state_file.hpp>
@@ -27,44 +26,10 @@ mm::PeriodicPairs pairs_of(const Packing& packing) {
   return {packing.contacts.bodies, packing.contacts.image};
 }
 
-/// How stiff each contact of a packing is, in its order.
-struct Stiffness {
-  std::vector<double> normal, shear;
-};
-
-Stiffness stiffness_of(const State& state) {
-  const std::vector<std::int32_t>& id = state.particles.id;
-  std::vector<std::tuple<Pair, double, double>> all;
-  for (std::size_t k = 0; k < state.list.pairs().size(); ++k) {
-    Pair pair = state.list.pairs()[k];
-    if (!state.contacts.touches(k) || static_cast<std::size_t>(pair.b) >= id.size()) continue;
-    const std::vector<std::int32_t>& type = state.particles.type;
-    const ContactLaw& law =
-        state.laws.between(static_cast<std::size_t>(type[static_cast<std::size_t>(pair.a)]),
-                           static_cast<std::size_t>(type[static_cast<std::size_t>(pair.b)]));
-    pair.a = id[static_cast<std::size_t>(pair.a)];
-    pair.b = id[static_cast<std::size_t>(pair.b)];
-    if (pair.a > pair.b) {
-      std::swap(pair.a, pair.b);
-      for (std::int32_t& image : pair.image) image = -image;
-    }
-    all.emplace_back(pair, state.contacts.columns().normal_stiffness[k],
-                     law.bears_shear() ? state.contacts.columns().shear_stiffness[k] : 0.0);
-  }
-  std::sort(all.begin(), all.end());
-  Stiffness stiffness;
-  for (const auto& [pair, normal, shear] : all) {
-    stiffness.normal.push_back(normal);
-    stiffness.shear.push_back(shear);
-  }
-  return stiffness;
-}
-
 /// What each contact slides, second over first.
 std::vector<Vec3> sliding_of(const State& state, const Packing& packing,
                              const mm::ContactMotion& motion) {
   const std::vector<Vec3> velocity = mm::contact_velocities(motion, centres_of(packing));
-  const Stiffness stiffness = stiffness_of(state);
   std::vector<Vec3> sliding(velocity.size(), Vec3::Zero());
   for (std::size_t c = 0; c < velocity.size(); ++c) {
     const auto& [a, b] = packing.contacts.bodies[c];
@@ -76,9 +41,12 @@ std::vector<Vec3> sliding_of(const State& state, const Packing& packing,
     const double opening = normal.dot(velocity[c]);
     const Vec3 tangential = velocity[c] - opening * normal;
     const Vec3 shear = packing.contacts.force[c] - packing.contacts.normal_force[c] * normal;
-    const double limit_rate = -law.friction_coefficient * stiffness.normal[c] * opening;
-    if (!law.bears_shear() || packing.contacts.sliding[c] != 0)
-      sliding[c] = mm::sliding_velocity(tangential, shear, stiffness.shear[c], limit_rate);
+    const double limit_rate =
+        -law.friction_coefficient * packing.contacts.normal_stiffness[c] * opening;
+    // Without a spring all of it is sliding.
+    const double stiffness = packing.contacts.shear_stiffness[c];
+    if (!(stiffness > 0.0) || packing.contacts.sliding[c] != 0)
+      sliding[c] = mm::sliding_velocity(tangential, shear, stiffness, limit_rate);
   }
   return sliding;
 }

@@ -100,7 +100,13 @@ std::string among(const std::string& wrong, std::size_t count) {
 
 /// TOML values that the key must not have.
 std::vector<std::string> wrong_values(const Key& key) {
-  std::vector<std::string> wrong{"true", "{}", "1979-05-27", "[[]]"};
+  std::vector<std::string> wrong{"{}", "1979-05-27", "[[]]"};
+  if (key.type == KeyType::boolean) {
+    for (const char* value : {"1", "0", "1.5", "nan", "\"\"", "\"true\"", "[]", "[true]"})
+      wrong.push_back(value);
+    return wrong;
+  }
+  wrong.push_back("true");
   const bool is_text = key.type == KeyType::text || key.type == KeyType::path;
   if (is_text) {
     for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[\"none\"]"})
@@ -109,6 +115,13 @@ std::vector<std::string> wrong_values(const Key& key) {
       for (const char* value : {"\"no such choice\"", "\"a.b\"", "\"a-b\"", "\"\\n\""})
         wrong.push_back(value);
     if (!key.choices.empty()) wrong.push_back("\"nonsense\"");
+    return wrong;
+  }
+  if (key.type == KeyType::reals) {
+    for (const char* value : {"1.0", "[]", "nan", "[true]", "[[1.0]]", "[\"1.0\"]"})
+      wrong.push_back(value);
+    for (const char* value : {"nan", "inf", "-inf"}) wrong.push_back(among(value, 2));
+    for (const double value : outside(key)) wrong.push_back(among(text_of(key, value), 2));
     return wrong;
   }
   const std::size_t count = key.type == KeyType::real3 ? 3 : key.type == KeyType::real4 ? 4 : 1;
@@ -237,6 +250,21 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        scene_with("shear") + "[[stage]]\nkind = \"servo\"\nname = \"shear\"\nduration = 1\n",
        "scene.toml:19: stage[2].name = 'shear': a name of its own: a shear stage and another have "
        "the same"},
+      {"strains beyond the stage's", scene_with("shear") + "save_strains = [0.05, 0.11]\n",
+       "scene.toml:17: stage[1].save_strains = [ 0.05, 0.11 ]: finite numbers > 0 and at most "
+       "axial_strain, ascending"},
+      {"strains that do not ascend", scene_with("shear") + "save_strains = [0.05, 0.05]\n",
+       "scene.toml:17: stage[1].save_strains = [ 0.05, 0.05 ]: finite numbers > 0 and at most "
+       "axial_strain, ascending"},
+      {"two of one name that keep states",
+       scene_with("compress") + "save = true\n" + stage_of("compress") + "save = true\n",
+       "scene.toml:19: stage[2].kind = 'compress': a name of its own: two stages of that name keep "
+       "states"},
+      {"two shears of one name that keep states",
+       scene_with("shear") + "save_points = true\n" + stage_of("shear") +
+           "name = \"shear\"\nsave_strains = [0.1]\n",
+       "scene.toml:22: stage[2].name = 'shear': a name of its own: two stages of that name keep "
+       "states"},
       {"holding without a bound", servo("mean_stress = 1e6\n"),
        "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
        "(1/s)"},
@@ -283,6 +311,8 @@ TEST(Combinations, ThatAreSoundAreAccepted) {
   EXPECT_EQ(refusal(walled("stress_zz = 1e6\nmax_strain_rate = 0.01\n")), "");
   EXPECT_EQ(refusal(contact("law = \"hertz\"\nyoung_modulus = 1e9\n")), "");
   EXPECT_EQ(refusal(scene_with("shear") + "lateral_stress = 1e6\n"), "");
+  EXPECT_EQ(refusal(scene_with("shear") + "save_strains = [0.02, 0.1]\nsave_points = true\n"), "");
+  EXPECT_EQ(refusal(scene_with("compress") + "save = true\n" + stage_of("compress")), "");
   EXPECT_EQ(refusal(with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -2e10, 3.0]")), "");
   EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
 }
