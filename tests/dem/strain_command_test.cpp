@@ -212,7 +212,7 @@ TEST(StrainCommand, TableHasTheStrainOfTheCellAndItsSum) {
 }
 
 TEST(StrainCommand, RefusesAStateThatIsNoEarlierOneOfTheSameParticles) {
-  const TwoStates states(2);
+  const TwoStates states(3);
   const auto refused = [](const std::vector<std::string>& words) {
     const Finished done = run_tool(words);
     EXPECT_EQ(done.status, 2);
@@ -229,7 +229,7 @@ TEST(StrainCommand, RefusesAStateThatIsNoEarlierOneOfTheSameParticles) {
   const std::string file = states.folder.path("other.state");
   dem::save_state(other.state(), file);
   EXPECT_NE(refused({"micro", states.later, "--since", file})
-                .find("other.state: a state of 3 dimensions"),
+                .find("other.state: a state of 27 particles"),
             std::string::npos);
 }
 
