@@ -18,6 +18,7 @@
 #include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
@@ -280,6 +281,11 @@ void add_micro(tables::Program& program) {
   const tables::Option count =
       command.option("--classes", words->count, "N of the partition [4; polar 18]")
           .between(1, micromechanics::Classes::kMost);
+  command
+      .option("--since", words->options.since,
+              "An older state of the same run: strain since then, too")
+      .type_name("OLDER")
+      .not_empty();
   command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
       .type_name("FILE")
       .not_empty();
@@ -288,7 +294,7 @@ void add_micro(tables::Program& program) {
               "A row a class of directions as CSV; - to standard output")
       .type_name("FILE")
       .not_empty();
-  command.footer(kMicroHelp);
+  command.footer(std::string(kMicroHelp) + kStrainHelp);
   command.runs([words, count] {
     words->options.classes = classes_of(words->partition, words->count, count.given());
     return micro(words->options);

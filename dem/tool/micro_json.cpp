@@ -295,7 +295,8 @@ std::string lines_of(const Json& all) {
 
 }  // namespace
 
-std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary) {
+std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary,
+                       const StrainReport& strain) {
   const mm::Averages& averages = summary.averages;
   const int dimensions = summary.dimensions;
   Json all;
@@ -326,6 +327,7 @@ std::string micro_json(const State& state, const Packing& packing, const MicroSu
   all["radial_rings"] = radial_rings(packing, summary);
   all["contact_statistics"] = contact_statistics_of(summary.bodies);
   all["plane"] = plane_of(summary);
+  all["average_strain"] = strain_json(strain);
   return lines_of(all);
 }
 
