@@ -10,11 +10,15 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/contact_tables.hpp>
+#include <tangency/dem/tool/micro.hpp>
+#include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
@@ -31,7 +35,9 @@ constexpr const char* kProgramHelp = R"(
 `tangency-dem report --help` says what a report of it shows;
 `tangency-dem schema` lists every key of a scene;
 `tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
-that these make of a state.
+that these make of a state;
+`tangency-dem micro --help` says what it tells of forces and directions, and the columns of
+micro.csv.
 )";
 
 constexpr const char* kRunHelp = R"(
@@ -47,6 +53,8 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  micro.csv          with a micro_interval: fabric, forces and stress, a row every so many cycles
+                     and at the end of each stage; columns: tangency-dem micro --help
   contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
                      the end of each stage a table as `tangency-dem contacts` makes of a state
   states/            states that stages keep, each to be resumed from like final.state:
@@ -92,6 +100,12 @@ logarithmic and count from the start of the stage:
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
   stage_cycle           cycles of the stage
+  elongation eccentricity
+                        a / b and (a - b) / (a + b) of the scene's first type of particles, now
+  packing_density       1 - porosity
+  void_ratio            porosity / packing_density
+  contact_density       1/m^3, 2 contacts / cell volume; with dimensions = 2 1/m^2
+  overlap_fraction      mean_overlap over twice the mean of the mean radii
   asymmetry             |s - s'| / mean stress of the stress before it is made symmetric, by
                         moments out of balance; 0 without stress
   boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
@@ -119,6 +133,8 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  relaxation_share      of the last stage of kind grow: the share of its cycles in which no
+                        increment was made
   strain_at_A, strain_at_B, strain_at_C, strain_at_D, D_is_last_row
                         of the last stage with save_points: axial strains of its states, and
                         whether D is the last row for want of a constant volume
@@ -238,6 +254,53 @@ void add_report(tables::Program& program) {
   command.runs([directory] { return report(*directory); });
 }
 
+/// N of --classes, which has another meaning and default in each partition.
+micromechanics::Classes classes_of(const std::string& partition, int count, bool is_given) {
+  const auto kind = partition_named(partition);
+  if (!is_given) return {kind, micromechanics::Classes::usual_count(kind)};
+  if (const int fewest = micromechanics::Classes::fewest(kind); count < fewest)
+    throw tables::UsageError("--classes " + std::to_string(count) + ": with --partition " +
+                             partition + " from " + std::to_string(fewest) + " to " +
+                             std::to_string(micromechanics::Classes::kMost));
+  return {kind, count};
+}
+
+void add_micro(tables::Program& program) {
+  struct Words {
+    MicroOptions options;
+    std::string partition = "near-uniform";
+    int count = 0;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command =
+      program.subcommand("micro", "Micromechanics of a state: fabric, forces and their stress");
+  command.option("STATE", words->options.state, "A .state file of a run").required();
+  command.option("--partition", words->partition, "Classes of directions")
+      .one_of({"near-uniform", "polar"})
+      .shows_default();
+  const tables::Option count =
+      command.option("--classes", words->count, "N of the partition [4; polar 18]")
+          .between(1, micromechanics::Classes::kMost);
+  command
+      .option("--since", words->options.since,
+              "An older state of the same run: strain since then, too")
+      .type_name("OLDER")
+      .not_empty();
+  command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command
+      .option("--histogram", words->options.histogram,
+              "A row a class of directions as CSV; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(std::string(kMicroHelp) + kStrainHelp);
+  command.runs([words, count] {
+    words->options.classes = classes_of(words->partition, words->count, count.given());
+    return micro(words->options);
+  });
+}
+
 /// A command that writes a table of a state.
 void add_table(tables::Program& program, const char* name, const char* what, const char* help,
                std::function<std::string(const State&)> table) {
@@ -283,6 +346,7 @@ int main(int argc, char** argv) {
   add_run(program);
   add_report(program);
   add_tables(program);
+  add_micro(program);
   add_schema(program);
   return program.run(argc, argv);
 }
