@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Pictures of bodies by POV-Ray, some at once, in the view of view.inc: z, along which is loaded, up."""
+
+import os
+import subprocess
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+class RenderError(Exception):
+    """One line that says what could not be drawn, and why."""
+
+
+def vector(values):
+    return "<" + ",".join(f"{value:.5g}" for value in values) + ">"
+
+
+def colour(text):
+    """#rrggbb as POV-Ray's."""
+    parts = [int(text[k:k + 2], 16) / 255.0 for k in (1, 3, 5)]
+    return f"srgb <{parts[0]:.3f},{parts[1]:.3f},{parts[2]:.3f}>"
+
+
+def mesh(triangles, shade):
+    """Triangles of one colour."""
+    lines = [f"triangle {{ {vector(a)}, {vector(b)}, {vector(c)} }}" for a, b, c in triangles]
+    return ("mesh {\n" + "\n".join(lines) + f"\npigment {{ color {colour(shade)} }}\n"
+            "finish { Surface } }\n")
+
+
+def stick(start, end, radius, shade):
+    return (f"cylinder {{ {vector(start)}, {vector(end)}, {radius:.4g} pigment {{ color {colour(shade)} }} "
+            "finish { Surface } }\n")
+
+
+def scene(bodies, width, centre=(0.0, 0.0, 0.0)):
+    """The text of a picture that shows this width."""
+    return (f'#include "view.inc"\n{bodies}\nView({vector(centre)}, {width:.5g})\n')
+
+
+def render(folder, scenes, jobs):
+    """@param scenes  {file.png: (scene, width, height)} in pixels; jobs pictures at once."""
+    waiting, running = list(scenes.items()), {}
+    try:
+        while waiting or running:
+            while waiting and len(running) < max(1, jobs):
+                file, (text, width, height) = waiting.pop(0)
+                running[file] = started(folder, file, text, width, height)
+            for file, process in list(running.items()):
+                if process.poll() is not None:
+                    finish(folder, file, running.pop(file))
+            time.sleep(0.01)
+    finally:
+        for process in running.values():
+            process.kill()
+            process.wait()
+
+
+def started(folder, file, text, width, height):
+    with open(os.path.join(folder, file + ".pov"), "w", encoding="utf-8") as source:
+        source.write("// SPDX-License-Identifier: MIT\n" + text)
+    with open(os.path.join(folder, file + ".log"), "w", encoding="utf-8") as log:
+        try:
+            return subprocess.Popen(
+                ["povray", f"+I{file}.pov", f"+O{file}", "+FN", f"+W{width}", f"+H{height}", "+A0.2",
+                 "+AM1", "+R3", "+WT1", "-D", f"+L{HERE}"], cwd=folder, stdin=subprocess.DEVNULL,
+                stdout=log, stderr=subprocess.STDOUT)
+        except FileNotFoundError:
+            raise RenderError("povray is not installed: ./demo installs it") from None
+
+
+def finish(folder, file, process):
+    log = os.path.join(folder, file + ".log")
+    if process.returncode != 0 or not os.path.exists(os.path.join(folder, file)):
+        with open(log, encoding="utf-8", errors="replace") as text:
+            words = [line.strip() for line in text if "rror" in line] or ["no message"]
+        raise RenderError(f"povray failed on {file}: {words[-1]}")
+    os.remove(log)
+    os.remove(os.path.join(folder, file + ".pov"))
