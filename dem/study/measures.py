@@ -250,26 +250,34 @@ class Study:
         tables = [getattr(self, kind)(run.name) for run in self.programme.ancestors(name)]
         return functools.reduce(Table.joined, tables)
 
+    def _stage_rows(self, table, name):
+        """Those of the run's last stage, which shears."""
+        stage = self.programme.runs[name].stages[-1].get("name", "shear")
+        rows = table.where(lambda k: table["stage"][k] == stage)
+        if rows["axial_strain"] and rows["stage_cycle"][0] == 0.0:
+            rows = rows.where(lambda k: k > 0)
+        return rows
+
+    @staticmethod
+    def _unstrained(rows, before):
+        """A first row of the state before, {column: value}, whose strains are 0."""
+        first = Table(rows.names, [])
+        for column in rows.names:
+            begins = column in ("axial_strain", "volumetric_strain", "stage_cycle")
+            first.columns[column] = [0.0 if begins else before.get(column)]
+        return first
+
     @functools.lru_cache(maxsize=None)
     def test(self, name):
-        """A shear test; its first row is the state that it resumed, with strains of 0."""
-        history = self.history(name)
-        stage = self.programme.runs[name].stages[-1].get("name", "shear")
-        rows = history.where(lambda k: history["stage"][k] == stage)
-        first = Table(rows.names, [])
+        """A shear test; its first row is the state that it resumed."""
+        rows = self._stage_rows(self.history(name), name)
         before = self.summary(self.programme.runs[name].after)
-        for column in rows.names:
-            value = 0.0 if column in ("axial_strain", "volumetric_strain", "stage_cycle") \
-                else before.get(column)
-            first.columns[column] = [value]
-        if rows["axial_strain"] and rows["axial_strain"][0] == 0.0:
-            rows = rows.where(lambda k: k > 0)
-        return Test(first.joined(rows), self.summary(name), self.stretch)
+        return Test(self._unstrained(rows, before).joined(rows), self.summary(name), self.stretch)
 
     @functools.lru_cache(maxsize=None)
     def micro_test(self, name):
         """The same test's rows of micro.csv: its averages over the axial strain."""
-        micro = self.micro(name)
-        stage = self.programme.runs[name].stages[-1].get("name", "shear")
-        return Test(micro.where(lambda k: micro["stage"][k] == stage), self.summary(name),
-                    self.stretch)
+        rows = self._stage_rows(self.micro(name), name)
+        before = self.micro(self.programme.runs[name].after)
+        first = {column: before.columns[column][-1] for column in before.names}
+        return Test(self._unstrained(rows, first).joined(rows), self.summary(name), self.stretch)

@@ -18,6 +18,10 @@ PARTS = ("table", "growth", "horizontal", "spheres", "plane", "lode", "loose", "
 APART = ("trace", "published", "large")
 
 
+# Of intervals, cycles: a row at each stage's end alone.
+STAGE_ENDS = 10**9
+
+
 @dataclasses.dataclass(frozen=True)
 class Scale:
     """How large the study is. Strains of its rows are in proportion to `strain`."""
@@ -103,12 +107,10 @@ class Programme:
 
     # What runs are made of.
 
-    def _add(self, family, what, seed, part, body_, *own, after=None, history=50, micro=0,
+    def _add(self, family, what, seed, part, body_, *own, after=None, history=50, micro=STAGE_ENDS,
              tables=(), cost=1.0):
         name = f"{family}-{what}-s{seed}"
-        output = {"history_interval": history, "frame_interval": 1000000}
-        if micro:
-            output["micro_interval"] = micro
+        output = {"history_interval": history, "frame_interval": STAGE_ENDS, "micro_interval": micro}
         count = sum(keys["count"] for keys in body_["particles"].values())
         self.runs[name] = Run(name, part, seed, body_, own, after, output, tuple(tables),
                               cost * count / 1000)
@@ -219,14 +221,15 @@ class Programme:
                           of.compact(scale_plane(50e6)), of.relax("e00", scale_plane(50e6)),
                           history=20, tables=["final.state"], cost=3)
         self._shear("ellipse", "e00-", seed, "plane", b, scale_plane(50e6), after, of=of)
-        for e in (0.05, 0.1, 0.15, 0.2):
+        for e in (0.05, 0.1, 0.15, 0.2, 0.25, 0.3):
             name = f"e{round(100 * e):02d}"
             after = self._add("ellipse", name, seed, "plane", b,
                               of.grow("grow", scale_plane(50e6), e,
                                       max(4, round(0.25 * scale.increments))),
                               of.relax(name, scale_plane(50e6)), after=after, history=20,
                               tables=["final.state"], cost=3)
-            self._shear("ellipse", f"{name}-", seed, "plane", b, scale_plane(50e6), after, of=of)
+            if e <= 0.2:  # as published
+                self._shear("ellipse", f"{name}-", seed, "plane", b, scale_plane(50e6), after, of=of)
 
     def _lode(self, seed):
         """True triaxial tests of spheres and of spheroids at 30e6."""
@@ -303,11 +306,17 @@ class Programme:
         of, scale, b = Stages(), self.scale, body(self.scale.particles)
         self._shear("trace", "p010-", seed, "trace", b | {"motion": {"contacts": "trace"}}, 10e6,
                     f"spheroid-p010-s{seed}")
-        self._add("published", "growth", seed, "published", b,
-                  of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=10e6, ramp_eccentricity=0.01,
-                          cycles_per_percent=1000),
-                  of.grow("grow22", DENSE, 0.22, 210, cycles_per_percent=1000),
-                  after=f"horizontal-lattice-s{seed}", history=50, cost=100)
+        for family, count, pressure in (("published", scale.particles, DENSE),
+                                        ("published27", scale.small[0], 7e6),
+                                        ("published125", scale.small[1], 47e6)):
+            b = body(count)
+            start = () if count == scale.particles and family == "published" else (
+                of.lattice(seed, axes="plane"), of.compact(0.1 * pressure))
+            self._add(family, "growth", seed, "published", b, *start,
+                      of.grow("grow01", pressure, 0.01, 10, mean_stress_start=0.1 * pressure,
+                              ramp_eccentricity=0.01, cycles_per_percent=1000),
+                      of.grow("grow22", pressure, 0.22, 210, cycles_per_percent=1000),
+                      after=None if start else f"horizontal-lattice-s{seed}", history=50, cost=100)
         if seed != scale.seeds[0]:
             return
         b = body(scale.large)

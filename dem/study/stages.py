@@ -24,9 +24,10 @@ AXIAL_RATE, SERVO_RATE, GROWTH_RATE = 0.005, 0.02, 0.05
 # proportion are as slow.
 PLANE_RATES = math.sqrt(4.0 / 3.0 * RADIUS)
 
-# How samples are released from DENSE is not published. What it is here: friction, and the largest
-# ratio of unbalanced to contact force at which a pressure is taken to be reached.
-RELEASE_FRICTION = 0.0
+# How samples are released from DENSE is not published. What it is here: friction, measured to leave
+# the published contacts at 10e6 (docs/simulator.md), and the largest ratio of unbalanced to contact
+# force at which a pressure is taken to be reached.
+RELEASE_FRICTION = 0.02
 RELEASE_BALANCE = 0.02
 
 

@@ -139,12 +139,13 @@ def evaluate(row, study):
 
 
 def text(value, digits=3):
-    """Enough digits to read: 12.5, 0.144, 1.27e+10."""
+    """Enough digits to read: 12.5, 0.144, 1.27e10."""
     if value is None:
         return "-"
     size = abs(value)
     if size and (size >= 1e5 or size < 1e-3):
-        return f"{value:.{digits - 1}e}".replace("e+", "e")
+        mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
     return f"{value:#.{max(digits, len(str(int(size))))}g}".rstrip(".")
 
 
