@@ -25,7 +25,7 @@ WIDTH, HEIGHT = 440, 325
 
 # Of the legend, in pixels: a line of it, what gnuplot takes for a letter and for a sample of a curve, and
 # the width that it fills. Measured on what gnuplot 5.4 draws with letters of 13.
-LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 7.8, 46, 350
+LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 48, 350
 
 # Chosen: points of a curve; more cannot be told apart at WIDTH.
 MOST_POINTS = 220
@@ -232,7 +232,7 @@ def plots_of(block, curve):
         bars = [f"{block} using 1:2:3:4 with yerrorbars pointtype 0 linewidth 1.2 {colour} notitle"]
         return (bars if banded else []) + [f"{block} using 1:2 with points {point} {title}"]
     if curve.style == "bars":
-        return [f"{block} using 1:2 with boxes fill solid 0.45 border {colour} {title}"]
+        return [f"{block} using 1:2 with boxes fillstyle solid 0.45 noborder {colour} {title}"]
     if curve.style == "steps":
         return [f"{block} using 1:2 with steps linewidth 2 {colour} {title}"]
     dash = {"line": "", "dashes": "dashtype (9,5)", "dots": "dashtype (2,4)"}[curve.style]

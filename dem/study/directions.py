@@ -65,69 +65,90 @@ def all_places(n):
             for sq in (1.0, -1.0) for i in range(n) for j in range(n)]
 
 
+class Mesh:
+    """Triangles, each three indices of points."""
+
+    def __init__(self):
+        self.points, self.triangles = [], []
+
+    def reach(self):
+        """Of the point that is farthest from the middle."""
+        return max((math.sqrt(dot(p, p)) for p in self.points), default=0.0)
+
+    def add_grid(self, rows):
+        """Two triangles of each mesh of a grid of points."""
+        at, wide = len(self.points), len(rows[0])
+        for row in rows:
+            self.points += row
+        for i in range(len(rows) - 1):
+            for j in range(wide - 1):
+                a = at + i * wide + j
+                self.triangles += [(a, a + 1, a + wide + 1), (a, a + wide + 1, a + wide)]
+
+    def add_sides(self, rim):
+        """Triangles from the middle to the edges of a closed line."""
+        at = len(self.points)
+        self.points += [(0.0, 0.0, 0.0), *rim]
+        self.triangles += [(at, at + 1 + k, at + 1 + (k + 1) % len(rim)) for k in range(len(rim))]
+
+
 # Edges of the pieces that a class's outside is cut in, so that it is round.
 CUTS = (0.0, 0.5, 1.0)
 
 
 def spikes(values, n):
-    """Triangles of a histogram: of each class {place: value} a pyramid from the middle with a round
-    end. Not finite or not positive values have none."""
-    triangles = []
+    """A histogram: of each class {place: value} a pyramid from the middle with a round end. Values that
+    are not finite or not positive have none."""
+    mesh = Mesh()
     for place, value in values.items():
         if not (math.isfinite(value) and value > 0.0):
             continue
-        points = [[scaled(direction_at(place, u, v, n), value) for v in CUTS] for u in CUTS]
-        triangles += faces(points)
-        rim = ([row[0] for row in points] + points[-1][1:] + [row[-1] for row in points[-2::-1]]
-               + points[0][-2:0:-1])
-        triangles += [((0.0, 0.0, 0.0), a, b) for a, b in zip(rim, rim[1:] + rim[:1])]
-    return triangles
+        grid = [[scaled(direction_at(place, u, v, n), value) for v in CUTS] for u in CUTS]
+        mesh.add_grid(grid)
+        mesh.add_sides([row[0] for row in grid] + grid[-1][1:] + [row[-1] for row in grid[-2::-1]]
+                       + grid[0][-2:0:-1])
+    return mesh
 
 
-def smooth(value_of, n=10):
-    """Triangles of a surface as far from the middle as value_of(direction) says."""
-    triangles = []
-    for place in all_places(n):
-        points = []
-        for u in (0.0, 1.0):
-            corners = [direction_at(place, u, v, n) for v in (0.0, 1.0)]
-            points.append([scaled(d, max(0.0, value_of(d))) for d in corners])
-        triangles += faces(points)
-    return triangles
+def smooth(value_of, cuts=9):
+    """A surface as far from the middle as value_of(direction) says."""
+    mesh = Mesh()
+    shares = [k / cuts for k in range(cuts + 1)]
+    for place in all_places(1):
+        grid = []
+        for u in shares:
+            row = [direction_at(place, u, v, 1) for v in shares]
+            grid.append([scaled(d, max(0.0, value_of(d))) for d in row])
+        mesh.add_grid(grid)
+    return mesh
 
 
-def faces(points):
-    """Two triangles of each mesh of a grid of points."""
-    found = []
-    for row, after in zip(points, points[1:]):
-        for a, b, c, d in zip(row, row[1:], after, after[1:]):
-            found += [(a, b, d), (a, d, c)]
-    return found
-
-
-def contracted(tensor, d):
-    """A tensor, nested lists, with d in its last index."""
-    if isinstance(tensor[0], list):
-        return [contracted(part, d) for part in tensor]
-    return dot(tensor, d)
+# Index triples of the monomials of order 3, each with i <= j <= k.
+CUBES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 
 
 class Model:
     """1 + a n n + b n n n n, or the tangential field a n + b n n n less its part along n.
 
-    @param second, fourth  components; fourth None leaves it out
+    @param second  components of a
+    @param fourth  components of b, nested, the same at every order of indices; None leaves it out
     """
 
     def __init__(self, second, fourth=None):
-        self.second, self.fourth = second, fourth
+        self.second = second
+        self.cubic = [] if fourth is None else [
+            (i, j, k, [len({(i, j, k), (i, k, j), (j, i, k), (j, k, i), (k, i, j), (k, j, i)})
+                       * fourth[row][i][j][k] for row in range(3)]) for i, j, k in CUBES]
 
     def along(self, d):
         """a n + b n n n"""
-        total = contracted(self.second, d)
-        if self.fourth:
-            third = contracted(contracted(contracted(self.fourth, d), d), d)
-            total = [x + y for x, y in zip(total, third)]
-        return total
+        x, y, z = (dot(row, d) for row in self.second)
+        for i, j, k, factors in self.cubic:
+            monomial = d[i] * d[j] * d[k]
+            x += factors[0] * monomial
+            y += factors[1] * monomial
+            z += factors[2] * monomial
+        return x, y, z
 
     def factor(self, d):
         return 1.0 + dot(self.along(d), d)

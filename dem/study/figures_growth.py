@@ -32,7 +32,7 @@ def growth(maker):
 
     def over_e(key, title, label, y, caption, *, kind="history", **options):
         curves = [results.curve("1000", FURTHER, y, x="eccentricity", kind=kind, colour=COLOURS[0]),
-                  results.curve("1000, slowly", "spheroid-slow", y, x="eccentricity", kind=kind,
+                  results.curve("1000, slowly", "slow-growth", y, x="eccentricity", kind=kind,
                                 colour=COLOURS[1]),
                   results.curve("125", "test3-sample", y, x="eccentricity", kind=kind,
                                 colour=COLOURS[2]),
@@ -128,7 +128,7 @@ def histogram(maker):
             x = list(range(least, most + 1))
             curves.append(charts.Curve(f"{pressure} MPa", x,
                                        [100.0 * counts.get(c, 0) / total for c in x],
-                                       colour=COLOURS[k], style="bars"))
+                                       colour=COLOURS[k], style=("bars", "points")[k]))
     if not curves:
         results.lack("averages of spheroid-p100 and spheroid-p010")
     return maker.chart("coordination-histogram", "Coordination numbers of the samples",

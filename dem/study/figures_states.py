@@ -143,10 +143,11 @@ class Pictures:
 
 
 def around(radius, width):
-    """Two thin rings of a value that is the same in all directions."""
+    """Two thin rings of a value that is the same in all directions: across the load, and towards the
+    viewer."""
     thin = 0.004 * width
     ring = f"torus {{ {radius:.5g}, {thin:.4g} pigment {{ color srgb 0.35 }} finish {{ Surface }}"
-    return f"{ring} rotate 90*x }}\n{ring} rotate 58*z rotate 0*x }}\n"
+    return f"{ring} rotate 90*x }}\n{ring} rotate -32*z }}\n"
 
 
 def surfaces(pictures, key, title, quantity, caption, points=None):
@@ -155,20 +156,19 @@ def surfaces(pictures, key, title, quantity, caption, points=None):
     def row(point):
         measured, n, second, fourth, ring, words = quantity(point)
         meshes = [directions.spikes(measured, n), directions.smooth(second), directions.smooth(fourth)]
-        reach = max(math.dist((0, 0, 0), p) for mesh in meshes for t in mesh for p in t)
-        width = 2.2 * max(reach, ring)
+        width = 2.2 * max(ring, *(mesh.reach() for mesh in meshes))
         stick = rendering.stick((0, 0, -0.5 * width), (0, 0, 0.5 * width), 0.006 * width, "#333333")
         made = []
         for (kind, shade), mesh in zip(KINDS.items(), meshes):
             file = f"surface-{key}-{point}-{len(made)}.png"
             pictures.add(file, rendering.mesh(mesh, shade) + around(ring, width) + stick, width,
                          (0, 0, 0), SURFACE)
-            label = f"{point}, {kind}" + (f"; ring: {words}" if kind == "measured" else "")
+            label = f"{point}, {kind}" + (f"; rings: {words}" if kind == "measured" else "")
             made.append(Picture(file, alt_of(title, point, kind, measured, n,
                                              (None, second, fourth)[len(made)]), label))
         return made
 
-    return pictures.gallery(title, 3, row, points or pictures.states.points, caption)
+    return pictures.gallery(title, 6, row, points or pictures.states.points, caption)
 
 
 def alt_of(title, point, kind, measured, n, model):
@@ -231,7 +231,7 @@ def distributions(pictures):
         return *axes_of(states.table("particles", point)), *models(averages["long_axes"], even), even, "1/4π"
 
     of = ("Blue spikes are classes of directions, orange the second-order model, green the second and fourth "
-          "order. A row has one scale; the grey ring is ")
+          "order. The three of a state have one scale; the grey rings are ")
     return [
         surfaces(pictures, "normals", "Contact normals E(n)", normals,
                  of + "an equal distribution. The text sees a sphere, an ellipsoid, then a peanut, and finds that "

@@ -13,6 +13,7 @@ import csv
 import datetime
 import html
 import os
+import re
 import sys
 
 if __name__ == "__main__":
@@ -47,10 +48,12 @@ def image_of(folder, picture):
 
 
 def figure_of(folder, figure):
-    lacking = ""
-    if figure.lacking:
-        lacking = ('<p class="lacking">' + ("Not drawn; missing: " if not figure.pictures else "Missing: ")
-                   + html.escape(", ".join(figure.lacking)) + ".</p>")
+    lacking = ", ".join(figure.lacking)
+    if not figure.pictures:
+        lacking = f"Not drawn; missing: {lacking}" if lacking else "Not drawn: no values"
+    elif lacking:
+        lacking = f"Missing: {lacking}"
+    lacking = f'<p class="lacking">{html.escape(lacking)}.</p>' if lacking else ""
     images = []
     for picture in figure.pictures:
         label = f"<span>{html.escape(picture.label)}</span>" if picture.label else ""
@@ -81,8 +84,10 @@ def count_of(rows):
 
 
 def value_of(text):
-    """A value of a table as HTML."""
-    return html.escape(text or "").replace(" -", " −")
+    """A value of a table as HTML: 1.3e+10 with a power of ten, a minus that is as wide as a plus."""
+    text = html.escape(text or "")
+    text = re.sub(r"\b(\d+(?:\.\d+)?)e\+?(-?)0*(\d+)\b", r"\1&nbsp;×&nbsp;10<sup>\2\3</sup>", text)
+    return re.sub(r"(?<![\w)])-(?=[\d.])", "−", text)
 
 
 def rows_of(rows):
@@ -123,7 +128,7 @@ def preparation():
 friction, under {1e-6 * stages.DENSE:g} MPa. Their eccentricity then grows in small steps at constant
 volume, without friction, while the mean stress is held. The dense sample is released to the lower pressures {how},
 each time until no unbalanced force is above {100 * balance:g} % of the mean contact force. In shear the
-friction coefficient is {stages.FRICTION:g}, contacts are linear with a stiffness of {stages.STIFFNESS:.3g} N/m
+friction coefficient is {stages.FRICTION:g}, contacts are linear with a stiffness of {value_of(f"{stages.STIFFNESS:.3g}")} N/m
 in both directions, as published.</p>
 """)
 
@@ -169,7 +174,8 @@ words and tables is compared.</p>
 
 ROWS = """<p>Each row is a statement of the text, with the bar that it is held to. Values are means over the seeds,
 scatter is the standard deviation of one seed. <em>Doubtful in the text</em> are rows where the text
-contradicts itself or cannot be read.</p>
+contradicts itself or cannot be read. Marks: [C] it contradicts itself, [?] it does not say or is unreadable, [E] a
+number of the list of errata in <code>docs/derivations/micromechanics.md</code>.</p>
 """
 
 

@@ -22,11 +22,15 @@ def colour(text):
     return f"srgb <{parts[0]:.3f},{parts[1]:.3f},{parts[2]:.3f}>"
 
 
-def mesh(triangles, shade):
-    """Triangles of one colour."""
-    lines = [f"triangle {{ {vector(a)}, {vector(b)}, {vector(c)} }}" for a, b, c in triangles]
-    return ("mesh {\n" + "\n".join(lines) + f"\npigment {{ color {colour(shade)} }}\n"
-            "finish { Surface } }\n")
+def mesh(surface, shade):
+    """A directions.Mesh in one colour; nothing of an empty one."""
+    if not surface.triangles:
+        return ""
+    points = ",".join("<%.5g,%.5g,%.5g>" % point for point in surface.points)
+    triangles = ",".join("<%d,%d,%d>" % triangle for triangle in surface.triangles)
+    return (f"mesh2 {{\nvertex_vectors {{ {len(surface.points)}, {points} }}\n"
+            f"face_indices {{ {len(surface.triangles)}, {triangles} }}\n"
+            f"pigment {{ color {colour(shade)} }}\nfinish {{ Surface }} }}\n")
 
 
 def stick(start, end, radius, shade):
