@@ -146,7 +146,7 @@ class Test:
     @staticmethod
     def _mean_near(values, strains, at, window):
         near = [v for v, x in zip(values, strains)
-                if abs(x - at) <= window / 2 and v is not None]
+                if abs(x - at) <= window / 2 * (1 + 1e-9) and v is not None]
         if not near:
             known = [(abs(x - at), v) for v, x in zip(values, strains) if v is not None]
             if not known:
@@ -164,7 +164,7 @@ class Test:
         """d name / d axial strain by least squares over a window about a strain."""
         at = strain * self.stretch
         rows = [(x, y) for x, y in zip(self.strain, self[name])
-                if abs(x - at) <= width / 2 and y is not None]
+                if abs(x - at) <= width / 2 * (1 + 1e-9) and y is not None]
         if len(rows) < 3:
             rows = sorted(((x, y) for x, y in zip(self.strain, self[name]) if y is not None),
                           key=lambda row: abs(row[0] - at))[:3]

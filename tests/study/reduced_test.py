@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole programme of tests with few particles: it ends well, and every row is evaluated.
+
+Values are what so small samples give, and are not looked at.
+Usage: reduced_test.py DEM_STUDY TANGENCY_DEM OUT
+"""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+
+study, tool, out = (os.path.abspath(word) for word in sys.argv[1:4])
+shutil.rmtree(out, ignore_errors=True)
+command = [sys.executable, os.path.join(study, "study"), "--reduced", "--out", out, "--tool", tool]
+status = subprocess.run(command, check=False).returncode
+if status:
+    sys.exit(f"reduced_test: exit status {status}")
+with open(os.path.join(out, "rows.csv"), encoding="utf-8", newline="") as file:
+    rows = list(csv.DictReader(file))
+known = {"reproduced", "not reproduced", "doubtful in the text", "reported"}
+for row in rows:
+    if row["verdict"] not in known:
+        sys.exit(f"reduced_test: row {row['id']}: {row['verdict']}: {row['note']}")
+    if not row["ours"]:
+        sys.exit(f"reduced_test: row {row['id']} has no value")
+if len(rows) < 80:
+    sys.exit(f"reduced_test: {len(rows)} rows")
+# What is complete is not run again.
+before = {name: os.stat(os.path.join(out, "runs", name, "summary.json")).st_mtime_ns
+          for name in os.listdir(os.path.join(out, "runs"))}
+again = subprocess.run(command, check=False, capture_output=True, text=True)
+after = {name: os.stat(os.path.join(out, "runs", name, "summary.json")).st_mtime_ns for name in before}
+if again.returncode or before != after:
+    sys.exit("reduced_test: a complete study was run again")
