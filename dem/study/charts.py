@@ -2,7 +2,7 @@
 """Charts of the study's page: curves with bands and points, drawn by gnuplot as SVG.
 
 A chart's texts are gnuplot's enhanced ones: a_{s} has a subscript, e^{2} a superscript. Each chart
-leaves KEY.csv, what it shows, and KEY.svg. Errors: gnuplot that is missing or fails is a ChartError.
+leaves KEY.csv, what it shows, and KEY.svg. Errors: gnuplot that is missing or fails is a StudyError.
 """
 
 import csv
@@ -11,6 +11,8 @@ import math
 import os
 import re
 import subprocess
+
+from running import StudyError
 
 # Told apart by the colour-blind too [Wong2011], and three more.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56b4e9", "#e69f00", "#555555",
@@ -31,10 +33,6 @@ LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 48, 350
 MOST_POINTS = 220
 
 STYLES = ("line", "dashes", "dots", "points", "marks", "steps", "bars")
-
-
-class ChartError(Exception):
-    """One line that says what could not be drawn, and why."""
 
 
 @dataclasses.dataclass
@@ -136,11 +134,11 @@ def draw(charts, folder):
         run = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True, cwd=folder,
                              check=False, env=dict(os.environ, LC_ALL="C.UTF-8"))
     except FileNotFoundError:
-        raise ChartError("gnuplot is not installed: ./demo installs it") from None
+        raise StudyError("gnuplot is not installed: ./demo installs it") from None
     drawn = [os.path.join(folder, chart.key + ".svg") for chart in charts]
     undrawn = [file for file in drawn if not os.path.exists(file) or not os.path.getsize(file)]
     if run.returncode != 0 or undrawn:
-        raise ChartError(f"gnuplot failed: {run.stderr.strip() or undrawn[0] + ' is empty'}")
+        raise StudyError(f"gnuplot failed: {run.stderr.strip() or undrawn[0] + ' is empty'}")
 
 
 HEAD = """

@@ -22,6 +22,7 @@ if __name__ == "__main__":
 import pictures
 import stages
 import verdicts
+from running import StudyError
 
 # How verdicts are shown: a class of page.css, in the order of the count.
 VERDICTS = {verdicts.REPRODUCED: "yes", verdicts.NOT_REPRODUCED: "no", verdicts.DOUBTFUL: "doubtful",
@@ -193,9 +194,19 @@ def write_page(out, tool, jobs=2, quick=False):
     os.replace(file + ".part", file)
 
 
-if __name__ == "__main__":
+def main():
     if len(sys.argv) not in (2, 3):
-        sys.exit("usage: page.py OUT [TANGENCY_DEM]")
-    given = sys.argv[2] if len(sys.argv) == 3 else os.path.join(
+        print("usage: page.py OUT [TANGENCY_DEM]", file=sys.stderr)
+        return 2
+    tool = sys.argv[2] if len(sys.argv) == 3 else os.path.join(
         HERE, "..", "..", "build", "release", "dem", "tool", "tangency-dem")
-    write_page(os.path.abspath(sys.argv[1]), os.path.abspath(given), os.cpu_count() or 1)
+    try:
+        write_page(os.path.abspath(sys.argv[1]), os.path.abspath(tool), os.cpu_count() or 1)
+    except (StudyError, OSError) as error:
+        print(f"page.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -5,11 +5,9 @@ import os
 import subprocess
 import time
 
+from running import StudyError
+
 HERE = os.path.dirname(os.path.abspath(__file__))
-
-
-class RenderError(Exception):
-    """One line that says what could not be drawn, and why."""
 
 
 def vector(values):
@@ -71,7 +69,7 @@ def started(folder, file, text, width, height):
                  "+AM1", "+R3", "+WT1", "-D", f"+L{HERE}"], cwd=folder, stdin=subprocess.DEVNULL,
                 stdout=log, stderr=subprocess.STDOUT)
         except FileNotFoundError:
-            raise RenderError("povray is not installed: ./demo installs it") from None
+            raise StudyError("povray is not installed: ./demo installs it") from None
 
 
 def finish(folder, file, process):
@@ -79,6 +77,6 @@ def finish(folder, file, process):
     if process.returncode != 0 or not os.path.exists(os.path.join(folder, file)):
         with open(log, encoding="utf-8", errors="replace") as text:
             words = [line.strip() for line in text if "rror" in line] or ["no message"]
-        raise RenderError(f"povray failed on {file}: {words[-1]}")
+        raise StudyError(f"povray failed on {file}: {words[-1]}")
     os.remove(log)
     os.remove(os.path.join(folder, file + ".pov"))
