@@ -181,13 +181,13 @@ def script_of(chart):
         ticks = "autofreq"
     key = (f"set key at screen 0.52,{6 / height:.4f} center bottom horizontal maxcols {columns} "
            "samplen 1.6 width -1 font ',13' textcolor '#222222'" if columns else "unset key")
-    # The axes' names stand a little off their numbers.
     lines_of = [
         f"set terminal svg size {WIDTH},{height} fixed enhanced font 'Helvetica,14' background '#ffffff'",
         f"set output {quoted(chart.key + '.svg')}",
         f"set title {quoted(chart.title)} font ',15' textcolor '#222222' offset 0,-0.4",
         f"set xlabel {quoted(chart.x_label)} offset 0,0.3",
-        f"set ylabel {quoted(chart.y_label)} offset 1.3,0",
+        # gnuplot leaves an axis's own name out where long numbers leave it no room.
+        f"set label 1 {quoted(chart.y_label)} at screen 0.035, graph 0.5 center rotate by 90",
         f"set tmargin at screen {1 - 34 / height:.4f}",
         f"set bmargin at screen {floor:.4f}",
         "set lmargin at screen 0.17",

@@ -79,13 +79,13 @@ def micro_row(stage, x, pressure, seed):
 
 
 def write_run(out, stem, seed=1, stage="shear", pressure=50, states=()):
-    """A complete run of 21 rows over a strain of 0.4; the first row is of an earlier stage."""
+    """A complete run over a strain of 0.4; the first row of its history is of an earlier stage."""
     folder = os.path.join(out, "runs", f"{stem}-s{seed}")
-    strains = [0.02 * k for k in range(21)]
+    strains = [0.005 * k for k in range(81)]
     write_table(os.path.join(folder, "history.csv"),
                 [history_row("before" if x == 0 else stage, x, pressure, seed) for x in strains])
     write_table(os.path.join(folder, "micro.csv"),
-                [micro_row(stage, x, pressure, seed) for x in strains[1:]])
+                [micro_row(stage, x, pressure, seed) for x in strains[4::4]])
     os.makedirs(os.path.join(folder, "tables"))
     os.makedirs(os.path.join(folder, "states"))
     with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as file:
