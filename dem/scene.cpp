@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -50,7 +51,8 @@ class Reader {
     read_stages();
     const Section output(source_, table("output"), "output", "output");
     scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
-                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds")};
+                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
+                     output.integer("contact_interval")};
     return std::move(scene_);
   }
 
@@ -254,7 +256,8 @@ class Reader {
     const Section section(source_, stage, path, "stage", kind);
     const std::string name = section.text("name", kind);
     refuse_shear_namesake(section, name, kind == "shear");
-    Stage& added = scene_.stages.emplace_back(Stage{name, {}, {}, {}});
+    const KeptStates kept = read_kept(section, name, kind == "shear");
+    Stage& added = scene_.stages.emplace_back(Stage{name, {}, {}, {}, kept});
     if (kind == "place") {
       added.place = read_place(section);
       read_bodies(section);
@@ -263,6 +266,26 @@ class Reader {
     }
     added.drive = read_drive(section, kind, scene_);
     if (kind == "grow") added.growth = read_growth(section);
+  }
+
+  /// Files are called by their stage's name.
+  KeptStates read_kept(const Section& section, const std::string& name, bool shears) const {
+    KeptStates kept;
+    kept.end = section.boolean("save");
+    if (shears) {
+      kept.points = section.boolean("save_points");
+      kept.strains = section.reals("save_strains");
+      const auto& strains = kept.strains;
+      const bool ascends = std::adjacent_find(strains.begin(), strains.end(),
+                                              std::greater_equal<>()) == strains.end();
+      if (!ascends || (!strains.empty() && strains.back() > section.real("axial_strain")))
+        section.fail("save_strains", "finite numbers > 0 and at most axial_strain, ascending");
+    }
+    for (const Stage& other : scene_.stages)
+      if (kept.any() && other.kept.any() && other.name == name)
+        section.fail(section.has("name") ? "name" : "kind",
+                     "a name of its own: two stages of that name keep states");
+    return kept;
   }
 
   /// The rows of a shear stage, of which summary.json has the peaks, are found by its name.

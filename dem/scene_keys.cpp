@@ -96,6 +96,14 @@ constexpr std::array kKeys{
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,
         "Name in the column stage of history.csv"},
+    Key{"stage", "save", boolean, "-", "false", kNoRange, "", kStageKinds,
+        "Keep the state at the stage's end: states/NAME.state, NAME the stage's"},
+    Key{"stage", "save_strains", reals, "-", "(none)", above_to(0.0, 3.0), "", "shear",
+        "Axial strains, ascending, at each of which the state is kept: states/NAME-0.05.state"},
+    Key{"stage", "save_points", boolean, "-", "false", kNoRange, "", "shear",
+        "Keep the states at the start, where yielding begins, at the peak of friction and where "
+        "the volume begins to stay constant: states/NAME-A.state to -D.state, found in the rows of "
+        "history.csv"},
     Key{"stage", "arrangement", text, "-", "lattice", kNoRange, "lattice random explicit", "place",
         "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
         "[[body]] "
@@ -184,6 +192,9 @@ constexpr std::array kKeys{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; the start and a stage's end have one too. With 0 there are none at "
         "all"},
+    Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
+        "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
+        "there are none at all"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",
@@ -226,6 +237,10 @@ std::string_view type_text(KeyType type) {
       return "3 numbers";
     case real4:
       return "4 numbers";
+    case reals:
+      return "numbers";
+    case boolean:
+      return "boolean";
     case text:
     case path:
       return "text";
@@ -248,7 +263,8 @@ using SchemaLine = std::array<std::string, 6>;
 
 SchemaLine schema_line(const Key& key) {
   const std::string allowed =
-      key.type == path   ? std::string("a file's name")
+      key.type == path      ? std::string("a file's name")
+      : key.type == boolean ? std::string("true, false")
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
   std::string meaning(key.meaning);
@@ -298,6 +314,10 @@ std::string allowed_values(const Key& key) {
       return "3 finite numbers " + range_text(key.range) + unit;
     case real4:
       return "4 finite numbers " + range_text(key.range) + unit;
+    case reals:
+      return "a list of finite numbers " + range_text(key.range) + unit;
+    case boolean:
+      return "true or false";
     case path:
       return "the name of a file";
     case text:

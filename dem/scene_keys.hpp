@@ -15,7 +15,8 @@
 
 namespace tangency::dem {
 
-enum class KeyType { integer, real, real3, real4, text, path };
+/// `reals` is a list of one number or more.
+enum class KeyType { integer, real, real3, real4, reals, boolean, text, path };
 
 /// The tables of a scene.
 inline constexpr std::string_view kSceneSections =

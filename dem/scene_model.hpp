@@ -49,6 +49,15 @@ struct Drive {
   std::int64_t max_cycles;
 };
 
+/// States of a stage that a run keeps beside its last one.
+struct KeptStates {
+  bool end = false;             ///< of its end
+  std::vector<double> strains;  ///< of a shear: where its axial strain is first so large; ascending
+  bool points = false;          ///< of a shear: at the points of shear_points.hpp
+
+  bool any() const { return end || points || !strains.empty(); }
+};
+
 /// Either places or moves; one that moves may also grow the particles, and then ends when they are
 /// grown, relaxed to its max_inertial_fraction and at the mean stress.
 struct Stage {
@@ -56,11 +65,13 @@ struct Stage {
   std::optional<Place> place;
   std::optional<Drive> drive;
   std::optional<Growth> growth;  ///< set besides drive
+  KeptStates kept{};
 };
 
 struct OutputIntervals {
   std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
   double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
+  std::int64_t contacts = 0;                ///< cycles; 0: no tables of contacts
 };
 
 struct Scene {

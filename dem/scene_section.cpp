@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include <tangency/geometry/tables/number_text.hpp>
 
@@ -45,6 +46,10 @@ bool fits(const Key& key, const toml::node& node) {
            std::all_of(array->begin(), array->end(), number_fits);
   };
   switch (key.type) {
+    case KeyType::boolean:
+      return node.is_boolean();
+    case KeyType::reals:
+      return node.is_array() && !node.as_array()->empty() && numbers_fit(node.as_array()->size());
     case KeyType::integer:
       return node.is_integer() && number_fits(node);
     case KeyType::real:
@@ -146,6 +151,18 @@ std::int64_t Section::integer(std::string_view name) const {
 
 std::optional<std::int64_t> Section::optional_integer(std::string_view name) const {
   return has(name) ? std::optional(integer(name)) : std::nullopt;
+}
+
+bool Section::boolean(std::string_view name) const {
+  const toml::node* node = find(name);
+  return node ? node->ref<bool>() : fallback(name) == "true";
+}
+
+std::vector<double> Section::reals(std::string_view name) const {
+  std::vector<double> numbers;
+  if (const toml::node* node = find(name))
+    for (const toml::node& one : *node->as_array()) numbers.push_back(real_of(one));
+  return numbers;
 }
 
 std::string Section::text(std::string_view name, std::string_view otherwise) const {

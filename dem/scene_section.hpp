@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_keys.hpp>
@@ -73,6 +74,9 @@ class Section {
   std::optional<double> optional_real(std::string_view name) const;
   std::int64_t integer(std::string_view name) const;
   std::optional<std::int64_t> optional_integer(std::string_view name) const;
+  bool boolean(std::string_view name) const;
+  /// None where the section does not have the key.
+  std::vector<double> reals(std::string_view name) const;
   std::string text(std::string_view name, std::string_view otherwise) const;
   std::string text(std::string_view name) const { return text(name, fallback(name)); }
   std::optional<Vec3> optional_real3(std::string_view name) const;

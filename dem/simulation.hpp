@@ -69,6 +69,8 @@ class Simulation {
 
   const State& state() const { return state_; }
   const Scene& scene() const { return scene_; }
+  /// The scene's, with the current stage's friction.
+  const ContactLaws& laws() const { return laws_; }
   bool finished() const { return state_.stage == scene_.stages.size(); }
   /// The current stage, or the last one when finished.
   const Stage& stage() const;

@@ -299,6 +299,17 @@ State state_in(StateReader& file) {
   return state_of(std::move(found));
 }
 
+/// Of the format, from the head of a file; nothing where it is no state.
+std::optional<std::uint32_t> version_in(StateReader& file) {
+  std::array<char, kMagic.size() + sizeof kFormatVersion> head;
+  const std::size_t size = file.head(head.data(), head.size());
+  if (size < head.size() || !std::string_view(head.data(), size).starts_with(kMagic))
+    return std::nullopt;
+  std::uint32_t version = 0;
+  std::memcpy(&version, head.data() + kMagic.size(), sizeof version);
+  return version;
+}
+
 std::string_view view_of(const auto& number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
@@ -326,18 +337,27 @@ void save_state(const State& state, const std::filesystem::path& file) {
   out.publish();
 }
 
+std::optional<std::int64_t> cycle_of_state(const std::filesystem::path& file) {
+  try {
+    StateReader in(file);
+    if (version_in(in) != kFormatVersion) return std::nullopt;
+    State state;
+    pass_plain(in, state);
+    return state.cycle;
+  } catch (const ReadError&) {
+  } catch (const Damaged&) {
+  }
+  return std::nullopt;
+}
+
 State load_state(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& what) { throw StateError(file.string() + ": " + what); };
   try {
     StateReader in(file);
-    std::array<char, kMagic.size() + sizeof kFormatVersion> head;
-    const std::size_t size = in.head(head.data(), head.size());
-    if (size < head.size() || !std::string_view(head.data(), size).starts_with(kMagic))
-      fail("no state of tangency-dem: final.state or checkpoint.state of a run");
-    std::uint32_t version = 0;
-    std::memcpy(&version, head.data() + kMagic.size(), sizeof version);
-    if (version != kFormatVersion)
-      fail("state of version " + std::to_string(version) + ": this program reads version " +
+    const auto version = version_in(in);
+    if (!version) fail("no state of tangency-dem: final.state or checkpoint.state of a run");
+    if (*version != kFormatVersion)
+      fail("state of version " + std::to_string(*version) + ": this program reads version " +
            std::to_string(kFormatVersion));
     return state_in(in);
   } catch (const ReadError& error) {

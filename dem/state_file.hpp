@@ -9,7 +9,9 @@
 /// them, so that a resumed run continues as if it had not been interrupted.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -29,6 +31,10 @@ void save_state(const State& state, const std::filesystem::path& file);
 
 /// @throws StateError
 State load_state(const std::filesystem::path& file);
+
+/// The cycle of the state in a file, without its contacts and unproven by its hash; nothing where
+/// the file is no state of this version.
+std::optional<std::int64_t> cycle_of_state(const std::filesystem::path& file);
 
 /// The hash of a state, 16 hexadecimal digits: equal states, and in practice only they, have equal
 /// hashes.

@@ -187,6 +187,26 @@ double unexplained_variance(const DirectionGroups& groups, const ScalarHarmonics
   return share(left, all, size);
 }
 
+std::array<AxisGroup, 3> axis_groups(std::span<const Vec3> normals, std::span<const Vec3> forces) {
+  const std::vector<double> along = normal_components(normals, forces);
+  std::array<AxisGroup, 3> groups;
+  std::array<double, 3> sum{};
+  for (std::size_t c = 0; c < normals.size(); ++c) {
+    Eigen::Index largest = 0;
+    normals[c].cwiseAbs().maxCoeff(&largest);
+    const auto k = static_cast<std::size_t>(largest);
+    ++groups[k].contacts;
+    sum[k] += along[c];
+  }
+  // 0/0 is the NaN of what is not defined.
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    groups[k].fraction =
+        static_cast<double>(groups[k].contacts) / static_cast<double>(normals.size());
+    groups[k].mean_normal_force = sum[k] / static_cast<double>(groups[k].contacts);
+  }
+  return groups;
+}
+
 std::vector<RadialRing> radial_means(const DirectionGroups& groups,
                                      std::span<const Vec3> tangential) {
   const SpherePartition& partition = groups.partition();

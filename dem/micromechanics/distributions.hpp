@@ -15,6 +15,7 @@
 /// changes once made: any number of threads may read it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -97,6 +98,18 @@ double unexplained_variance(const DirectionGroups& groups, std::span<const doubl
 double unexplained_variance(const DirectionGroups& groups, std::span<const Vec3> tangential,
                             const TangentialHarmonics& model);
 double unexplained_variance(const DirectionGroups& groups, const ScalarHarmonics& density);
+
+/// The contacts whose normals have their largest component, by size, along one axis: those that
+/// mainly bear the stress along it [Ouadfel1998, section 5.4.7].
+struct AxisGroup {
+  std::int64_t contacts = 0;
+  double fraction = 0.0;           ///< of all contacts; NaN without any
+  double mean_normal_force = 0.0;  ///< over the group's contacts; NaN without any
+};
+/// Of the axes x, y, z. Of equally large components the first counts.
+///
+/// (3) contacts of the three add up to all
+std::array<AxisGroup, 3> axis_groups(std::span<const Vec3> normals, std::span<const Vec3> forces);
 
 /// The mean of a tangential vector's component away from the axis in each ring of a polar
 /// partition, with n = axis cos(beta) + r sin(beta) [Ouadfel1998, eq. 2.74]. As the model has it in

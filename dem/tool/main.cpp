@@ -3,12 +3,19 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
+#include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/contact_tables.hpp>
+#include <tangency/dem/tool/micro.hpp>
+#include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
@@ -25,7 +32,11 @@ constexpr const char* kProgramDescription =
 constexpr const char* kProgramHelp = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
 `tangency-dem report --help` says what a report of it shows;
-`tangency-dem schema` lists every key of a scene.
+`tangency-dem schema` lists every key of a scene;
+`tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
+that these make of a state;
+`tangency-dem micro --help` says what it tells of forces and directions, and the columns of
+micro.csv.
 )";
 
 constexpr const char* kRunHelp = R"(
@@ -41,6 +52,21 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
+                     the end of each stage a table as `tangency-dem contacts` makes of a state
+  states/            states that stages keep, each to be resumed from like final.state:
+    NAME.state         of the end of stage NAME, with save = true
+    NAME-0.05.state    where the axial strain is first 0.05, with save_strains = [0.05]; the number
+                       is the shortest that reads back to the same double
+    NAME-A.state to NAME-D.state   at four points of a shear, with save_points = true: A its start;
+                       B where yielding begins: the stress ratio a_s (over axial strain, slopes
+                       within 0.002) rises at most 0.2 times as fast as where it is steepest; C at
+                       the peak friction angle, as below; D where the volume begins to stay
+                       constant: after C it changes by less than 0.02 per axial strain within
+                       0.05, else the last row. B, C and D are rows of history.csv, so that
+                       history_interval bounds how well they are known. At the stage's end its
+                       cycles up to the last of them are run once more, which takes their time;
+                       a stage that does not reach its end has A alone
 
 Columns of history.csv. Compression is positive in stress and axial strain; strains are
 logarithmic and count from the start of the stage:
@@ -91,13 +117,17 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  strain_at_A, strain_at_B, strain_at_C, strain_at_D, D_is_last_row
+                        of the last stage with save_points: axial strains of its states, and
+                        whether D is the last row for want of a constant volume
   largest_unbalanced_ratio, largest_unbalanced_moment_ratio
                         of any particle that has contacts: unbalanced force, and moment over
                         its largest semi-axis, over the mean contact force
 
 Stop and resume: HUP, INT (Ctrl-C) and TERM end a run after its cycle, with history, frames
 and checkpoint.state. With --resume it goes on bit for bit as if it had not been stopped; in
-the same DIR history and frames are carried on. The scene must have the same particles;
+the same DIR history, frames, contacts/ and states/ are carried on, and what is there of later
+cycles is taken away. The scene must have the same particles;
 stages may be added after those that the state has passed, and contact laws may differ,
 which is said. A DIR with the results of another run is refused; --replace takes them away.
 
@@ -124,6 +154,45 @@ the account of energy against time; and the numbers of summary.json.
 Exit status:
   0    done
   2    DIR is not one of a run that has written its history, or report.html cannot be written
+)";
+
+constexpr const char* kContactsHelp = R"(
+STATE is a final.state, checkpoint.state or one of states/ of a run. A row a contact, sorted by
+a, b and the image; contacts with walls are left out. Without a contact: the header alone.
+  a b         particles, numbered from 0 in the order of the scene, a <= b
+  ix iy iz    the image of b that is touched: moved by so many edges of the cell
+  x y z       point of contact, m, beside a where a is (positions are not wrapped into the cell)
+  nx ny nz    unit normal, from a to b
+  gap         m, < 0: minus the overlap
+  bx by bz    branch vector, m: centre of b's image less centre of a
+  ax ay az    arm, m: point of contact less centre of a
+  fn          normal force, N; a push is positive
+  fx fy fz    the whole force of a on b, N
+  sliding     1 where the shear force is at the Coulomb limit, else 0: at that of the scene's
+              [contact], since a state does not know a friction_coefficient of its stage; in the
+              contacts/CYCLE.csv of a run at that of the stage
+Numbers read back to the same double.
+
+Exit status:
+  0    done
+  2    STATE is no state of this program's version, or FILE cannot be written
+)";
+
+constexpr const char* kParticlesHelp = R"(
+STATE is a final.state, checkpoint.state or one of states/ of a run. A row a particle:
+  id          from 0 in the order of the scene
+  type        from 0 in the alphabetical order of the types' names
+  x y z       centre, m, not wrapped into the cell
+  r1 r2 r3    semi-axes, m
+  qw qx qy qz unit quaternion, body to space
+  vx vy vz    velocity relative to the strain of the cell, m/s, half a step ago
+  wx wy wz    angular velocity in space axes, 1/s, half a step ago
+  contacts    that it has, those with walls included; one with its own image counts twice
+Numbers read back to the same double.
+
+Exit status:
+  0    done
+  2    STATE is no state of this program's version, or FILE cannot be written
 )";
 
 /// DIR where none is given: the scene's name without its ending, in the working directory.
@@ -167,6 +236,74 @@ void add_report(tables::Program& program) {
   command.runs([directory] { return report(*directory); });
 }
 
+/// N of --classes, which has another meaning and default in each partition.
+micromechanics::Classes classes_of(const std::string& partition, int count, bool is_given) {
+  const auto kind = partition_named(partition);
+  if (!is_given) return {kind, micromechanics::Classes::usual_count(kind)};
+  if (const int fewest = micromechanics::Classes::fewest(kind); count < fewest)
+    throw tables::UsageError("--classes " + std::to_string(count) + ": with --partition " +
+                             partition + " from " + std::to_string(fewest) + " to " +
+                             std::to_string(micromechanics::Classes::kMost));
+  return {kind, count};
+}
+
+void add_micro(tables::Program& program) {
+  struct Words {
+    MicroOptions options;
+    std::string partition = "near-uniform";
+    int count = 0;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command =
+      program.subcommand("micro", "Micromechanics of a state: fabric, forces and their stress");
+  command.option("STATE", words->options.state, "A .state file of a run").required();
+  command.option("--partition", words->partition, "Classes of directions")
+      .one_of({"near-uniform", "polar"})
+      .shows_default();
+  const tables::Option count =
+      command.option("--classes", words->count, "N of the partition [4; polar 18]")
+          .between(1, micromechanics::Classes::kMost);
+  command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command
+      .option("--histogram", words->options.histogram,
+              "A row a class of directions as CSV; - to standard output")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(kMicroHelp);
+  command.runs([words, count] {
+    words->options.classes = classes_of(words->partition, words->count, count.given());
+    return micro(words->options);
+  });
+}
+
+/// A command that writes a table of a state.
+void add_table(tables::Program& program, const char* name, const char* what, const char* help,
+               std::function<std::string(const State&)> table) {
+  struct Words {
+    std::string state, out;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command = program.subcommand(name, what);
+  command.option("STATE", words->state, "State of a run").required();
+  command.option("--out", words->out, "File for the table [standard output]").not_empty();
+  command.footer(help);
+  command.runs([words, table = std::move(table)] {
+    const std::string text = table(load_state(words->state));
+    tables::OutputFile out(words->out.empty() ? "-" : words->out);
+    out.write(text);
+    out.commit();
+    return success;
+  });
+}
+
+void add_tables(tables::Program& program) {
+  add_table(program, "contacts", "Table of a state's contacts", kContactsHelp,
+            [](const State& state) { return contact_table(state, state.laws); });
+  add_table(program, "particles", "Table of a state's particles", kParticlesHelp, particle_table);
+}
+
 void add_schema(tables::Program& program) {
   program.subcommand("schema", "Print every key of a scene").runs([] {
     std::ostringstream text;
@@ -185,6 +322,8 @@ int main(int argc, char** argv) {
   program.footer(kProgramHelp);
   add_run(program);
   add_report(program);
+  add_tables(program);
+  add_micro(program);
   add_schema(program);
   return program.run(argc, argv);
 }

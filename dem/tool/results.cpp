@@ -21,6 +21,8 @@
 
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/cycle_files.hpp>
+#include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/summary.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
@@ -86,6 +88,9 @@ std::optional<std::string> result_in(const fs::path& directory) {
   for (const char* name : {"history.csv", "summary.json", "final.state", "checkpoint.state",
                            "frames.pvd", "frames.xyz", "frames.xyz.part"})
     if (fs::exists(directory / name)) return name;
+  for (const auto& file : {first_file(directory / "contacts", cycle_of_contact_table),
+                           first_file(directory / "states", cycle_of_kept_state)})
+    if (file) return file->lexically_relative(directory).string();
   return std::nullopt;
 }
 
@@ -136,8 +141,9 @@ bool is_history_of(const fs::path& directory, const fs::path& state, const Simul
   for (const std::string& row : rows_in(directory))
     if (cycle > 0 && cycle_of(row) == cycle) return is_of(row, simulation);
   std::error_code none;
-  return fs::equivalent(directory / "checkpoint.state", state, none) ||
-         fs::equivalent(directory / "final.state", state, none);
+  for (const char* file : {"checkpoint.state", "final.state"})
+    if (fs::equivalent(directory / file, state, none)) return true;
+  return fs::equivalent(directory / "states", fs::absolute(state).parent_path(), none);
 }
 
 /// Is the run to go on with what is in the directory?
@@ -162,7 +168,10 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
       lock_(locked(directory_)),
       carries_on_(carries_on(directory_, options, simulation)),
       frames_(directory_, carries_on_ ? simulation.state().cycle : -1,
-              simulation.scene().output.frame > 0) {
+              simulation.scene().output.frame > 0),
+      contacts_(directory_, carries_on_ ? simulation.state().cycle : -1,
+                simulation.scene().output.contacts > 0),
+      kept_(directory_, carries_on_ ? simulation.state().cycle : -1, simulation) {
   if (carries_on_) carry_on(simulation);
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
   if (carries_on_) return;
@@ -225,6 +234,13 @@ void Results::checkpoint(const Simulation& simulation) const {
   save_state(simulation.state(), directory_ / "checkpoint.state");
 }
 
+StateKeeper::Outcome Results::keep_points(const Simulation& simulation,
+                                          const std::function<bool(double)>& goes_on) {
+  if (!simulation.stage().kept.points) return {};
+  write_history();
+  return kept_.keep_points(simulation, History(directory_ / "history.csv"), goes_on);
+}
+
 void Results::write_history() const {
   write_whole(directory_ / "history.csv", header_line() + history_);
 }
@@ -241,6 +257,7 @@ void Results::finish_without_state() {
 
 void Results::finish(const Simulation& simulation, const RunCost& cost) {
   frames_.add(simulation);
+  contacts_.add(simulation);
   finish_incomplete(simulation);
   // One state under two names: each is written beside its place and renamed, so that none of them
   // changes with the other.

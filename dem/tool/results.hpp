@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a run leaves in its directory: history.csv, summary.json, the states and the frames.
+/// What a run leaves in its directory: history.csv, summary.json, the states, the frames
+/// and the tables of contacts.
 /// Every file is written beside its place and renamed, so that none is ever half written. A row of
 /// the history is of a cycle and a stage; a stage that ends at once has one too. summary.json
 /// begins with the last row's values.
@@ -9,13 +10,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <tangency/dem/simulation.hpp>
+#include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/frames.hpp>
 #include <tangency/dem/tool/run_options.hpp>
+#include <tangency/dem/tool/state_keeper.hpp>
 #include <tangency/dem/tool/summary.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
@@ -40,8 +44,16 @@ class Results {
   /// stage. At the start of a stage the row is that of the end of the one before.
   void add_row(const Simulation& simulation);
   void add_frame(const Simulation& simulation) { frames_.add(simulation); }
+  /// A table of contacts, at most one a cycle.
+  void add_contacts(const Simulation& simulation) { contacts_.add(simulation); }
   /// The row of a stage that is at its end, which may be its start.
   void add_last_row_of_stage(const Simulation& simulation);
+
+  /// The states that stages keep.
+  StateKeeper& kept() { return kept_; }
+  /// Those that are known only at a stage's end, where the simulation is: StateKeeper::keep_points.
+  StateKeeper::Outcome keep_points(const Simulation& simulation,
+                                   const std::function<bool(double share)>& goes_on);
 
   /// checkpoint.state, and history.csv as far as it goes.
   void checkpoint(const Simulation& simulation) const;
@@ -74,6 +86,8 @@ class Results {
   std::string history_;             ///< rows after the header
   std::optional<Moment> last_row_;  ///< nothing where it is of no moment that this run may come to
   Frames frames_;
+  ContactTables contacts_;
+  StateKeeper kept_;
 };
 
 }  // namespace tangency::dem

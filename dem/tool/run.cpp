@@ -110,13 +110,17 @@ class Run {
     // A run that is over would leave no row in a directory of its own.
     if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished()))
       results_.add_row(simulation_);
-    if (simulation_.state().cycle == 0) results_.add_frame(simulation_);
+    if (simulation_.state().cycle == 0) {
+      results_.add_frame(simulation_);
+      results_.add_contacts(simulation_);
+    }
     try {
+      results_.kept().begin(simulation_);
       while (!simulation_.finished()) {
         const StageStatus status = simulation_.status();
         if (status == StageStatus::out_of_cycles) return give_up(unmet_criterion());
         if (status == StageStatus::done) {
-          end_stage();
+          if (!end_stage()) return interrupt();
           continue;
         }
         if (caught_signal != 0) return interrupt();
@@ -155,6 +159,8 @@ class Run {
     const std::int64_t now = simulation_.state().cycle;
     if (now % every.history == 0) results_.add_row(simulation_);
     if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
+    if (every.contacts > 0 && now % every.contacts == 0) results_.add_contacts(simulation_);
+    results_.kept().after_cycle(simulation_);
     const bool by_cycles = every.checkpoint > 0 && now % every.checkpoint == 0;
     const bool by_time = every.checkpoint_seconds > 0.0 &&
                          seconds_since(last_checkpoint_) >= every.checkpoint_seconds;
@@ -205,12 +211,28 @@ class Run {
            ", mean stress " + short_text(seen.stress.mean());
   }
 
-  void end_stage() {
+  /// False where a signal came while the stage's points were kept: the stage is at its end still.
+  bool end_stage() {
     results_.add_last_row_of_stage(simulation_);
     results_.add_frame(simulation_);
+    results_.add_contacts(simulation_);
+    if (!keep_points()) return false;
     warn_of_unsound_stage();
     warn_of_missed_targets();
     simulation_.next_stage();
+    results_.kept().after_stage(simulation_);
+    return true;
+  }
+
+  bool keep_points() {
+    const std::string& stage = simulation_.stage().name;
+    const auto goes_on = [&](double share) {
+      if (progress_.is_due()) progress_.show(share, stage + ", once more for its points");
+      return caught_signal == 0;
+    };
+    const auto [was_stopped, problem] = results_.keep_points(simulation_, goes_on);
+    if (!problem.empty()) warn("states B, C and D of stage " + stage + " are not kept: " + problem);
+    return !was_stopped;
   }
 
   void warn_of_unsound_stage() {

@@ -12,6 +12,7 @@
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
+#include <tangency/dem/tool/state_keeper.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
@@ -45,6 +46,21 @@ void add_peaks(nlohmann::ordered_json& summary, const History& history, const Sc
   summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
+/// The points of the scene's last stage that keeps them, if their states are there.
+void add_points(nlohmann::ordered_json& summary, const History& history, const Scene& scene,
+                const fs::path& folder) {
+  const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(),
+                                 [](const Stage& stage) { return stage.kept.points; });
+  if (last == scene.stages.rend()) return;
+  for (std::size_t k = 0; k < kPointNames.size(); ++k)
+    if (!fs::exists(file_of_point(folder, last->name, k))) return;
+  const auto found = points_of_stage(history, last->name, folder);
+  if (!found) return;
+  for (std::size_t k = 0; k < kPointNames.size(); ++k)
+    summary[std::string("strain_at_") + kPointNames[k]] = found->points[k].axial_strain;
+  summary["D_is_last_row"] = found->d_is_last_row;
+}
+
 std::string text_of(const nlohmann::ordered_json& value) {
   if (value.is_number_float()) return tables::rounded_text(value.get<double>(), 6);
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -75,6 +91,7 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
   if (cost.profile)
     for (const auto& [name, value] : entries_of(*cost.profile))
       std::visit([&, &key = name](auto number) { summary["profile"][key] = number; }, value);
+  add_points(summary, history, simulation.scene(), directory / "states");
   write_whole(directory / "summary.json", summary.dump(2) + "\n");
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// `tangency-dem micro STATE`.
+#pragma once
+
+#include <string>
+
+#include <tangency/dem/micromechanics/averages.hpp>
+
+namespace tangency::dem {
+
+struct MicroOptions {
+  std::string state;
+  micromechanics::Classes classes;
+  std::string json, histogram;  ///< files; empty: none
+};
+
+/// "near-uniform" or "polar" as a kind; requires one of the two.
+micromechanics::Classes::Kind partition_named(const std::string& name);
+
+/// Prints the averages of a saved packing, and writes the files that are asked for: `-` prints one
+/// instead of the averages.
+/// @throws StateError, tables::Error  as every command
+int micro(const MicroOptions& options);
+
+}  // namespace tangency::dem

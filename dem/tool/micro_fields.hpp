@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The columns of micro.csv. Those that are not defined are empty cells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tangency/dem/observe.hpp>
+#include <tangency/dem/tool/micro_summary.hpp>
+
+namespace tangency::dem {
+
+/// All columns after cycle, time, stage, stage_cycle and axial_strain, in their order; numbers that
+/// are not defined are NaN.
+std::vector<Field> micro_fields(const MicroSummary& summary);
+
+/// What each column means, for the help of the command: a line or more a group of them.
+extern const char* const kMicroColumnsHelp;
+
+}  // namespace tangency::dem

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/packing.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/neighbours.hpp>
+#include <tangency/dem/particles.hpp>
+
+namespace tangency::dem {
+namespace {
+
+/// Of the Coulomb limit. Chosen: a force that was cut back to it is off by rounding alone, and one
+/// that comes as near by chance is at it.
+constexpr double kAtTheLimit = 1e-12;
+
+struct Entry {
+  Pair of_ids;  ///< with a <= b by ids
+  std::size_t pair;
+  bool exchanged;  ///< a of the list is b here
+};
+
+/// The pair by ids, seen from the particle with the lower one.
+Entry entry_of(const Pair& pair, std::size_t index, const std::vector<std::int32_t>& id) {
+  Pair named{id[static_cast<std::size_t>(pair.a)], id[static_cast<std::size_t>(pair.b)],
+             pair.image};
+  const bool exchanged = named.a > named.b;
+  if (exchanged) {
+    std::swap(named.a, named.b);
+    for (std::int32_t& k : named.image) k = -k;
+  }
+  return {named, index, exchanged};
+}
+
+bool slides(const Contact& contact, const ContactLaw& law) {
+  const double size = contact.shear.force.norm();
+  const double limit = law.cohesion + law.friction_coefficient * contact.normal_force;
+  return size > 0.0 && size >= (1.0 - kAtTheLimit) * limit;
+}
+
+void add(PackingContacts& all, const Entry& entry, const Contact& contact, const Vec3& centre_of_a,
+         bool is_sliding) {
+  // Zeros stay +0 from either side.
+  const auto seen = [&](const Vec3& v) { return entry.exchanged ? Vec3(Vec3::Zero() - v) : v; };
+  const Vec3 arm = entry.exchanged ? Vec3(contact.arm - contact.branch) : contact.arm;
+  all.bodies.push_back({entry.of_ids.a, entry.of_ids.b});
+  all.image.push_back(entry.of_ids.image);
+  all.point.push_back(centre_of_a + arm);
+  all.normal.push_back(seen(contact.normal));
+  all.branch.push_back(seen(contact.branch));
+  all.arm.push_back(arm);
+  all.force.push_back(seen(contact.force));
+  all.normal_force.push_back(contact.normal_force);
+  all.gap.push_back(-contact.overlap);
+  all.sliding.push_back(is_sliding ? 1 : 0);
+}
+
+PackingParticles particles_of(const State& state) {
+  const Particles& from = state.particles;
+  const std::vector<std::int32_t>& contacts = state.contacts.resultants().contacts;
+  PackingParticles all;
+  for (const std::uint32_t i : from.index_of_id()) {
+    all.type.push_back(from.type[i]);
+    all.position.push_back(from.position[i]);
+    all.semi_axes.push_back(from.semi_axes[i]);
+    all.orientation.push_back(from.orientation[i]);
+    all.velocity.push_back(from.velocity[i]);
+    all.angular_velocity.push_back(from.angular_velocity[i]);
+    all.contacts.push_back(contacts[i]);
+  }
+  return all;
+}
+
+}  // namespace
+
+micromechanics::ContactArrays Packing::arrays() const {
+  return {.normal = contacts.normal,
+          .branch = contacts.branch,
+          .force = contacts.force,
+          .arm = contacts.arm,
+          .bodies = contacts.bodies,
+          .particles = static_cast<std::int64_t>(particles.size()),
+          .volume = volume,
+          .dimensions = dimensions};
+}
+
+Packing packing_of(const State& state, const ContactLaws& laws) {
+  const Particles& particles = state.particles;
+  Packing packing;
+  packing.dimensions = state.cell.dimensions;
+  packing.edges = state.cell.edges;
+  packing.volume = state.cell.volume();
+  packing.particles = particles_of(state);
+  const std::vector<Pair>& pairs = state.list.pairs();
+  std::vector<Entry> entries;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (!state.contacts.touches(k)) continue;
+    if (static_cast<std::size_t>(pairs[k].b) < particles.size())
+      entries.push_back(entry_of(pairs[k], k, particles.id));
+    else
+      ++packing.wall_contacts;
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& x, const Entry& y) { return x.of_ids < y.of_ids; });
+  for (const Entry& entry : entries) {
+    const auto a = static_cast<std::size_t>(pairs[entry.pair].a);
+    const auto b = static_cast<std::size_t>(pairs[entry.pair].b);
+    const Contact contact = state.contacts.records()[entry.pair];
+    const auto type = [&](std::size_t i) { return static_cast<std::size_t>(particles.type[i]); };
+    add(packing.contacts, entry, contact,
+        packing.particles.position[static_cast<std::size_t>(entry.of_ids.a)],
+        slides(contact, laws.between(type(a), type(b))));
+  }
+  return packing;
+}
+
+}  // namespace tangency::dem
