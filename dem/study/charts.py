@@ -27,10 +27,13 @@ WIDTH, HEIGHT = 440, 325
 
 # Of the legend, in pixels: a line of it, what gnuplot takes for a letter and for a sample of a curve, and
 # the width that it fills. Measured on what gnuplot 5.4 draws with letters of 13.
-LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 48, 350
+LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 46, 340
 
 # Chosen: points of a curve; more cannot be told apart at WIDTH.
 MOST_POINTS = 220
+
+# Chosen: of the axis y, as a share of the largest value; less needs long numbers.
+LEAST_SPAN = 0.02
 
 STYLES = ("line", "dashes", "dots", "points", "marks", "steps", "bars")
 
@@ -139,6 +142,16 @@ def draw(charts, folder):
     undrawn = [file for file in drawn if not os.path.exists(file) or not os.path.getsize(file)]
     if run.returncode != 0 or undrawn:
         raise StudyError(f"gnuplot failed: {run.stderr.strip() or undrawn[0] + ' is empty'}")
+    for file in drawn:
+        make_small(file)
+
+
+def make_small(file):
+    """Takes away the empty groups that gnuplot leaves, a sixth of a picture."""
+    with open(file, encoding="utf-8") as picture:
+        text = picture.read()
+    with open(file, "w", encoding="utf-8") as picture:
+        picture.write(re.sub(r"<g [^>]*>\s*</g>\n", "", text))
 
 
 HEAD = """
@@ -170,6 +183,16 @@ def range_of(ends):
     return "[" + ":".join("*" if end is None else repr(float(end)) for end in ends) + "]"
 
 
+def heights_of(chart):
+    """The range of y; of values that hardly differ it is made wide, else their numbers are long."""
+    values = [y for curve in chart.curves for y in curve.y if math.isfinite(y)]
+    low, high = min(values), max(values)
+    size = max(abs(low), abs(high))
+    if chart.y_range != (None, None) or high - low > LEAST_SPAN * size:
+        return chart.y_range
+    return (low - LEAST_SPAN * size, high + LEAST_SPAN * size) if size > 0.0 else (-1.0, 1.0)
+
+
 def script_of(chart):
     """gnuplot's commands for one chart."""
     columns, lines = legend_of(chart)
@@ -190,11 +213,11 @@ def script_of(chart):
         f"set label 1 {quoted(chart.y_label)} at screen 0.035, graph 0.5 center rotate by 90",
         f"set tmargin at screen {1 - 34 / height:.4f}",
         f"set bmargin at screen {floor:.4f}",
-        "set lmargin at screen 0.17",
-        "set rmargin at screen 0.965",
+        "set lmargin at screen 0.195",
+        "set rmargin at screen 0.97",
         f"set xrange {range_of(chart.x_range)}",
-        f"set yrange {range_of(chart.y_range)}",
-        "set offsets 0, 0, graph 0.05, graph 0.03" if None in chart.y_range else "set offsets 0, 0, 0, 0",
+        f"set yrange {range_of(heights_of(chart))}",
+        "set offsets 0, 0, graph 0.05, graph 0.03" if None in heights_of(chart) else "set offsets 0, 0, 0, 0",
         "set logscale x" if chart.logarithmic else "unset logscale x",
         f"set xtics {ticks}",
         key,

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Chapters of the page on shear tests: stress, volume, contacts and forces (sections 5.4.1 to 5.4.7)."""
 
+import math
+
 import charts
 import series
 from charts import COLOURS
 from figures import Chapter
 from results import shear_of
 
-# Chosen, of axial strain: over which rates are taken, as in dem/shear_peaks.hpp.
+# Chosen, of axial strain: over which the curves' rates are taken. Those of the peaks, which summaries have,
+# are of dem/shear_peaks.hpp.
 WINDOW = 0.02
 
 # The text's steady state, axial strain.
@@ -188,7 +191,7 @@ def contacts(maker):
                         "It rises as contacts are lost under a mean stress that is held."),
         maker.against_pressure(
             "force-pressure", "Mean normal force against pressure", "f_{0}, GN",
-            {"initial": lambda folder: 1e-9 * results.first(folder, "f0", "micro"),
+            {"initial": lambda folder: 1e-9 * results.averages(folder, "shear-A").get("f0", math.nan),
              "at 20.5 % strain": lambda folder: 1e-9 * results.value_at(folder, "f0", STEADY, "micro")},
             "Mean over orientations. The text finds initial and steady values strongly correlated with "
             "pressure.", y_range=(0, None)),

@@ -92,8 +92,10 @@ def write_run(out, stem, seed=1, stage="shear", pressure=50, states=()):
         json.dump({"peak_friction_angle_deg": 40.0 - 0.01 * pressure,
                    "strain_at_peak_friction": 0.001 * pressure, "peak_dilation_rate": 0.8,
                    "strain_at_peak_dilation": 0.002 * pressure}, file)
-    with open(os.path.join(folder, "tables", "final.json"), "w", encoding="utf-8") as file:
-        json.dump({"coordination": {"without_rattlers": 10.1, "histogram": [0, 0, 3, 10, 4]}}, file)
+    for name in ("final", "shear-A"):
+        with open(os.path.join(folder, "tables", name + ".json"), "w", encoding="utf-8") as file:
+            json.dump({"coordination": {"without_rattlers": 10.1, "histogram": [0, 0, 3, 10, 4]},
+                       "f0": F0}, file)
     for point in states:
         with open(os.path.join(folder, "states", f"shear-{point}.state"), "wb"):
             pass
