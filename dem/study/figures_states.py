@@ -2,34 +2,30 @@
 """Chapter of the page on states A to D of one test: distributions as surfaces, force lines, bodies.
 
 The states are those of the first seed of test 4d: A before shear, B where yielding starts, C at the peak
-of friction, D where the volume becomes constant. `tangency-dem` makes their tables in OUT/pictures:
-state-X.json and state-X.csv (micro), contacts-X.csv and particles-X.csv.
+of friction, D where the volume becomes constant.
 """
 
-import json
 import math
-import os
-import subprocess
 
 import charts
 import directions
 import rendering
 import series
 from figures import Chapter, Figure, Picture, shown
-from results import shear_of
-
-PRESSURE = 30
-POINTS = {"A": "before shear", "B": "start of yielding", "C": "peak friction", "D": "constant volume"}
+from state_tables import POINTS, Failed
 
 # Of measured values and of models of order 2, and 2 and 4.
 KINDS = {"measured": "#6fa8dc", "second order": "#e8935a", "second and fourth": "#5bb98c"}
-GROUPS = {"z": "#b5476a", "x": "#3f7fb5", "y": "#4f9d69"}
+GROUPS = {"x": "#3f7fb5", "y": "#4f9d69", "z": "#b5476a"}
 
-# Chosen, pixels of a picture's edge.
-SURFACE, LINES, BODIES = 270, 330, 480
+# Chosen, pixels of a picture's width; and heights of the wide ones over their widths.
+SURFACE, LINES, BODIES, HEIGHT = 270, 330, 480, 0.8
 
-# Chosen: radius of a line of force that is the mean normal force at C, in mean radii of a particle.
+# Chosen: radius of a line of the mean normal force of the first state, in mean arms of its contacts.
 LINE_RADIUS = 0.07
+
+# Chosen: width of a picture, in what its points span, for the bodies about them.
+ROOM = 1.12
 
 # Patches of a third of an octant for long axes, of which there are fewer than contacts.
 AXES_PATCHES = 2
@@ -43,82 +39,6 @@ D where the volume becomes constant, or the end of the test. The text gives no r
 summary. A surface is as far from its middle as the quantity is large in that direction. The stick is the axis of the
 load.</p>
 """
-
-
-class Failed(Exception):
-    """A table that tangency-dem did not make."""
-
-
-class States:
-    """Tables of the states, each made once."""
-
-    def __init__(self, results, tool, folder, quick):
-        self.results, self.tool, self.folder = results, tool, folder
-        self.points = [p for p in POINTS if not quick or p in "AC"]
-        self.kept = {}
-
-    def state(self, point):
-        folders = self.results.folders(shear_of(PRESSURE))
-        file = folders and os.path.join(folders[0], "states", f"shear-{point}.state")
-        if not file or not os.path.exists(file):
-            raise Failed(f"state {point} of {shear_of(PRESSURE)}")
-        return file
-
-    def call(self, *words):
-        try:
-            run = subprocess.run([self.tool, *words], capture_output=True, text=True, check=False)
-        except OSError as error:
-            raise Failed(f"{self.tool}: {error.strerror}") from None
-        if run.returncode != 0:
-            said = run.stderr.strip().splitlines()
-            raise Failed(f"tangency-dem {words[0]}: {said[-1] if said else 'no message'}")
-
-    def once(self, name, make):
-        """What make() returned; where it failed, the same failure again."""
-        if name not in self.kept:
-            try:
-                self.kept[name] = make()
-            except Failed as failure:
-                self.kept[name] = failure
-        if isinstance(self.kept[name], Failed):
-            raise self.kept[name]
-        return self.kept[name]
-
-    def file(self, name):
-        return os.path.join(self.folder, name)
-
-    def averages(self, point):
-        """(JSON, columns of the histogram)"""
-        def make():
-            averages, classes = self.file(f"state-{point}.json"), self.file(f"state-{point}.csv")
-            self.call("micro", self.state(point), "--json", averages, "--histogram", classes)
-            with open(averages, encoding="utf-8") as text:
-                return json.load(text), series.Columns.of(classes)
-
-        return self.once("averages" + point, make)
-
-    def rings(self, point):
-        """Rows of f_r over the angle to the load; none where they cannot be made."""
-        def make():
-            file = self.file(f"rings-{point}.json")
-            self.call("micro", self.state(point), "--partition", "polar", "--json", file)
-            with open(file, encoding="utf-8") as text:
-                return json.load(text).get("radial_rings") or []
-
-        try:
-            return self.once("rings" + point, make)
-        except Failed as failure:
-            self.results.lack(str(failure))
-            return []
-
-    def table(self, command, point):
-        """Columns of `tangency-dem contacts` or `particles`."""
-        def make():
-            file = self.file(f"{command}-{point}.csv")
-            self.call(command, self.state(point), "--out", file)
-            return series.Columns.of(file)
-
-        return self.once(command + point, make)
 
 
 class Pictures:
@@ -138,8 +58,8 @@ class Pictures:
                 lacking.append(str(failure))
         return Figure(title, pictures, caption, list(dict.fromkeys(lacking)), columns)
 
-    def add(self, file, bodies, width, centre, size):
-        self.scenes[file] = (rendering.scene(bodies, width, centre), size, size)
+    def add(self, file, bodies, width, centre, pixels, height=HEIGHT):
+        self.scenes[file] = (rendering.scene(bodies, width, centre), pixels, round(height * pixels))
 
 
 def around(radius, width):
@@ -162,7 +82,7 @@ def surfaces(pictures, key, title, quantity, caption, points=None):
         for (kind, shade), mesh in zip(KINDS.items(), meshes):
             file = f"surface-{key}-{point}-{len(made)}.png"
             pictures.add(file, rendering.mesh(mesh, shade) + around(ring, width) + stick, width,
-                         (0, 0, 0), SURFACE)
+                         (0, 0, 0), SURFACE, 1.0)
             label = f"{point}, {kind}" + (f"; rings: {words}" if kind == "measured" else "")
             made.append(Picture(file, alt_of(title, point, kind, measured, n,
                                              (None, second, fourth)[len(made)]), label))
@@ -182,8 +102,9 @@ def alt_of(title, point, kind, measured, n, model):
         return sum(found) / len(found) if found else math.nan
 
     axial, lateral = mean(lambda z: z > 0.85), mean(lambda z: z < 0.3)
-    ratio = axial / lateral if lateral else math.nan
-    return f"Surface, {title}, state {point}, {kind}: along the load {shown(ratio)} times as far as across it."
+    said = (f"along the load {shown(axial / lateral)} times as far as across it" if lateral > 0.0
+            else "nothing across the load")
+    return f"Surface, {title}, state {point}, {kind}: {said}."
 
 
 def classes_of(columns, value):
@@ -267,58 +188,80 @@ def axes_of(particles):
 def force_lines(pictures):
     states = pictures.states
 
-    def row(point):
+    names = ("x", "y", "z", "ax", "ay", "az", "bx", "by", "bz", "nx", "ny", "nz", "fn")
+
+    def lines(point):
+        """(start, end, normal, force) of each contact."""
         columns = states.table("contacts", point)
-        names = ("x", "y", "z", "ax", "ay", "az", "bx", "by", "bz", "nx", "ny", "nz", "fn")
-        contacts = list(zip(*map(columns.column, names)))
-        if not contacts:
+        found = []
+        for c in zip(*map(columns.column, names)):
+            start = tuple(x - arm for x, arm in zip(c[:3], c[3:6]))
+            found.append((start, tuple(s + b for s, b in zip(start, c[6:9])), c[9:12], c[12]))
+        if not found:
             raise Failed(f"contacts of state {point}")
-        mean = states.once("mean force", lambda: sum(c[-1] for c in contacts) / len(contacts))
-        starts = [tuple(c[k] - c[3 + k] for k in range(3)) for c in contacts]
-        centre = tuple(0.5 * (min(s[k] for s in starts) + max(s[k] for s in starts)) for k in range(3))
-        reach = max(max(s[k] for s in starts) - min(s[k] for s in starts) for k in range(3))
-        reach = states.once("reach", lambda: reach)
-        radius = states.once("radius", lambda: LINE_RADIUS * sum(
-            math.dist((0, 0, 0), c[3:6]) for c in contacts) / len(contacts))
+        return found
+
+    def scales():
+        """Width of the pictures, and the radius of a line over its force."""
+        width = max(rendering.span([start for start, *_ in lines(p)], HEIGHT)[1] for p in states.points)
+        first = lines(states.points[0])
+        arm = 0.5 * sum(math.dist(start, end) for start, end, *_ in first) / len(first)
+        return ROOM * width, LINE_RADIUS * arm * len(first) / sum(force for *_, force in first)
+
+    def row(point):
+        contacts = states.once("lines" + point, lambda: lines(point))
+        width, per_force = states.once("scales of lines", scales)
+        centre, _ = rendering.span([start for start, *_ in contacts], HEIGHT)
         made = []
-        for axis, (name, shade) in enumerate((("x", GROUPS["x"]), ("y", GROUPS["y"]), ("z", GROUPS["z"]))):
-            sticks, count, force = [], 0, 0.0
-            for start, c in zip(starts, contacts):
-                n = [abs(v) for v in c[9:12]]
-                if n.index(max(n)) != axis:
-                    continue
-                end = tuple(s + b for s, b in zip(start, c[6:9]))
-                sticks.append(rendering.stick(start, end, max(0.02, c[-1] / mean) * radius, shade))
-                count, force = count + 1, force + c[-1]
+        for axis, (name, shade) in enumerate(GROUPS.items()):
+            group = [c for c in contacts if axis_of(c[2]) == axis]
+            sticks = [rendering.stick(start, end, max(0.02 * width / LINES, per_force * force), shade)
+                      for start, end, _, force in group]
             file = f"force-{point}-{name}.png"
-            pictures.add(file, "".join(sticks), 1.45 * reach, centre, LINES)
-            share = count / len(contacts)
-            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: {count} contacts, "
-                                f"{shown(100 * share)} % of all.", f"{point}, group {name}: {count}"))
+            pictures.add(file, "".join(sticks), width, centre, LINES)
+            share = 100 * len(group) / len(contacts)
+            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: {len(group)} "
+                                f"contacts, {shown(share)} % of all.", f"{point}, group {name}: {len(group)}"))
         return made
 
     return pictures.gallery(
         "Lines of force by direction group", 3, row, pictures.states.points,
-        "A line joins the centres of two particles that touch; its thickness is the normal force. Groups are the axes "
-        "along which normals mostly point. The text sees the axial group, z, bear more and more, the lateral ones "
-        "less.")
+        "A line joins the centres of two particles that touch; its thickness is the normal force, on one scale. "
+        "Groups are the axes along which normals mostly point. The text sees the axial group, z, bear more and more, "
+        "the lateral ones less.")
+
+
+def axis_of(normal):
+    """The axis along which a normal mostly points."""
+    sizes = [abs(component) for component in normal]
+    return sizes.index(max(sizes))
 
 
 def bodies(pictures):
     states = pictures.states
     shades = charts.SCALE
 
-    def row(point):
+    points = [states.points[0], states.points[-1]]
+
+    def rows_of(point):
         particles = states.table("particles", point)
-        rows = [series.Row(particles, k) for k in range(particles.count)]
-        if not rows:
+        if not particles.count:
             raise Failed(f"particles of state {point}")
-        places = [tuple(row[c] for c in "xyz") for row in rows]
-        centre = tuple(0.5 * (min(p[k] for p in places) + max(p[k] for p in places)) for k in range(3))
-        reach = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3))
-        reach = states.once("extent", lambda: reach)
+        return [series.Row(particles, k) for k in range(particles.count)]
+
+    def places(rows):
+        return [(row["x"], row["y"], row["z"]) for row in rows]
+
+    def width():
+        """Of the widest state, with room for the bodies at its ends."""
+        return max(rendering.span(places(rows_of(p)), HEIGHT)[1] + 2 * rows_of(p)[0]["r1"] for p in points)
+
+    def row(point):
+        rows = rows_of(point)
+        centre, _ = rendering.span(places(rows), HEIGHT)
         file = f"bodies-{point}.png"
-        pictures.add(file, "".join(map(body, rows)), 1.75 * reach, centre, BODIES)
+        pictures.add(file, "".join(map(body, rows)), 1.05 * states.once("width of bodies", width),
+                     centre, BODIES)
         across = sum(inclination(long_axis(row)) > 54 for row in rows) / len(rows)
         return [Picture(file, f"The sample in state {point}: {shown(100 * across)} % of the long axes are more than "
                         "54 degrees away from the load's axis.", f"{point}, {POINTS[point]}")]
@@ -326,7 +269,7 @@ def bodies(pictures):
     legend = " ".join(f'<span class="key"><i style="background:{shade}"></i>to {angle}°</span>'
                       for shade, angle in zip(shades, ANGLES))
     return pictures.gallery(
-        "The sample before and after", 2, row, [states.points[0], states.points[-1]],
+        "The sample before and after", 2, row, points,
         f"Colours are angles of long axes to the load: {legend}. The text sees long axes turn across the load.")
 
 

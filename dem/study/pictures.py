@@ -12,6 +12,7 @@ import figures_shear
 import figures_states
 import figures_strength
 import rendering
+import state_tables
 from figures import Maker
 from results import Results
 
@@ -26,7 +27,7 @@ def draw(out, tool, jobs, quick):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     results = Results(out)
-    states = figures_states.States(results, tool, folder, quick)
+    states = state_tables.States(results, tool, folder, quick)
     maker, pictures = Maker(results, states), figures_states.Pictures(states)
     chapters = [*figures_growth.chapters(maker), *figures_shear.chapters(maker),
                 figures_states.chapter(pictures), *figures_anisotropy.chapters(maker),

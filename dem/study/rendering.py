@@ -1,13 +1,33 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of bodies by POV-Ray, some at once, in the view of view.inc: z, along which is loaded, up."""
+"""Pictures of bodies by POV-Ray, some at once, all in one view: z, along which is loaded, points up.
+
+POV-Ray that is missing or fails is a StudyError.
+"""
 
 import os
 import subprocess
 import time
 
+import directions
 from running import StudyError
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+# Where the viewer is: at the side and a little above; his right and his up.
+TOWARDS = directions.unit((-0.62, -1.0, 0.42))
+RIGHT = directions.unit((-TOWARDS[1], TOWARDS[0], 0.0))
+UP = (TOWARDS[1] * RIGHT[2] - TOWARDS[2] * RIGHT[1], TOWARDS[2] * RIGHT[0] - TOWARDS[0] * RIGHT[2],
+      TOWARDS[0] * RIGHT[1] - TOWARDS[1] * RIGHT[0])
+
+
+def span(points, height):
+    """(centre, width) of a picture, height times as high as wide, that shows all of these points."""
+    across = [directions.dot(point, RIGHT) for point in points]
+    along = [directions.dot(point, UP) for point in points]
+    middle = [0.5 * (min(values) + max(values)) for values in (across, along)]
+    centre = tuple(middle[0] * r + middle[1] * u for r, u in zip(RIGHT, UP))
+    return centre, max(max(across) - min(across), (max(along) - min(along)) / height)
 
 
 def vector(values):
@@ -38,7 +58,7 @@ def stick(start, end, radius, shade):
 
 def scene(bodies, width, centre=(0.0, 0.0, 0.0)):
     """The text of a picture that shows this width."""
-    return (f'#include "view.inc"\n{bodies}\nView({vector(centre)}, {width:.5g})\n')
+    return (f'#include "view.inc"\n{bodies}\nView({vector(centre)}, {vector(TOWARDS)}, {width:.5g})\n')
 
 
 def render(folder, scenes, jobs):
