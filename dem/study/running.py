@@ -7,6 +7,7 @@ A directory runs/NAME of OUT has what tangency-dem writes, and
                before the run starts
   tables/      averages of its states, by `tangency-dem micro`; there when all of the run is done
   done         the key again, when all is there
+  seconds      processor time that it took since its key was written
 A run whose `done` is its key is complete and is not run again. One that has its key, but is not
 done, goes on from its checkpoint. Any other one is taken away and starts afresh, and so does what
 resumes it.
@@ -116,15 +117,27 @@ class Job:
             name = table_name(state)
             if not os.path.exists(self.path("tables", name)):
                 # Written beside and renamed by the tool.
-                yield [tool, "micro", self.path(state), "--json", self.path("tables", name)]
+                file, _, partition = state.partition("@")
+                yield [tool, "micro", self.path(file), "--partition", partition or "near-uniform",
+                       "--json", self.path("tables", name)]
+
+    def seconds(self):
+        try:
+            with open(self.path("seconds"), encoding="utf-8") as file:
+                return float(file.read())
+        except (OSError, ValueError):
+            return 0.0
+
+    def add_seconds(self, more):
+        self._write("seconds", f"{self.seconds() + more:.2f}\n")
 
     def finish(self):
         self._write("done", self.key + "\n")
 
 
 def table_name(state):
-    """tables/NAME of a state's averages."""
-    return os.path.basename(state).removesuffix(".state") + ".json"
+    """tables/NAME of a state's averages: shear-A.json, shear-C.polar.json."""
+    return os.path.basename(state).replace(".state", "").replace("@", ".") + ".json"
 
 
 class Progress:
@@ -224,10 +237,11 @@ class Runner:
         self.running[process.pid] = (job, process, commands)
 
     def _wait_for_one(self):
-        pid, status = os.wait()
+        pid, status, used = os.wait4(-1, 0)
         if pid not in self.running:
             return
         job, process, commands = self.running.pop(pid)
+        job.add_seconds(used.ru_utime + used.ru_stime)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode == 0:
             self._next_command(job, commands)

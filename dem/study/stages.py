@@ -96,6 +96,10 @@ class Stages:
                 "mean_stress": pressure, **self.moving(SERVO_RATE),
                 "max_unbalanced_ratio": RELEASE_BALANCE, **keys}
 
+    def hold(self, name, pressure, cycles):
+        return {"kind": "servo", "name": name, "friction_coefficient": RELEASE_FRICTION,
+                "mean_stress": pressure, "duration": cycles, **self.moving(SERVO_RATE)}
+
     def shear(self, pressure, strain, **keys):
         return {"kind": "shear", "mean_stress": pressure,
                 "axial_strain_rate": AXIAL_RATE * self.pace, "axial_strain": strain,

@@ -11,7 +11,7 @@ COLUMNS = ("run", "kind", "stage", "test", "family", "shape", "elongation", "fla
            "pressure", "preparation", "law", "intermediate_ratio", "contacts", "seed", "status")
 
 KINDS = {"grow": "growth", "unload": "unload", "shear": "shear", "relax": "sample",
-         "compress": "sample"}
+         "compress": "sample", "servo": "sample"}
 TESTS = {"spheroid-e11": "4a-table", "spheroid-p100": "4a", "spheroid-p070": "4b",
          "spheroid-p050": "4c", "spheroid-p030": "4d", "spheroid-p010": "4e",
          "test1-sample": "1", "test3-sample": "3", "test1": "1", "test3": "3"}

@@ -221,13 +221,16 @@ def labelled(label, finding):
     return dataclasses.replace(finding, ours=f"{label} {finding.ours}")
 
 
-def on_sets(sets, find):
+def on_sets(sets, find, shown=None):
     """The text does not say over which pressures a range spans: {name: keys of one set}. Met on all
-    of them is met; on some of them it is as doubtful as the text. The note says on which."""
+    of them is met; on some of them it is as doubtful as the text. The note says on which.
+
+    @param shown  keys of which values are shown, without a bar [those of all sets]"""
     findings = {name: find(keys) for name, keys in sets.items()}
     met = {name: finding.met for name, finding in findings.items()}
-    words = ", ".join(f"{name}: {'met' if ok else 'not met'}" for name, ok in met.items())
-    shown = max(findings.values(), key=lambda finding: len(finding.ours))
+    note = "; ".join(f"{name}: {'met' if met[name] else 'not met'}"
+                     + (f" ({finding.note})" if finding.note else "")
+                     for name, finding in findings.items())
     doubt = "holds for one reading of the range" if any(met.values()) and not all(met.values()) else ""
-    return dataclasses.replace(shown, met=all(met.values()), doubt=doubt,
-                               note="; ".join(filter(None, [words, shown.note])))
+    keys = shown or list(dict.fromkeys(key for keys in sets.values() for key in keys))
+    return dataclasses.replace(find(keys), met=all(met.values()), doubt=doubt, note=note)

@@ -26,8 +26,8 @@ def strength(x):
 
 
 def volume(x):
-    """Dilates at a rate of 0.6 to 0.2, then not at all."""
-    return 0.6 * min(x, 0.2)
+    """Dilates at a rate of 0.6 from 0.06 to 0.2, and neither before nor after."""
+    return 0.6 * (min(x, 0.2) - min(x, 0.06))
 
 
 def made_test(stretch=1.0, end=0.4):

@@ -54,6 +54,7 @@ class BarTest(unittest.TestCase):
     def test_near_takes_its_edge_and_not_more(self):
         self.assertTrue(verdicts.near(Sample([1.06, 1.06]), 1.0, absolute=0.0600001).met)
         self.assertFalse(verdicts.near(Sample([1.07, 1.07]), 1.0, relative=0.06).met)
+        self.assertFalse(verdicts.near(Sample([0.93, 0.93]), 1.0, relative=0.06).met)
         self.assertTrue(verdicts.near(Sample([1.0, 1.1]), 1.0, relative=0.06).met)
 
     def test_inside(self):
