@@ -33,7 +33,7 @@ LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 46, 340
 MOST_POINTS = 220
 
 # Chosen: of the axis y, as a share of the largest value; less needs long numbers.
-LEAST_SPAN = 0.02
+LEAST_SPAN = 0.04
 
 STYLES = ("line", "dashes", "dots", "points", "marks", "steps", "bars")
 

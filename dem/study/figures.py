@@ -52,7 +52,7 @@ def alt_of(chart):
     words = []
     for curve in chart.curves:
         points = [(x, y) for x, y in zip(curve.x, curve.y) if math.isfinite(x) and math.isfinite(y)]
-        if not points:
+        if not points or len(set(points)) < len(points) == 2:  # nothing, or what in_legend() makes
             continue
         name = plain(curve.name) or "curve"
         top = max(points, key=lambda point: point[1])
@@ -63,6 +63,14 @@ def alt_of(chart):
                          f"{shown(top[0])}, {shown(points[-1][1])} at last")
     return (f"Chart of {plain(chart.y_label)} against {plain(chart.x_label)}. "
             + "; ".join(words[:9]) + ".")
+
+
+def in_legend(name, curves, style="dashes"):
+    """A line of the legend for all curves of a style, grey; it shows where one of the curves does."""
+    points = [(x, y) for curve in curves for x, y in zip(curve.x, curve.y)
+              if math.isfinite(x) and math.isfinite(y)][:1]
+    return charts.Curve(name, [x for x, _ in points] * 2, [y for _, y in points] * 2, colour="#555555",
+                        style=style)
 
 
 class Maker:
@@ -94,8 +102,7 @@ class Maker:
                 curves.append(self.results.curve("", stem, dashed_y, kind=kind, stage="shear",
                                                  colour=colour, style="dashes", band=False))
         if dashed_y and dashed_name:
-            curves.append(charts.Curve(dashed_name, [0.0, 0.0], [curves[0].y[0]] * 2 if curves[0].y
-                                       else [math.nan] * 2, colour="#555555", style="dashes"))
+            curves.append(in_legend(dashed_name, curves))
         return self.chart(key, title, "axial strain", y_label, curves, caption, **options)
 
     def against_pressure(self, key, title, y_label, measures, caption, *, families=None, **options):

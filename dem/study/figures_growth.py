@@ -4,6 +4,7 @@
 import math
 
 import charts
+import series
 from charts import COLOURS
 from figures import Chapter
 
@@ -184,14 +185,18 @@ def limits(maker):
             return (results.averages(folder, "final").get("coordination") or {}).get(
                 "without_rattlers") or math.nan
 
-        stems = {pressure: f"{family}-limit{step}" for step, pressure in ((3, 1), (2, 2), (1, 4))}
-        curves.append(results.points(name, stems, measure, colour=COLOURS[k]))
-    return maker.chart("release-limit", "Towards no pressure, without friction",
-                       "mean stress, MPa (in the plane that of equal overlap)",
+        def pressure(folder):
+            return 1e-6 * results.summary(folder, "mean_stress")
+
+        stems = {step: f"{family}-limit{step}" for step in (1, 2, 3)}
+        curve = results.points(name, stems, measure, colour=COLOURS[k])
+        curve.x = [series.mean_and_ends(results.per_seed(stem, pressure))[0] for stem in stems.values()]
+        curves.append(curve)
+    return maker.chart("release-limit", "Towards no pressure, without friction", "mean stress, MPa, logarithmic",
                        "contacts of a particle, rattlers apart", curves,
                        "As many contacts as free motions need: 6 for spheres, 10 for bodies of revolution, "
                        "12 for three different axes, 4 for disks, 6 for ellipses. The text has 12 for "
-                       "smooth spheroids, which is an erratum.", x_range=(0, 4.5))
+                       "smooth spheroids, which is an erratum.", logarithmic=True, y_range=(3, 13))
 
 
 def chapters(maker):

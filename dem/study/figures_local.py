@@ -37,7 +37,7 @@ def local(maker):
                         lambda row: abs(row["A_E"]),
                         "In the text it is not mobilised before 3 % of strain at any pressure, then goes "
                         "hyperbolically to a limit.", kind="micro", y_range=(0, None)),
-        maker.pressures("local-P2", "From long axes to normals", "〈P_{2}(cos γ)〉", "P2",
+        maker.pressures("local-P2", "From long axes to normals", "mean of P_{2}(cos γ)", "P2",
                         "γ is the angle between a contact normal and the particle's long axis. Full lines are "
                         "measured, dashes follow from a<sub>1</sub>. The text stopped before this.",
                         kind="micro", dashed="P2_model", dashed_name="predicted"),
@@ -120,7 +120,7 @@ def rotation(maker):
     return maker.chart("local-rotation", "What rotation gives to the fabric, at 30 MPa", "axial strain",
                        "axial component", drawn,
                        "The part of a<sup>r</sup> that follows from the turned axes alone, "
-                       "〈P<sub>2</sub>〉a<sup>E</sup>. The rest is due to gained and lost contacts.", zero=True)
+                       "the mean of P<sub>2</sub> times a<sup>E</sup>. The rest is due to gained and lost contacts.", zero=True)
 
 
 def arc_anisotropy(ratio, points=720):

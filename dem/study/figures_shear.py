@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Chapters of the page on shear tests: stress, volume, contacts and forces (sections 5.4.1 to 5.4.7)."""
 
-import math
-
 import charts
 import series
 from charts import COLOURS
@@ -191,7 +189,7 @@ def contacts(maker):
                         "It rises as contacts are lost under a mean stress that is held."),
         maker.against_pressure(
             "force-pressure", "Mean normal force against pressure", "f_{0}, GN",
-            {"initial": lambda folder: 1e-9 * results.averages(folder, "shear-A").get("f0", math.nan),
+            {"initial": lambda folder: initial_f0(results, folder),
              "at 20.5 % strain": lambda folder: 1e-9 * results.value_at(folder, "f0", STEADY, "micro")},
             "Mean over orientations. The text finds initial and steady values strongly correlated with "
             "pressure.", y_range=(0, None)),
@@ -209,6 +207,12 @@ def contacts(maker):
                         dashed=lambda row: 0.5 * (row["normal_force_x"] + row["normal_force_y"]) / row["f0"],
                         dashed_name="lateral", y_range=(0, None)),
     ]
+
+
+def initial_f0(results, folder):
+    """GN; of the state kept before shear, else of the first averages in it."""
+    kept = results.averages(folder, "shear-A").get("f0")
+    return 1e-9 * (kept or results.first(folder, "f0", "micro"))
 
 
 def groups_at(maker, pressure):

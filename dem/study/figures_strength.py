@@ -2,13 +2,11 @@
 """Chapter of the page on stress, force and fabric (chapter 6): what bears the shear strength."""
 
 from charts import COLOURS
-from figures import Chapter
+from figures import Chapter, in_legend
 from results import shear_of
 
 # Of a_s, in the order of the legend.
-SHARES = {"r": "fabric", "n": "normal force", "t": "tangential force", "z": "branch, normal",
-          "zt": "branch, tangential", "rz": "fabric-branch", "rf": "fabric-force",
-          "zf": "force-branch"}
+SHARES = ("r", "n", "t", "z", "zt", "rz", "rf", "zf")
 
 TEXT = """
 <p>The stress is a mean over directions of force times branch, so it is a sum of parts that belong to the
@@ -43,9 +41,10 @@ def principal(maker, pressure):
     for k in (1, 2, 3):
         drawn.append(results.curve(f"σ_{{{k}}}", stem, lambda row, k=k: 1e-6 * row[f"s{k}"],
                                    kind="micro", stage="shear", colour=COLOURS[k - 1]))
-        drawn.append(results.curve("predicted" if k == 3 else "", stem,
+        drawn.append(results.curve("", stem,
                                    lambda row, k=k: 1e-6 * row[f"s{k}_seven"], kind="micro",
                                    stage="shear", colour=COLOURS[k - 1], style="dashes", band=False))
+    drawn.append(in_legend("predicted", drawn))
     return maker.chart(f"sff-principal-{pressure:03d}", f"Principal stresses at {pressure} MPa",
                        "axial strain", "stress, MPa", drawn,
                        "Full lines are measured, dashes predicted by seven parts. In the text they are close; the "
@@ -81,14 +80,15 @@ def lode(maker, family):
 
 
 def parts(maker, pressure):
-    drawn = [maker.results.curve(name, shear_of(pressure),
+    drawn = [maker.results.curve(x, shear_of(pressure),
                                  lambda row, x=x: 100.0 * row[f"share_{x}"] / row["a_s_seven"],
                                  kind="micro", stage="shear", colour=COLOURS[k], band=False)
-             for k, (x, name) in enumerate(SHARES.items())]
+             for k, x in enumerate(SHARES)]
     return maker.chart(f"shares-{pressure:03d}", f"Who bears the shear stress at {pressure} MPa",
                        "axial strain", "share of a_{s}, %", drawn,
-                       "Force and fabric prevail, and of the products theirs. In the text branches bear little, "
-                       "more with strain, and mostly against the load.", zero=True,
+                       "r: fabric; n and t: normal and tangential force; z and zt: branch; rz, rf and zf: products. In "
+                       "the text force and fabric prevail; branches bear little, more with strain, and mostly against "
+                       "the load.", zero=True,
                        x_range=(0.01, None))
 
 
@@ -110,8 +110,8 @@ def axes(maker):
              for k, (part, name) in enumerate({"fabric": "fabric", "branch": "branch", "force": "force",
                                                "fabric_force": "fabric-force"}.items())]
     return maker.chart("sff-axes", "Axes of the parts at 30 MPa", "axial strain",
-                       "angle to the axis of the stress, degrees", drawn,
-                       "Angle between axial principal axes. In the text the parts are coaxial.",
+                       "angle, degrees", drawn,
+                       "Angle between the axial principal axes of a part and of the stress. In the text the parts are coaxial.",
                        y_range=(0, None), x_range=(0.01, None))
 
 

@@ -89,7 +89,7 @@ def write_run(out, stem, seed=1, stage="shear", pressure=50, states=()):
     os.makedirs(os.path.join(folder, "tables"))
     os.makedirs(os.path.join(folder, "states"))
     with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as file:
-        json.dump({"peak_friction_angle_deg": 40.0 - 0.01 * pressure,
+        json.dump({"mean_stress": 1e6 * pressure, "peak_friction_angle_deg": 40.0 - 0.01 * pressure,
                    "strain_at_peak_friction": 0.001 * pressure, "peak_dilation_rate": 0.8,
                    "strain_at_peak_dilation": 0.002 * pressure}, file)
     for name in ("final", "shear-A"):
