@@ -168,15 +168,16 @@ struct Contacts::Step {
   bool bears_shear, hertz;
 };
 
-/// What a block took, in seconds, and how many gaps took more than the fast tier.
+/// What a block took, in seconds, and which of its pairs took another way than most.
 struct Contacts::BlockTimes {
   double gaps = 0.0, law = 0.0;
-  std::int64_t slow = 0;
+  MeasuredPairs pairs;
 
   BlockTimes& operator+=(const BlockTimes& other) {
     gaps += other.gaps;
     law += other.law;
-    slow += other.slow;
+    pairs.slow += other.pairs.slow;
+    pairs.unanswered += other.pairs.unanswered;
     return *this;
   }
 };
@@ -216,7 +217,8 @@ void Contacts::update_blocks(const Step& step, Profile* profile) {
   const double seconds = seconds_since(start), share = all.gaps / (all.gaps + all.law);
   (*profile)[Phase::gaps] += share * seconds;
   (*profile)[Phase::law] += (1.0 - share) * seconds;
-  profile->slow_pairs += all.slow;
+  profile->slow_pairs += all.pairs.slow;
+  profile->unanswered_contacts += all.pairs.unanswered;
 }
 
 void Contacts::resize(std::size_t pairs) {
@@ -266,9 +268,9 @@ Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step,
   ContactBlock block = block_at(index);
   const auto pairs = std::span(step.pairs).subspan(first, block.count);
   BlockGeometry geometry;
-  times.slow = static_cast<std::int64_t>(narrow_phase_.measure(
-      pairs, step.particles, step.cell, std::span(columns_.normal).subspan(first, block.count),
-      step.branch, geometry));
+  times.pairs = narrow_phase_.measure(pairs, step.particles, step.cell,
+                                      std::span(columns_.normal).subspan(first, block.count),
+                                      step.branch, geometry);
   if (is_timed) {
     times.gaps = seconds_since(start);
     start = Clock::now();
@@ -382,6 +384,23 @@ void Contacts::restore(ContactColumns columns, const Particles& particles,
   may_have_shear_ = true;
   resize(list.pairs().size());
   add_up(particles, list);
+}
+
+std::int64_t Contacts::unanswered(const Particles& particles, const Cell& cell,
+                                  const NeighbourList& list) const {
+  NarrowPhase narrow_phase;
+  narrow_phase.aim(particles);
+  narrow_phase.refresh(particles, 0, particles.size());
+  std::int64_t count = 0;
+  for (std::size_t first = 0; first < count_; first += kPairBlock) {
+    const std::size_t size = std::min(kPairBlock, count_ - first);
+    BlockGeometry geometry;
+    count += narrow_phase
+                 .measure(std::span(list.pairs()).subspan(first, size), particles, cell,
+                          std::span(columns_.normal).subspan(first, size), Branch::trace, geometry)
+                 .unanswered;
+  }
+  return count;
 }
 
 void Contacts::add_up(const Particles& particles, const NeighbourList& list) {

@@ -154,6 +154,11 @@ class Contacts {
   const ContactSums& sums() const { return sums_; }
   ContactTotals totals() const;
 
+  /// Of the contacts as they are, those of two ellipsoids that the published scheme has no answer
+  /// for (trace_contact.hpp): Branch::trace takes the certified one.
+  std::int64_t unanswered(const Particles& particles, const Cell& cell,
+                          const NeighbourList& list) const;
+
  private:
   struct Step;
   struct BlockTimes;

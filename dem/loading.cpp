@@ -49,6 +49,12 @@ Target Target::direction(int from, int to, double angle) {
   return {"shear across the major direction", shear, 1.0, 0.0, shear};
 }
 
+Target Target::intermediate_ratio(double ratio) {
+  const Mat3 weights = Vec3(ratio - 1.0, 1.0, -ratio).asDiagonal();
+  return {"difference of stress_yy from its intermediate ratio", weights, 1.0, 0.0,
+          Vec3(-1.0, 1.0, 0.0).asDiagonal()};
+}
+
 double Target::measured(const Stress& stress) const {
   return (weights * stress.tensor).trace() / divisor;
 }

@@ -36,6 +36,11 @@ struct Target {
   /// `to`: the principal stresses of that plane lie along them, as in a ring shear test.
   static Target direction(int from, int to, double angle);
 
+  /// s_yy - s_xx = ratio (s_zz - s_xx), in space: with the principal stresses along the axes, a
+  /// Lode angle of tan(theta) = sqrt(3) ratio / (2 - ratio). Its actuator strains y against x.
+  /// @param ratio  in [0, 1]
+  static Target intermediate_ratio(double ratio);
+
   double measured(const Stress& stress) const;
   /// Rise of the stress per strain against the actuator, if particles only followed the cell and
   /// contacts pointed everywhere alike: that of the mean stress times

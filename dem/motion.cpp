@@ -12,13 +12,18 @@
 namespace tangency::dem {
 namespace {
 
+detail::DampedKick kick_of(double damping, double largest, double dt) {
+  const double half = 0.5 * damping * dt;
+  return {(1.0 - half) / (1.0 + half), dt / (1.0 + half), largest > 0.0 ? damping / largest : 0.0};
+}
+
 detail::MotionStep step_of(const Motion& motion, const Mat3& rate, double dt) {
-  const double half = 0.5 * motion.damping * dt;
+  const double of_turns = motion.rotational_damping.value_or(motion.damping);
   detail::MotionStep step{};
-  step.keep = (1.0 - half) / (1.0 + half);
-  step.push = dt / (1.0 + half);
+  step.damping = std::max(motion.damping, of_turns);
+  step.of_shift = kick_of(motion.damping, step.damping, dt);
+  step.of_turn = kick_of(of_turns, step.damping, dt);
   step.dt = dt;
-  step.damping = motion.damping;
   for (int k = 0; k < 3; ++k) {
     step.gravity[k] = motion.gravity[k];
     for (int j = 0; j < 3; ++j) step.rate[3 * k + j] = rate(k, j);

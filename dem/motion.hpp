@@ -16,6 +16,7 @@
 ///     velocities, positions and orientations exactly 0: nothing has to be locked.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 
 #include <tangency/dem/cell.hpp>
@@ -40,6 +41,8 @@ struct Motion {
   Rotation rotation = Rotation::full;
   Vec3 gravity = Vec3::Zero();  ///< acceleration, length/time^2
   double damping = 0.0;         ///< rate at which a free particle's velocity decays, >= 0, 1/time
+  /// The same of its angular velocity; without: damping.
+  std::optional<double> rotational_damping = {};
 };
 
 /// What acted on the fluctuating velocities besides contacts, energy.
@@ -50,6 +53,7 @@ struct MotionWork {
 
 /// Takes velocities from half a step before to half a step after the resultants' time,
 ///     v <- ((1 - damping dt/2) v + F dt / m) / (1 + damping dt/2),
+/// and angular velocities alike with their damping [Ouadfel1998, eq. 3.15, 3.21],
 /// then positions and orientations a step on, with the affine motion of the cell, then the cell.
 /// Spheres and plane bodies, whose quadratic terms are 0, take the simplified equations.
 /// @throws Diverged  also where a body turns by more than 2^21 rad about one axis at once: in the

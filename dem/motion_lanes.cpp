@@ -44,8 +44,8 @@ HWY_INLINE void turn_freely(PackQuaternion& q, PackVec3& momentum, const PackVec
   turn_about(share.x * l.x, q.w, q.x, q.y, q.z, l.y, l.z);
 }
 
-/// Takes orientations and angular velocities a step on. Returns what damping took over dt damping,
-/// where there is any.
+/// Takes orientations and angular velocities a step on. Returns what damping took over dt times the
+/// larger damping, where there is any.
 HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const MotionStep& step,
                      std::size_t at, PackMask& finite) {
   const PackVec3 axes = load_vectors(c.semi_axes + 3 * at);
@@ -55,11 +55,11 @@ HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const 
   const PackVec3 moment = rotation.to_body(load_vectors(c.moment + 3 * at));
   const PackVec3 before = load_vectors(c.angular_velocity + 3 * at);
   const PackVec3 acceleration = rotation.to_space(times(moment, inertia.inverse));
-  PackVec3 spin = before * all(step.keep) + acceleration * all(step.push);
+  PackVec3 spin = before * all(step.of_turn.keep) + acceleration * all(step.of_turn.push);
   Pack lost = all(0.0);
   if (step.damping != 0.0) {
     const PackVec3 mean = rotation.to_body((before + spin) * all(0.5));
-    lost = unfused_dot(inertia.moments, times(mean, mean));
+    lost = unfused_dot(inertia.moments, times(mean, mean)) * all(step.of_turn.share);
   }
   // A body whose quadratic terms are 0 takes the simplified equations.
   const PackMask is_shaped =
@@ -88,7 +88,7 @@ HWY_INLINE Pack turn(const ParticleColumns& c, const MovedColumns& moved, const 
   return lost;
 }
 
-/// The same of positions and velocities. Returns mass |mean velocity|^2.
+/// The same of positions and velocities.
 HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const MotionStep& step,
                       std::size_t at, Pack& fallen, PackMask& finite) {
   const Pack mass = load(c.mass + at);
@@ -96,8 +96,9 @@ HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const
   const PackVec3 force = load_vectors(c.force + 3 * at);
   const double *g = step.gravity, *r = step.rate;
   const PackVec3 gravity{all(g[0]), all(g[1]), all(g[2])};
-  const PackVec3 velocity =
-      before * all(step.keep) + force * (all(step.push) / mass) + gravity * all(step.push);
+  const PackVec3 velocity = before * all(step.of_shift.keep) +
+                            force * (all(step.of_shift.push) / mass) +
+                            gravity * all(step.of_shift.push);
   const PackVec3 mean = (before + velocity) * all(0.5);
   const PackVec3 x = load_vectors(moved.position + 3 * at);
   const PackVec3 affine{unfused_dot({all(r[0]), all(r[1]), all(r[2])}, x),
@@ -109,7 +110,7 @@ HWY_INLINE Pack shift(const ParticleColumns& c, const MovedColumns& moved, const
   fallen = mass * unfused_dot(gravity, velocity);
   // A sum, since the larger of a NaN and a number may be the number.
   finite = (absolute(there.x) + absolute(there.y) + absolute(there.z)) <= all(__DBL_MAX__);
-  return mass * unfused_dot(mean, mean);
+  return mass * unfused_dot(mean, mean) * all(step.of_shift.share);
 }
 
 HWY_ATTR MovedSum move_lanes(const ParticleColumns& columns, const MovedColumns& moved,

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,15 @@ namespace tangency::dem {
 enum class Branch {
   follow,  ///< that of the step before, while it lasts
   global,  ///< the shortest way out, at the cost of a search
+  /// That of the published scheme of curves (geometry/trace_contact.hpp), an approximation, for the
+  /// ellipsoids that it answers; else as follow. Slow: it is there to be compared with.
+  trace,
+};
+
+/// Pairs of a block whose answer took another way than most, for a Profile.
+struct MeasuredPairs {
+  std::int64_t slow = 0;        ///< gaps of ellipsoids that took more than the fast tier
+  std::int64_t unanswered = 0;  ///< of Branch::trace: that touch, and the scheme does not answer
 };
 
 /// Pairs that are looked at together. Measured on assembly-1000: from 32 to 256 the time differs by
@@ -55,11 +65,13 @@ class NarrowPhase {
   /// refreshed by different threads.
   void refresh(const Particles& particles, std::size_t first, std::size_t last);
 
-  /// How pairs lie, at most kPairBlock of them. Returns how many gaps of ellipsoids took more than
-  /// the fast tier.
+  /// How pairs lie, at most kPairBlock of them. By Branch::trace body A of the scheme, which
+  /// answers otherwise for (B, A), is the one that comes first in the scene: the order in memory
+  /// does not matter. Walls, and particles that are all spheres, are measured by their formulas;
+  /// for spheres that is the scheme's answer.
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
-  std::size_t measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
-                      std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
+  MeasuredPairs measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
+                        std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
 
   /// Principal curvatures of the distance between two touching bodies of a block.
   PrincipalCurvatures relative_curvature(const IndexedPair& pair, const Vec3& normal) const;
@@ -70,8 +82,9 @@ class NarrowPhase {
  private:
   enum class Kind { spheres, ellipses, ellipsoids };
   void measure_spheres(std::size_t count, BlockGeometry& block) const;
-  std::size_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
-                                 BlockGeometry& block) const;
+  std::int64_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
+                                  BlockGeometry& block) const;
+  std::int64_t trace(std::size_t count, const Particles& particles, BlockGeometry& block) const;
   void measure_wall(std::size_t k, const Wall& wall, const Particles& particles, const Cell& cell,
                     BlockGeometry& block) const;
 

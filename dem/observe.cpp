@@ -40,6 +40,16 @@ struct Unbalanced {
   }
 };
 
+/// Over the pairs of a chunk.
+struct TensorSum {
+  Mat3 tensor = Mat3::Zero();
+
+  TensorSum& operator+=(const TensorSum& other) {
+    tensor += other.tensor;
+    return *this;
+  }
+};
+
 }  // namespace
 
 Stress stress_of(const Contacts& contacts, const Cell& cell) {
@@ -47,6 +57,41 @@ Stress stress_of(const Contacts& contacts, const Cell& cell) {
   const double volume = cell.volume();
   return {0.5 / volume * (sums.force_branch + sums.force_branch.transpose()),
           sums.affine_stiffness / (cell.dimensions * volume), cell.dimensions};
+}
+
+double asymmetry_of(const Contacts& contacts, const Cell& cell) {
+  const Mat3& sum = contacts.sums().force_branch;
+  const double mean = sum.trace() / cell.dimensions;
+  return mean > 0.0 ? (sum - sum.transpose()).norm() / mean : 0.0;
+}
+
+Mat3 boundary_stress_of(const Particles& particles, const Cell& cell, const Contacts& contacts,
+                        const NeighbourList& list) {
+  const std::vector<Pair>& pairs = list.pairs();
+  const auto image_of = [&](std::int32_t i) {
+    return cell.image_of(particles.position[static_cast<std::size_t>(i)]);
+  };
+  const auto sum = sum_by_chunks<TensorSum>(pairs.size(), [&](std::size_t first, std::size_t last) {
+    TensorSum some;
+    for (std::size_t k = first; k < last; ++k) {
+      if (!contacts.touches(k)) continue;
+      const Pair& pair = pairs[k];
+      const Image of_a = image_of(pair.a);
+      Vec3 lever;  // to the wall, or of the faces between the two as they are in the cell
+      if (static_cast<std::size_t>(pair.b) >= particles.size()) {
+        lever = particles.position[static_cast<std::size_t>(pair.a)] - cell.translation(of_a) +
+                contacts.columns().branch[k];
+      } else {
+        Image crossed = image_of(pair.b);
+        for (std::size_t axis = 0; axis < 3; ++axis) crossed[axis] += pair.image[axis] - of_a[axis];
+        if (crossed == Image{}) continue;
+        lever = cell.translation(crossed);
+      }
+      some.tensor += contacts.force(k) * lever.transpose();
+    }
+    return some;
+  });
+  return sum.tensor / cell.volume();
 }
 
 double friction_angle_deg(const Mat3& stress, int dimensions) {
@@ -130,6 +175,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   seen.axial_strain = 0.0 - strain(axial, axial);  // not -0 of an unstrained cell
   seen.volumetric_strain = strain.trace();
   seen.stress = stress_of(contacts, cell);
+  seen.asymmetry = asymmetry_of(contacts, cell);
   const ContactTotals totals = contacts.totals();
   seen.contacts = totals.contacts;
   if (seen.contacts > 0) {
@@ -152,6 +198,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
 std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
                                   std::int64_t stage_cycle, const Observation& seen) {
   const Mat3& s = seen.stress.tensor;
+  const Mat3 b = 0.5 * (seen.boundary_stress + seen.boundary_stress.transpose());
   return {{"cycle", cycle},
           {"time", time},
           {"stage", stage},
@@ -181,7 +228,14 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"sliding_loss", seen.account.sliding},
           {"damping_loss", seen.account.damping},
           {"energy_error", seen.energy_error},
-          {"stage_cycle", stage_cycle}};
+          {"stage_cycle", stage_cycle},
+          {"asymmetry", seen.asymmetry},
+          {"boundary_s_xx", b(0, 0)},
+          {"boundary_s_yy", b(1, 1)},
+          {"boundary_s_zz", b(2, 2)},
+          {"boundary_s_xy", b(0, 1)},
+          {"boundary_s_yz", b(1, 2)},
+          {"boundary_s_zx", b(2, 0)}};
 }
 
 }  // namespace tangency::dem

@@ -36,6 +36,22 @@ struct Stress {
 };
 Stress stress_of(const Contacts& contacts, const Cell& cell);
 
+/// |s - s'| over the mean stress, of the stress s before it is made symmetric: what moments that
+/// are out of balance make of it. 0 without a mean stress.
+double asymmetry_of(const Contacts& contacts, const Cell& cell);
+
+/// Stress from the forces through the boundary, compression positive, not symmetric:
+/// (1/V) (sum over walls of force (x) place on the wall + sum over contacts that cross a periodic
+/// face of force (x) the edges from that face to the opposite one), force of the particle on the
+/// wall or of the one before the face on the one behind it. Particles count where they are in the
+/// cell.
+///
+/// (1) With the resultants R of the contacts on particles at x it is the stress of the contacts
+///     before it is made symmetric, less (1/V) sum of R (x) x: the same in balance. Places x count
+///     from the cell's corner.
+Mat3 boundary_stress_of(const Particles& particles, const Cell& cell, const Contacts& contacts,
+                        const NeighbourList& list);
+
 /// asin((s1 - s3) / (s1 + s3)) of the principal stresses, in the plane of the two there, in
 /// degrees; 0 without stress.
 double friction_angle_deg(const Mat3& stress, int dimensions = 3);
@@ -96,6 +112,8 @@ struct Observation {
   EnergyAccount account{};
   /// Kinetic and elastic energy now less what the account says: what the time step lost or gained.
   double energy_error = 0.0;
+  double asymmetry = 0.0;               ///< asymmetry_of()
+  Mat3 boundary_stress = Mat3::Zero();  ///< of a Simulation; else 0
 };
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
                     const Vec3& gravity = Vec3::Zero());

@@ -36,10 +36,17 @@ struct MovedColumns {
   double *position, *velocity, *angular_velocity, *orientation;
 };
 
+/// How a step changes velocities: v <- keep v + push (force / mass + gravity), turns alike.
+struct DampedKick {
+  double keep, push;
+  double share;  ///< of its damping in MotionStep::damping, in [0, 1]
+};
+
 /// The coefficients of a step, of dem::move().
 struct MotionStep {
-  double keep, push;  ///< v <- keep v + push (force / mass + gravity)
-  double dt, damping;
+  DampedKick of_shift, of_turn;
+  double dt;
+  double damping;  ///< the larger of the two
   double gravity[3];
   double rate[9];  ///< of the cell, row by row
   bool turns;      ///< else orientations and angular velocities stay

@@ -52,6 +52,7 @@ std::vector<ProfileEntry> entries_of(const Profile& profile) {
   add("listed_pairs_a_cycle", profile.listed_pairs);
   add("touching_pairs_a_cycle", profile.touching_pairs);
   add("slow_pairs_a_cycle", profile.slow_pairs);
+  add("unanswered_contacts_a_cycle", profile.unanswered_contacts);
   entries.emplace_back("peak_memory_bytes", peak_memory());
   return entries;
 }
@@ -75,6 +76,7 @@ std::string table_of(const Profile& profile, double cycle_seconds) {
   pair_line("listed pairs a cycle", profile.listed_pairs);
   pair_line("touching pairs a cycle", profile.touching_pairs);
   pair_line("slow pairs a cycle", profile.slow_pairs);
+  pair_line("unanswered contacts a cycle", profile.unanswered_contacts);
   return text + count_line("peak memory, MB", 1e-6 * static_cast<double>(peak_memory()));
 }
 

@@ -42,6 +42,8 @@ struct Profile {
   std::int64_t listed_pairs = 0;    ///< summed over cycles, as all counts of pairs
   std::int64_t touching_pairs = 0;  ///< of the listed ones
   std::int64_t slow_pairs = 0;      ///< whose gap took more than the fast tier (GapTier)
+  /// Of touching pairs by Branch::trace: those that the published scheme does not answer.
+  std::int64_t unanswered_contacts = 0;
 
   double& operator[](Phase phase) { return seconds[static_cast<std::size_t>(phase)]; }
   double operator[](Phase phase) const { return seconds[static_cast<std::size_t>(phase)]; }

@@ -91,7 +91,12 @@ class Reader {
     scene_.rotation = rotation == "full"         ? Rotation::full
                       : rotation == "simplified" ? Rotation::simplified
                                                  : Rotation::none;
-    scene_.branch = motion.text("contacts") == "global" ? Branch::global : Branch::follow;
+    const std::string contacts = motion.text("contacts");
+    if (scene_.dimensions == 2 && contacts == "trace")
+      motion.fail("contacts", "with dimensions = 2 follow or global: trace is of ellipsoids");
+    scene_.branch = contacts == "global"  ? Branch::global
+                    : contacts == "trace" ? Branch::trace
+                                          : Branch::follow;
   }
 
   /// In the plane there is nothing to be flat.

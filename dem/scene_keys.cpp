@@ -57,8 +57,9 @@ constexpr std::array kKeys{
     Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySign, "", "", "Acceleration"},
     Key{"motion", "rotation", text, "-", "full", kNoRange, "none simplified full", "",
         "Euler's equations: full, without their quadratic terms, or none at all"},
-    Key{"motion", "contacts", text, "-", "follow", kNoRange, "follow global", "",
-        "Of several ways out of an overlap: that of the step before, or the shortest"},
+    Key{"motion", "contacts", text, "-", "follow", kNoRange, "follow global trace", "",
+        "Of several ways out of an overlap: that of the step before, or the shortest; trace: that "
+        "of the published scheme of curves, slow"},
 
     Key{"particles", "count", integer, "-", "", between(1, kMostParticles), "", "",
         "Number of particles of this type"},
@@ -123,9 +124,13 @@ constexpr std::array kKeys{
         "Mean stress to hold; a shear that holds none keeps its volume"},
     Key{"stage", "lateral_stress", real, "Pa", "(not held)", kPositive, "", "shear",
         "Stress to hold along the lateral axes, instead of a mean stress"},
+    Key{"stage", "intermediate_ratio", real, "-", "(not held)", between(0.0, 1.0), "",
+        "shear servo",
+        "b to hold in s_yy - s_xx = b (s_zz - s_xx), in space: true triaxial; in a shear beside "
+        "mean_stress"},
     Key{"stage", "axial_strain_rate", real, "1/s", "", kPositive, "", "shear",
-        "Compression along z (in the plane y); the lateral axes extend at constant volume but for "
-        "what is held"},
+        "Compression along z (in the plane y); the lateral axes extend at constant volume, with an "
+        "intermediate_ratio in the proportions of its deviator, but for what is held"},
     Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
         "Logarithmic axial compression at which the stage ends"},
     Key{"stage", "strain_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
@@ -173,6 +178,8 @@ constexpr std::array kKeys{
         "relax unload",
         "The same; without: velocities are turned towards the forces, and taken away where they "
         "run against them, by the fast inertial relaxation engine"},
+    Key{"stage", "rotational_damping", real, "sqrt(K_max/m_min)", "(damping)", between(0.0, 10.0),
+        "", kMovingKinds, "The same rate of the angular velocity, where damping is a number"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, kLargestTimeStepFactor), "", kMovingKinds, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", kNotNegative, "",

@@ -40,7 +40,9 @@ struct Place {
 struct Drive {
   Loading loading;
   std::optional<double> damping;  ///< in 1 / characteristic_time(); without: as in fire.hpp
-  double time_step_factor;        ///< in characteristic_time()
+  /// Alike of angular velocities; without: damping.
+  std::optional<double> rotational_damping;
+  double time_step_factor;  ///< in characteristic_time()
   std::optional<double> friction_coefficient;
   std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
   std::optional<double> max_unbalanced_ratio;  ///< of every particle

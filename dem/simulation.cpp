@@ -216,8 +216,12 @@ double Simulation::time_step_ratio() const {
 }
 
 Motion Simulation::motion() const {
-  return {turns_ ? scene_.rotation : Rotation::none, scene_.gravity,
-          stage().drive->damping.value_or(0.0) / characteristic_time_};
+  const Drive& drive = *stage().drive;
+  Motion motion{turns_ ? scene_.rotation : Rotation::none, scene_.gravity,
+                drive.damping.value_or(0.0) / characteristic_time_};
+  if (drive.rotational_damping)
+    motion.rotational_damping = *drive.rotational_damping / characteristic_time_;
+  return motion;
 }
 
 /// At the time of the positions: what goes with the elastic energy in the account.
@@ -438,6 +442,8 @@ double Simulation::stage_fraction() const {
 Observation Simulation::observe() const {
   Observation seen = dem::observe(state_.particles, state_.cell, state_.contacts, scene_.gravity);
   seen.account = state_.energy;
+  seen.boundary_stress =
+      boundary_stress_of(state_.particles, state_.cell, state_.contacts, state_.list);
   seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
   return seen;
 }

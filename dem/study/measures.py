@@ -9,7 +9,6 @@ import csv
 import functools
 import json
 import math
-import os
 import statistics
 
 # Published strain of the steady state (5.4), and of the end (at least).
@@ -55,10 +54,7 @@ class Table:
         return len(next(iter(self.columns.values())))
 
     def __getitem__(self, name):
-        try:
-            return self.columns[name]
-        except KeyError:
-            raise Unmeasurable(f"no column {name}") from None
+        return self.columns[name]
 
     def where(self, keep):
         """The rows whose index is kept."""
@@ -78,7 +74,8 @@ class Table:
 def shear_stress_ratio(table):
     """a_s = sqrt(3/2) |deviator| / mean stress, of each row (6.23)."""
     ratios = []
-    for xx, yy, zz, xy, yz, zx in zip(*(table[f"s_{k}"] for k in ("xx", "yy", "zz", "xy", "yz", "zx"))):
+    for xx, yy, zz, xy, yz, zx in zip(*(table[f"s_{k}"]
+                                        for k in ("xx", "yy", "zz", "xy", "yz", "zx"))):
         mean = (xx + yy + zz) / 3.0
         square = sum((s - mean)**2 for s in (xx, yy, zz)) + 2 * (xy * xy + yz * yz + zx * zx)
         ratios.append(math.sqrt(1.5 * square) / mean if mean > 0.0 else 0.0)
@@ -127,12 +124,12 @@ class Test:
     def __init__(self, table, summary, stretch=1.0):
         self.table, self.summary, self.stretch = table, summary, stretch
         self.strain = table["axial_strain"]
-        self.columns = dict(table.columns, a_s=None)
 
     def __getitem__(self, name):
-        if name == "a_s" and self.columns["a_s"] is None:
-            self.columns["a_s"] = shear_stress_ratio(self.table)
-        return self.columns["a_s"] if name == "a_s" else self.table[name]
+        """A column; a_s of history.csv, which does not have it, from the stresses."""
+        if name == "a_s" and name not in self.table.columns:
+            self.table.columns[name] = shear_stress_ratio(self.table)
+        return self.table[name]
 
     @property
     def end(self):
@@ -141,7 +138,8 @@ class Test:
     def mean_at(self, name, strain, window=WINDOW):
         """The mean of rows within half a window of a strain of the study; the nearest row where
         there is none."""
-        return self._mean_near(self[name], self.strain, min(strain * self.stretch, self.end), window)
+        return self._mean_near(self[name], self.strain, min(strain * self.stretch, self.end),
+                               window)
 
     @staticmethod
     def _mean_near(values, strains, at, window):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bodies and stages of the study's scenes: the published parameters, and those that it does not say.
+"""Bodies and stages of the study's scenes: published parameters, and those that are not published.
 
 Published (Table 5.2): radius, stiffnesses, friction, pressures, elongations. Density is not
 published; it scales time alone. Steps, rates and damping are ours: any will do while the inertial
@@ -82,10 +82,13 @@ class Stages:
                 "mean_stress": pressure, **self.moving(GROWTH_RATE), "stress_tolerance": 0.01,
                 "max_unbalanced_ratio": 0.05}
 
-    def grow(self, name, pressure, eccentricity, increments, **keys):
-        return {"kind": "grow", "name": name, "elongation": elongation_of(eccentricity),
-                "increments": increments, "mean_stress": pressure, **self.moving(GROWTH_RATE),
-                "stress_tolerance": 0.02, **keys}
+    def grow(self, name, pressure, eccentricity, increments=None, **keys):
+        """In increments, each of which waits; cycles_per_percent waits less often."""
+        if increments:
+            keys["increments"] = increments
+        return {"kind": "grow", "name": name, "eccentricity": eccentricity,
+                "mean_stress": pressure, **self.moving(GROWTH_RATE), "stress_tolerance": 0.02,
+                **keys}
 
     def relax(self, name, pressure, **keys):
         return {"kind": "relax", "name": name, "friction_coefficient": 0.0,

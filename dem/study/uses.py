@@ -2,10 +2,11 @@
 """What each run is, for readers of the results: a line of runs.csv for each use of a run.
 
 Columns: run (folder below runs/), kind (growth, unload, shear, sample or limit), stage (its name in
-history.csv), test (of Table 5.2; 4a-table is 4a with the e = 0.11 of the table, 4a with the text's 0.176), family, shape, elongation (a / b
-at the stage's end), flatness, particles, pressure (Pa), preparation, law, intermediate_ratio,
-contacts, seed, status (complete, failed or missing).
+history.csv), test (of Table 5.2; 4a-table is 4a with the e = 0.11 of the table, 4a with the 0.176
+of the text), family, shape, elongation (a / b at the stage's end), flatness, particles, pressure
+(Pa), preparation, law, intermediate_ratio, contacts, seed, status (complete, failed or missing).
 """
+from stages import elongation_of
 
 COLUMNS = ("run", "kind", "stage", "test", "family", "shape", "elongation", "flatness", "particles",
            "pressure", "preparation", "law", "intermediate_ratio", "contacts", "seed", "status")
@@ -43,7 +44,8 @@ def lines(programme, jobs):
         elongation, flatness = particles.get("elongation", 1.0), particles.get("flatness", 1.0)
         own = len(programme.stages_of(run.name)) - len(run.stages)
         for at, stage in enumerate(programme.stages_of(run.name)):
-            elongation = stage.get("elongation", elongation)
+            if "eccentricity" in stage:
+                elongation = elongation_of(stage["eccentricity"])
             flatness = stage.get("flatness", flatness)
             if at < own or stage["kind"] not in KINDS:
                 continue

@@ -231,6 +231,7 @@ def on_sets(sets, find, shown=None):
     note = "; ".join(f"{name}: {'met' if met[name] else 'not met'}"
                      + (f" ({finding.note})" if finding.note else "")
                      for name, finding in findings.items())
-    doubt = "holds for one reading of the range" if any(met.values()) and not all(met.values()) else ""
+    some = any(met.values()) and not all(met.values())
+    doubt = "holds for one reading of the range" if some else ""
     keys = shown or list(dict.fromkeys(key for keys in sets.values() for key in keys))
     return dataclasses.replace(find(keys), met=all(met.values()), doubt=doubt, note=note)

@@ -97,6 +97,11 @@ logarithmic and count from the start of the stage:
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
   stage_cycle           cycles of the stage
+  asymmetry             |s - s'| / mean stress of the stress before it is made symmetric, by
+                        moments out of balance; 0 without stress
+  boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
+                        Pa, from the forces on the walls and through the periodic faces: the
+                        stress, but for what particles out of balance, or weights, make of it
 
 More keys of summary.json:
   particles, cycles, threads
@@ -110,6 +115,8 @@ More keys of summary.json:
                         and whether --reproducible was given
   profile               with --profile: seconds of each phase, counts of pairs a cycle, builds
                         of the neighbour list, and the most memory the run has had, bytes
+  unanswered_contacts   with contacts = "trace": of final.state, those that the published scheme
+                        does not answer, and for which the certified answer is taken
   rattlers              particles with fewer than two contacts; under gravity with none
   peak_friction_angle_deg, strain_at_peak_friction
                         of the last stage of kind shear: the largest mean over rows within

@@ -86,6 +86,9 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
   summary["rattlers"] = balance.rattlers;
   summary["largest_unbalanced_ratio"] = balance.largest_unbalanced_ratio;
   summary["largest_unbalanced_moment_ratio"] = balance.largest_unbalanced_moment_ratio;
+  if (simulation.scene().branch == Branch::trace)
+    summary["unanswered_contacts"] =
+        state.contacts.unanswered(state.particles, state.cell, state.list);
   summary["instruction_set"] = instruction_set();
   summary["reproducible"] = uses_reproducible_arithmetic();
   if (cost.profile)

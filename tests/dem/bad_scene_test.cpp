@@ -100,7 +100,13 @@ std::string among(const std::string& wrong, std::size_t count) {
 
 /// TOML values that the key must not have.
 std::vector<std::string> wrong_values(const Key& key) {
-  std::vector<std::string> wrong{"true", "{}", "1979-05-27", "[[]]"};
+  std::vector<std::string> wrong{"{}", "1979-05-27", "[[]]"};
+  if (key.type == KeyType::boolean) {
+    for (const char* value : {"1", "0", "1.5", "nan", "\"\"", "\"true\"", "[]", "[true]"})
+      wrong.push_back(value);
+    return wrong;
+  }
+  wrong.push_back("true");
   const bool is_text = key.type == KeyType::text || key.type == KeyType::path;
   if (is_text) {
     for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[\"none\"]"})
@@ -109,6 +115,13 @@ std::vector<std::string> wrong_values(const Key& key) {
       for (const char* value : {"\"no such choice\"", "\"a.b\"", "\"a-b\"", "\"\\n\""})
         wrong.push_back(value);
     if (!key.choices.empty()) wrong.push_back("\"nonsense\"");
+    return wrong;
+  }
+  if (key.type == KeyType::reals) {
+    for (const char* value : {"1.0", "[]", "nan", "[true]", "[[1.0]]", "[\"1.0\"]"})
+      wrong.push_back(value);
+    for (const char* value : {"nan", "inf", "-inf"}) wrong.push_back(among(value, 2));
+    for (const double value : outside(key)) wrong.push_back(among(text_of(key, value), 2));
     return wrong;
   }
   const std::size_t count = key.type == KeyType::real3 ? 3 : key.type == KeyType::real4 ? 4 : 1;
@@ -237,6 +250,21 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        scene_with("shear") + "[[stage]]\nkind = \"servo\"\nname = \"shear\"\nduration = 1\n",
        "scene.toml:19: stage[2].name = 'shear': a name of its own: a shear stage and another have "
        "the same"},
+      {"strains beyond the stage's", scene_with("shear") + "save_strains = [0.05, 0.11]\n",
+       "scene.toml:17: stage[1].save_strains = [ 0.05, 0.11 ]: finite numbers > 0 and at most "
+       "axial_strain, ascending"},
+      {"strains that do not ascend", scene_with("shear") + "save_strains = [0.05, 0.05]\n",
+       "scene.toml:17: stage[1].save_strains = [ 0.05, 0.05 ]: finite numbers > 0 and at most "
+       "axial_strain, ascending"},
+      {"two of one name that keep states",
+       scene_with("compress") + "save = true\n" + stage_of("compress") + "save = true\n",
+       "scene.toml:19: stage[2].kind = 'compress': a name of its own: two stages of that name keep "
+       "states"},
+      {"two shears of one name that keep states",
+       scene_with("shear") + "save_points = true\n" + stage_of("shear") +
+           "name = \"shear\"\nsave_strains = [0.1]\n",
+       "scene.toml:22: stage[2].name = 'shear': a name of its own: two stages of that name keep "
+       "states"},
       {"holding without a bound", servo("mean_stress = 1e6\n"),
        "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
        "(1/s)"},
@@ -251,6 +279,40 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        "scene.toml:14: stage[0].seed = 3: not with arrangement = \"explicit\""},
       {"lateral and mean stress", scene_with("shear") + "mean_stress = 1e6\nlateral_stress = 1e6\n",
        "scene.toml:18: stage[1].lateral_stress = 1e+06: not together with mean_stress"},
+      {"a ratio in the plane",
+       with(scene_with("shear"), "size = [90.0, 90.0, 90.0]", "dimensions = 2") +
+           "mean_stress = 1e6\nintermediate_ratio = 0.5\n",
+       "scene.toml:18: stage[1].intermediate_ratio = 0.5: with dimensions = 3 alone"},
+      {"a ratio at constant volume", scene_with("shear") + "intermediate_ratio = 0.5\n",
+       "scene.toml:17: stage[1].intermediate_ratio = 0.5: with mean_stress alone"},
+      {"a ratio beside equal lateral stresses",
+       scene_with("shear") + "lateral_stress = 1e6\nintermediate_ratio = 0.5\n",
+       "scene.toml:18: stage[1].intermediate_ratio = 0.5: with mean_stress alone"},
+      {"a ratio of stresses that are all held",
+       servo("stress_xx = 1e6\nstress_yy = 1e6\nstress_zz = 1e6\nintermediate_ratio = 0.5\n" +
+             rate),
+       "scene.toml:19: stage[1].intermediate_ratio = 0.5: not together with stresses that it "
+       "follows from"},
+      {"a ratio of turned stresses",
+       servo("mean_stress = 1e6\nmajor_direction = 10.0\nintermediate_ratio = 0.5\n" + rate),
+       "scene.toml:17: stage[1].major_direction = 10.0: not together with intermediate_ratio"},
+      {"a shear whose lateral axis strains too fast",
+       with(scene_with("shear"), "axial_strain_rate = 0.01", "axial_strain_rate = 20.0") +
+           "mean_stress = 1e6\nintermediate_ratio = 1.0\n",
+       "scene.toml:15: stage[1].axial_strain_rate = 20.0: a finite number < 12.2 (1/s), a strain "
+       "of "
+       "0.1 a time step"},
+      {"a rate of turns without one of shifts", scene_with("relax") + "rotational_damping = 0.5\n",
+       "scene.toml:17: stage[1].rotational_damping = 0.5: where damping is a number alone"},
+      {"turns damped so that they turn round",
+       scene_with("compress") + "rotational_damping = 10.0\ntime_step_factor = 0.25\n",
+       "scene.toml:17: stage[1].rotational_damping = 10.0: with time_step_factor = 0.25 a finite "
+       "number <= 8: a step that damps more would turn velocities round"},
+      {"the scheme of curves in the plane",
+       with(with(scene_with("shear"), "size = [90.0, 90.0, 90.0]", "dimensions = 2"), "[motion]",
+            "[motion]\ncontacts = \"trace\""),
+       "scene.toml:5: motion.contacts = 'trace': with dimensions = 2 follow or global: trace is of "
+       "ellipsoids"},
       {"an explicit scene without bodies", place("arrangement = \"explicit\"\n"),
        "scene.toml:13: stage[0].arrangement = 'explicit': with a file, or a list of [[body]] "
        "tables"},
@@ -283,8 +345,14 @@ TEST(Combinations, ThatAreSoundAreAccepted) {
   EXPECT_EQ(refusal(walled("stress_zz = 1e6\nmax_strain_rate = 0.01\n")), "");
   EXPECT_EQ(refusal(contact("law = \"hertz\"\nyoung_modulus = 1e9\n")), "");
   EXPECT_EQ(refusal(scene_with("shear") + "lateral_stress = 1e6\n"), "");
+  EXPECT_EQ(refusal(scene_with("shear") + "save_strains = [0.02, 0.1]\nsave_points = true\n"), "");
+  EXPECT_EQ(refusal(scene_with("compress") + "save = true\n" + stage_of("compress")), "");
   EXPECT_EQ(refusal(with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -2e10, 3.0]")), "");
   EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
+  EXPECT_EQ(refusal(scene_with("shear") + "mean_stress = 1e6\nintermediate_ratio = 1\n"), "");
+  EXPECT_EQ(refusal(servo("mean_stress = 1e6\nintermediate_ratio = 0.5\nmax_strain_rate = 0.01\n")),
+            "");
+  EXPECT_EQ(refusal(scene_with("relax") + "damping = 0.1\nrotational_damping = 0.2\n"), "");
 }
 
 // 2^53 + 1 and the largest integer of TOML.

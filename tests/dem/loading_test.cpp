@@ -60,4 +60,28 @@ TEST(Servo, KeepsItsRateWithinTheBoundAndCompressesWhatBearsNothing) {
   EXPECT_EQ(memory.integral, 0.0) << "no wind-up at the bound";
 }
 
+/// Rise of the stress of a medium with <n n n n> of contacts that point everywhere alike.
+Mat3 rise(const Mat3& compression) {
+  return compression.trace() * Mat3::Identity() + 2.0 * compression;
+}
+
+TEST(IntermediateRatio, IsMetWhereTheIntermediateStressDividesTheOthersSo) {
+  for (const double ratio : {0.0, 0.25, 0.5, 1.0}) {
+    const Target target = Target::intermediate_ratio(ratio);
+    const double low = 3.0, high = 11.0, between = low + ratio * (high - low);
+    Stress stress{tangency::Vec3(low, between, high).asDiagonal(), rise(Mat3::Identity())(0, 0)};
+    EXPECT_NEAR(target.measured(stress), 0.0, 1e-14);
+    // Its actuator lowers it by its stiffness, and leaves the mean stress and its own alone.
+    const Mat3 change = rise(-0.01 * target.actuator);
+    EXPECT_NEAR(change.trace(), 0.0, 1e-15);
+    const double lowered = target.measured({stress.tensor + change, 0.0});
+    EXPECT_NEAR(lowered, -0.01 * target.affine_stiffness(stress), 1e-12);
+    EXPECT_LT(lowered, 0.0);
+    Loading loading{Mat3::Zero(), {Target::mean_stress(22.0 / 3.0, 3), target}, kServo};
+    EXPECT_TRUE(loading.is_independent());
+    stress.tensor(1, 1) += 0.1;
+    EXPECT_NEAR(target.measured(stress), 0.1, 1e-14);
+  }
+}
+
 }  // namespace

@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <tangency/dem/fire.hpp>
@@ -106,9 +108,10 @@ struct LongParticle {
     const LongMat3 tensor =
         axes_in_space * inertia(dimensions).asDiagonal() * axes_in_space.transpose();
     const LongVec3 spin_before = spin, moment = crowd.resultants.moment[i].cast<Long>();
-    spin = keep * spin + push * tensor.inverse() * moment;
+    const Long rate = motion.rotational_damping.value_or(motion.damping), slowed = rate * dt / 2;
+    spin = ((1 - slowed) * spin + dt * tensor.inverse() * moment) / (1 + slowed);
     const LongVec3 mean = (spin_before + spin) / 2;
-    work[0] += dt * Long(motion.damping) * mean.dot(tensor * mean);
+    work[0] += dt * rate * mean.dot(tensor * mean);
     if (motion.rotation == Rotation::simplified || dimensions == 2 ||
         (axes[0] == axes[1] && axes[1] == axes[2])) {
       orientation = turn(dt * spin) * orientation;
@@ -156,13 +159,14 @@ TEST(MotionLanes, MoveAsTheSchemeInLongDouble) {
   const Vec3 gravity(0.1, -0.2, -9.81);
   for (const int count : {1, 7, 8, 131})
     for (const Rotation rotation : {Rotation::none, Rotation::simplified, Rotation::full})
-      for (const double damping : {0.0, 3.0}) {
-        const Motion motion{rotation, gravity, damping};
+      for (const auto& [damping, of_turns] : std::vector<std::pair<double, std::optional<double>>>{
+               {0.0, {}}, {3.0, {}}, {0.0, 5.0}, {3.0, 0.0}, {3.0, 5.0}}) {
+        const Motion motion{rotation, gravity, damping, of_turns};
         EXPECT_LT(error_of_a_step(Crowd(count, 1.0), motion, 1e-3), 12.0) << count;
         EXPECT_LT(error_of_a_step(Crowd(count, 1000.0), motion, 1e-3), 40.0) << count;
-        EXPECT_LT(
-            error_of_a_step(Crowd(count, 1.0, 2), {rotation, {0.1, -9.0, 0.0}, damping}, 1e-3),
-            12.0)
+        EXPECT_LT(error_of_a_step(Crowd(count, 1.0, 2),
+                                  {rotation, {0.1, -9.0, 0.0}, damping, of_turns}, 1e-3),
+                  12.0)
             << count;
       }
 }
@@ -270,7 +274,7 @@ TEST(MotionLanes, ANumberThatIsNoneIsReported) {
 
 /// All that a few steps and their energies are made of.
 std::vector<double> numbers_after_steps(Crowd crowd, int dimensions) {
-  const Motion motion{Rotation::full, {0.1, -9.0, dimensions == 2 ? 0.0 : 1.0}, 3.0};
+  const Motion motion{Rotation::full, {0.1, -9.0, dimensions == 2 ? 0.0 : 1.0}, 3.0, 1.5};
   std::vector<double> all;
   Fire fire;
   for (int k = 0; k < 5; ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/sample.hpp>
@@ -91,6 +92,27 @@ TEST(Motion, DampingSlowsAFreeParticleExponentially) {
   for (int k = 0; k < 1000; ++k) one.move(3.0, 0.001);
   EXPECT_NEAR(one.particles.velocity[0][0], std::exp(-3.0), 1e-6);
   EXPECT_NEAR(one.particles.angular_velocity[0][1], 2.0 * std::exp(-3.0), 1e-6);
+}
+
+TEST(Motion, AFreeSpinDecaysAtItsOwnRateWhereItHasOne) {
+  for (const Rotation rotation : {Rotation::simplified, Rotation::full})
+    for (const auto& [shift, turn] :
+         {std::pair(3.0, 1.0), std::pair(0.5, 4.0), std::pair(0.0, 2.0), std::pair(2.0, 0.0)}) {
+      One one;
+      one.particles.velocity[0] = {1.0, 0.0, 0.0};
+      // About a body axis, which stays where it is.
+      const Vec3 axis = one.particles.orientation[0] * Vec3::UnitZ();
+      one.particles.angular_velocity[0] = 2.0 * axis;
+      const double before = kinetic_energy(one.particles);
+      double lost = 0.0;
+      for (int k = 0; k < 1000; ++k)
+        lost += tangency::dem::move(one.particles, one.cell, one.resultants,
+                                    {rotation, Vec3::Zero(), shift, turn}, 0.001)
+                    .damping;
+      EXPECT_NEAR(one.particles.velocity[0][0], std::exp(-shift), 1e-5);
+      EXPECT_LT((one.particles.angular_velocity[0] - 2.0 * std::exp(-turn) * axis).norm(), 1e-5);
+      EXPECT_NEAR(lost, before - kinetic_energy(one.particles), 1e-12 * before);
+    }
 }
 
 TEST(Motion, DampingLeavesTheAffineMotionAlone) {

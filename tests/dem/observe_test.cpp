@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <tangency/dem/observe.hpp>
 
@@ -16,9 +19,14 @@ using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
 using tangency::testing::crowd;
-using tangency::testing::laws;
 
 constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
+
+/// One law for all; in a walled cell the walls are a second type.
+ContactLaws laws_in(const Cell& cell, const ContactLaw& law) {
+  const std::size_t types = cell.has_walls() ? 2 : 1;
+  return {types, std::vector(types * types, law)};
+}
 
 struct Seen {
   NeighbourList list;
@@ -28,7 +36,7 @@ struct Seen {
        double dt = 0.0) {
     list.build(particles, cell, 0.3);
     contacts.carry_over({}, list.pairs());
-    contacts.update(particles, cell, list, laws(law), dt);
+    contacts.update(particles, cell, list, laws_in(cell, law), dt);
   }
 };
 
@@ -135,6 +143,85 @@ TEST(Observe, RowHasTheAssemblysNumbers) {
   EXPECT_NEAR(row.kinetic_energy, 0.5 * sphere * 25.0, 1e-12);
 }
 
+/// The stress before it is made symmetric, and (1/V) sum of resultant (x) place in the cell: by the
+/// contacts' records alone.
+struct BySums {
+  Mat3 stress = Mat3::Zero(), unbalanced = Mat3::Zero();
+
+  BySums(const Particles& particles, const Cell& cell, const Seen& seen) {
+    std::vector<Vec3> resultant(particles.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < seen.list.pairs().size(); ++k) {
+      const Contact contact = seen.contacts.records()[k];
+      if (!contact.touches()) continue;
+      stress += contact.force * contact.branch.transpose() / cell.volume();
+      const auto a = static_cast<std::size_t>(seen.list.pairs()[k].a);
+      const auto b = static_cast<std::size_t>(seen.list.pairs()[k].b);
+      resultant[a] -= contact.force;
+      if (b < particles.size()) resultant[b] += contact.force;
+    }
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Image image = cell.image_of(particles.position[i]);
+      const Vec3 there = particles.position[i] - cell.translation(image);
+      unbalanced += resultant[i] * there.transpose() / cell.volume();
+    }
+  }
+};
+
+/// A crowd far from balance, in a skewed cell or between walls.
+struct Unbalanced {
+  Cell cell;
+  Particles particles;
+  Seen seen;
+
+  Unbalanced(const Cell& in, std::uint64_t seed)
+      : cell(in), particles(crowd_in(in, seed)), seen(particles, cell, {100.0, 80.0, 0.5, 0.0}) {
+    // A second step, so that contacts have shear forces.
+    seen.contacts.update(particles, cell, seen.list, laws_in(cell, {100.0, 80.0, 0.5, 0.0}), 0.01);
+  }
+  static Particles crowd_in(const Cell& cell, std::uint64_t seed) {
+    Particles particles = crowd(60, cell, seed);
+    for (Vec3& x : particles.position)  // inside along walled axes, with some behind the walls
+      for (int k = 0; k < 3; ++k)
+        if (cell.walled[static_cast<std::size_t>(k)]) x[k] = (x[k] + cell.edges(k, k)) / 3.0;
+    return particles;
+  }
+};
+
+// dem/observe.hpp (1)
+TEST(Observe, BoundaryStressIsThatOfTheContactsLessTheMomentsOfTheResultants) {
+  Cell skewed = cube(5.0);
+  skewed.edges.col(1) += Vec3(1.0, 0.0, 0.0);
+  skewed.edges.col(2) += Vec3(-0.5, 1.5, 0.0);
+  for (const Cell& cell : {cube(5.0), skewed, Cell::box({5.0, 4.5, 6.0}, 3, {false, false, true}),
+                           Cell::box({5.0, 5.5, 5.0}, 3, {true, true, true})})
+    for (const std::uint64_t seed : {71u, 72u, 73u}) {
+      const Unbalanced one(cell, seed);
+      const BySums sums(one.particles, cell, one.seen);
+      const Mat3 boundary =
+          boundary_stress_of(one.particles, cell, one.seen.contacts, one.seen.list);
+      const double scale = sums.stress.norm();
+      ASSERT_GT(sums.unbalanced.norm(), 0.01 * scale);
+      ASSERT_GT((sums.stress - sums.stress.transpose()).norm(), 1e-3 * scale);
+      EXPECT_LT((boundary - sums.stress + sums.unbalanced).norm(), 1e-12 * scale) << seed;
+      EXPECT_NEAR(asymmetry_of(one.seen.contacts, cell),
+                  (sums.stress - sums.stress.transpose()).norm() / (sums.stress.trace() / 3.0),
+                  1e-12);
+    }
+}
+
+// A particle that went round through the periodic faces is where it was.
+TEST(Observe, BoundaryStressDoesNotDependOnWhichImageAParticleIsKeptAs) {
+  const Cell cell = cube(5.0);
+  const Unbalanced one(cell, 74);
+  Particles moved = one.particles;
+  for (std::size_t i = 0; i < moved.size(); i += 3)
+    moved.position[i] += cell.translation({1, -2, static_cast<std::int32_t>(i % 2)});
+  const Seen here(one.particles, cell), there(moved, cell);
+  const Mat3 expected = boundary_stress_of(one.particles, cell, here.contacts, here.list);
+  EXPECT_LT((boundary_stress_of(moved, cell, there.contacts, there.list) - expected).norm(),
+            1e-11 * expected.norm());
+}
+
 TEST(Observe, AnEmptyAssemblyHasNoNanInItsRow) {
   Particles particles;
   particles.add(Vec3::Ones(), Eigen::Quaterniond::Identity(), Vec3::Ones(), 1.0, 0);
@@ -156,7 +243,8 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
       "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
       "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
       "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,"
-      "stage_cycle,");
+      "stage_cycle,asymmetry,boundary_s_xx,boundary_s_yy,boundary_s_zz,boundary_s_xy,boundary_s_yz,"
+      "boundary_s_zx,");
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ TEST(RunCommand, RefusesAWrongType) {
 TEST(RunCommand, RefusesAnUnknownKey) {
   EXPECT_EQ(refused_change("frame_interval", "frames"),
             ":21: output.frames: no such key; allowed are history_interval, frame_interval, "
+            "contact_interval, "
             "checkpoint_interval, checkpoint_seconds");
 }
 
@@ -174,8 +175,9 @@ TEST(RunCommand, NamesAMistypedSubcommandAndTheNearest) {
             "tangency-dem: rnu is no subcommand; the nearest is run" + end);
   EXPECT_EQ(run_tool({"shcema"}).err,
             "tangency-dem: shcema is no subcommand; the nearest is schema" + end);
-  EXPECT_EQ(run_tool({"fly"}).err,
-            "tangency-dem: fly is no subcommand; run, report and schema are" + end);
+  EXPECT_EQ(
+      run_tool({"fly"}).err,
+      "tangency-dem: fly is no subcommand; run, report, contacts, particles and schema are" + end);
 }
 
 std::map<std::string, std::string> files_below(const std::string& folder) {

@@ -106,7 +106,7 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
-            "kind, name, arrangement, file, seed, jitter, bounding_fraction");
+            "kind, name, save, arrangement, file, seed, jitter, bounding_fraction");
   EXPECT_EQ(refusal_with("[contact]", "[contact.grain-stone]"),
             "scene.toml:7: contact.grain-stone: NAME-NAME of two of the scene's particle types");
 }
@@ -275,6 +275,8 @@ TEST(SceneKeys, ThatHaveADefaultHaveOneThatTheyAllow) {
   for (const Key& key : scene_keys())
     if (key.has_default() && key.type == KeyType::text) {
       EXPECT_TRUE(is_among(key.fallback, key.choices)) << key.name;
+    } else if (key.has_default() && key.type == KeyType::boolean) {
+      EXPECT_TRUE(key.fallback == "true" || key.fallback == "false") << key.name;
     } else if (key.has_default()) {
       EXPECT_TRUE(key.range.holds(std::stod(std::string(key.fallback)))) << key.name;
     }

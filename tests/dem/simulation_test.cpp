@@ -128,6 +128,27 @@ TEST(Simulation, StartsEachStageWithAFreshServoAndFreshStrains) {
   EXPECT_GT(simulation.observe().volumetric_strain, -0.01);
 }
 
+TEST(Simulation, DampsTurnsAtTheRateOfItsStage) {
+  const auto after = [](const std::string& keys) {
+    Simulation simulation(parse_scene(
+        "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n[particles.grain]\ncount = 1\n"
+        "mean_radius = 10.0\n[contact]\nnormal_stiffness = 1e10\n[[stage]]\nkind = \"place\"\n"
+        "arrangement = \"explicit\"\n[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n"
+        "velocity = [0.1, 0.0, 0.0]\nangular_velocity = [0.0, 0.2, 0.0]\n"
+        "[[stage]]\nkind = \"servo\"\nduration = 1000\ntime_step_factor = 0.01\n" +
+            keys,
+        "scene.toml"));
+    run_cycles(simulation, 200);
+    const Particles& p = simulation.state().particles;
+    return Vec3(p.velocity[0][0] / 0.1, p.angular_velocity[0][1] / 0.2, 0.0);
+  };
+  // 200 cycles are 2 characteristic times.
+  const Vec3 two = after("damping = 0.5\nrotational_damping = 1.5\n"),
+             one = after("damping = 0.5\n");
+  EXPECT_LT((two - Vec3(std::exp(-1.0), std::exp(-3.0), 0.0)).norm(), 1e-4);
+  EXPECT_LT((one - Vec3(std::exp(-1.0), std::exp(-1.0), 0.0)).norm(), 1e-4);
+}
+
 TEST(Simulation, StopsAskingForMoreWhenItsCyclesAreSpent) {
   Simulation simulation(
       parse_scene(with(small_scene(), "mean_stress", "max_cycles = 5\nmean_stress"), "scene.toml"));
@@ -339,6 +360,11 @@ TEST_P(Assembly, ComesToItsStressAndIntoBalance) {
   EXPECT_EQ(seen.balance.rattlers, recount.rattlers);
   EXPECT_NEAR(seen.balance.largest_unbalanced_ratio, recount.worst / recount.mean_force, 1e-6);
   EXPECT_GT(seen.coordination_number, 4.0) << "what stands has at least four contacts";
+  const double mean = recount.stress.trace() / 3.0;
+  EXPECT_NEAR(seen.asymmetry, (recount.stress - recount.stress.transpose()).norm() / mean, 1e-9);
+  EXPECT_GT(seen.asymmetry, 0.0);
+  EXPECT_LE(seen.asymmetry, 1e-3);
+  EXPECT_LT((seen.boundary_stress - recount.stress).norm(), 0.005 * mean);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Assembly, testing::Values("assembly-125.toml", "assembly-1000.toml"),

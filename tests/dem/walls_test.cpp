@@ -195,6 +195,32 @@ struct Unbalanced {
   }
 };
 
+// What stands in balance has contact resultants that bear the weights: by dem/observe.hpp (1) the
+// stress at the boundary, whose floor is at height 0, is less by the weights times their heights.
+TEST(Gravity, IsWhatBoundaryStressAndContactStressDifferBy) {
+  Simulation simulation(parse_scene(pressed_by_their_weight(), "scene.toml"));
+  while (simulation.status() != StageStatus::done || simulation.state().stage < 1) {
+    ASSERT_NE(simulation.status(), StageStatus::out_of_cycles);
+    simulation.step();
+  }
+  const State& state = simulation.state();
+  double weights = 0.0;  // times their heights, over the volume
+  for (std::size_t i = 0; i < state.particles.size(); ++i)
+    weights += state.particles.mass[i] * 10.0 * state.particles.position[i][2];
+  weights /= state.cell.volume();
+  const Observation seen = simulation.observe();
+  const double more = seen.boundary_stress(2, 2) - seen.stress.tensor(2, 2);
+  ASSERT_GT(std::abs(weights), 0.1 * seen.stress.mean());
+  EXPECT_NEAR(more, -weights, 0.05 * weights);
+  // All of it comes from the wall at the top: the floor is at height 0.
+  double top = 0.0;
+  for (std::size_t k = 0; k < state.list.pairs().size(); ++k)
+    if (state.list.pairs()[k].b == static_cast<std::int32_t>(state.particles.size()) + 5)
+      top += state.contacts.force(k)[2];
+  EXPECT_NEAR(seen.boundary_stress(2, 2), top * state.cell.edges(2, 2) / state.cell.volume(),
+              1e-12 * seen.stress.mean());
+}
+
 TEST(Gravity, CountsInTheBalanceOfRelaxingGrowingAndUnloadingBetweenWalls) {
   Simulation simulation(parse_scene(pressed_by_their_weight(), "scene.toml"));
   int increments = 0;

@@ -15,7 +15,8 @@ sys.path.insert(0, os.path.abspath(sys.argv[1]))
 import measures  # noqa: E402
 from measures import Table, Test, Unmeasurable  # noqa: E402
 
-NAMES = ["stage", "axial_strain", "volumetric_strain", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx",
+NAMES = ["stage", "axial_strain", "volumetric_strain", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz",
+         "s_zx",
          "value"]
 STEP = 0.0005
 
@@ -35,7 +36,8 @@ def made_test(stretch=1.0, end=0.4):
     for k in range(round(end / STEP) + 1):
         x, p = k * STEP, 2e6
         deviator = strength(x) * p  # s1 - s3 of an axisymmetric state
-        row = ["shear", x, volume(x), p - deviator / 3, p - deviator / 3, p + 2 * deviator / 3, 0.0, 0.0,
+        row = ["shear", x, volume(x), p - deviator / 3, p - deviator / 3, p + 2 * deviator / 3, 0.0,
+               0.0,
                0.0, 10 * x]
         for name, cell in zip(NAMES, row):
             table.columns[name].append(cell)
@@ -50,7 +52,8 @@ class TestOfATest(unittest.TestCase):
         for name, cell in zip(NAMES, ["s", 0, 0, 3.0, 3.0, 3.0, 1.0, 0.0, 0.0, 0]):
             table.columns[name].append(cell)
         # Principal stresses 4, 3, 2: sqrt(3/2) sqrt(2) / 3.
-        self.assertAlmostEqual(measures.shear_stress_ratio(table)[0], math.sqrt(3.0) / 3.0, places=12)
+        self.assertAlmostEqual(measures.shear_stress_ratio(table)[0], math.sqrt(3.0) / 3.0,
+                               places=12)
 
     def test_means_are_those_of_the_window(self):
         test = made_test()
@@ -97,13 +100,25 @@ class TestOfATest(unittest.TestCase):
             measures.correlation([1, 2, 3], [1, 1, 1])
         with self.assertRaises(Unmeasurable):
             measures.least_squares_slope([1, 1], [1, 2])
-        with self.assertRaises(Unmeasurable):
+
+    def test_a_missing_column_is_a_fault_and_an_empty_one_is_not(self):
+        with self.assertRaises(KeyError):
             made_test().last("no such column")
+        test = made_test()
+        test.table.columns["value"] = [None] * len(test.strain)
+        with self.assertRaises(Unmeasurable):
+            test.last("value")
+
+    def test_a_column_of_the_ratio_is_taken_as_it_is(self):
+        test = made_test()
+        test.table.columns["a_s"] = [7.0] * len(test.strain)
+        self.assertEqual(test.start("a_s"), 7.0)
 
 
 class TestOfATable(unittest.TestCase):
     def test_empty_cells_are_none_and_are_left_out_of_means(self):
-        table = Table(["stage", "axial_strain", "x"], [["a", "0", "1"], ["a", "0.001", ""], ["b", "0.002", "3"]])
+        table = Table(["stage", "axial_strain", "x"],
+                      [["a", "0", "1"], ["a", "0.001", ""], ["b", "0.002", "3"]])
         self.assertEqual(table["x"], [1.0, None, 3.0])
         self.assertEqual(Test(table, {}).mean_at("x", 0.001), 2.0)
         self.assertEqual(table.where(lambda k: table["stage"][k] == "b")["x"], [3.0])
@@ -112,7 +127,8 @@ class TestOfATable(unittest.TestCase):
         one = Table(["stage", "x"], [["a", "1"]])
         other = Table(["x", "y", "stage"], [["2", "5", "b"]])
         both = one.joined(other)
-        self.assertEqual((both["stage"], both["x"], both["y"]), (["a", "b"], [1.0, 2.0], [None, 5.0]))
+        self.assertEqual((both["stage"], both["x"], both["y"]),
+                         (["a", "b"], [1.0, 2.0], [None, 5.0]))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ from scenes import scene_text  # noqa: E402
 
 
 def study(*words):
-    return subprocess.run([sys.executable, os.path.join(STUDY, "study"), *words], capture_output=True,
+    return subprocess.run([sys.executable, os.path.join(STUDY, "study"), *words],
+                          capture_output=True,
                           text=True, check=False)
 
 
@@ -40,7 +41,8 @@ class ProgrammeTest(unittest.TestCase):
         for run in self.plan.runs.values():
             for before in self.plan.ancestors(run.name):
                 self.assertEqual([keys["count"] for keys in before.body["particles"].values()],
-                                 [keys["count"] for keys in run.body["particles"].values()], run.name)
+                                 [keys["count"] for keys in run.body["particles"].values()],
+                                 run.name)
 
     def test_parts_have_what_they_resume(self):
         for part in (*programme.PARTS, *programme.APART):
@@ -62,7 +64,8 @@ class ProgrammeTest(unittest.TestCase):
 class OptionsTest(unittest.TestCase):
     def test_wrong_options_are_one_line_and_status_2(self):
         for words in (["--seeds", "0"], ["--seeds", "x"], ["--only", "nothing"], ["--jobs", "-1"],
-                      ["--unknown"], ["word"], ["--tool", "/nowhere/tangency-dem", "--out", "/tmp"]):
+                      ["--unknown"], ["word"], ["--tool", "/nowhere/tangency-dem", "--out",
+                                                "/tmp"]):
             done = study(*words)
             self.assertEqual(done.returncode, 2, words)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)

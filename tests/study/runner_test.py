@@ -42,7 +42,7 @@ out = words[words.index("--out") + 1]
 name = os.path.basename(out)
 with open(os.path.join(here, "log"), "a") as log:
     resumed = words[words.index("--resume") + 1] if "--resume" in words else "-"
-    log.write(f"{name} {os.path.relpath(resumed, os.path.dirname(out)) if resumed != '-' else '-'}\n")
+    log.write(f"{name} {'/'.join(resumed.split('/')[-2:])}\n")
 if os.path.exists(os.path.join(here, "fail." + name)):
     print("first words")
     sys.exit("last words")

@@ -14,7 +14,8 @@ sys.path.insert(0, os.path.abspath(sys.argv[1]))
 import verdicts  # noqa: E402
 from measures import NotRun, Unmeasurable  # noqa: E402
 from rows import all_rows  # noqa: E402
-from verdicts import DOUBTFUL, Finding, NOT_REPRODUCED, NOT_RUN, REPORTED, REPRODUCED, Row, Sample  # noqa: E402
+from verdicts import DOUBTFUL, NOT_REPRODUCED, NOT_RUN, REPORTED, REPRODUCED  # noqa: E402
+from verdicts import Finding, Row, Sample  # noqa: E402
 
 
 def verdict(met, **keys):

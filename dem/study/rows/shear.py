@@ -10,8 +10,9 @@ from verdicts import (Finding, Section, all_of, each, labelled, on_sets, order, 
 rows = Section("3.3")
 
 
-@rows.row("softening", "5.4.1, F. 5.7a", "Strength peaks and then falls, at every pressure",
-          "peak, softening", "peak friction angle above that at the end")
+@rows.row("softening", "5.4.1, F. 5.7a",
+          "Strength peaks and then falls, at every pressure", "peak, softening",
+          "peak friction angle above that at the end")
 def softening(study):
     def find(whats):
         drop = by_pressure(study, whats, lambda test: test.peak_friction[0]
@@ -20,8 +21,9 @@ def softening(study):
     return on_sets(SETS, find)
 
 
-@rows.row("one-curve", "5.4.1, F. 5.7a", "At large strain all pressures have one friction angle",
-          "one curve", "spread over pressures at most 3 degrees at the last strain")
+@rows.row("one-curve", "5.4.1, F. 5.7a",
+          "At large strain all pressures have one friction angle", "one curve",
+          "spread over pressures at most 3 degrees at the last strain")
 def one_curve(study):
     def find(whats):
         last = by_pressure(study, whats, lambda test: test.last("friction_angle_deg"))
@@ -30,8 +32,8 @@ def one_curve(study):
     return on_sets(SETS, find)
 
 
-@rows.row("peak-range", "5.4.1, F. 5.8a", "Peak friction angles", "39 to 43.5 degrees",
-          "every pressure in 38 to 44.5 degrees")
+@rows.row("peak-range", "5.4.1, F. 5.8a",
+          "Peak friction angles", "39 to 43.5 degrees", "every pressure in 38 to 44.5 degrees")
 def peak_range(study):
     def find(whats):
         peak = by_pressure(study, whats, lambda test: test.peak_friction[0])
@@ -39,7 +41,8 @@ def peak_range(study):
     return on_sets(SETS, find)
 
 
-@rows.row("peak-order", "F. 5.8a", "The peak friction angle falls with the pressure", "falls",
+@rows.row("peak-order", "F. 5.8a",
+          "The peak friction angle falls with the pressure", "falls",
           "falls within the scatter of a seed, strictly from 30 MPa up")
 def peak_order(study):
     def find(whats):
@@ -51,15 +54,15 @@ def peak_order(study):
     return on_sets(SETS, find)
 
 
-@rows.row("peak-strain", "F. 5.8c", "The axial strain at the peak grows with the pressure", "grows",
-          "strict order")
+@rows.row("peak-strain", "F. 5.8c",
+          "The axial strain at the peak grows with the pressure", "grows", "strict order")
 def peak_strain(study):
     return on_sets(SETS, lambda whats: order(
         by_pressure(study, whats, lambda test: test.peak_friction[1]), rising=True))
 
 
-@rows.row("no-contraction", "5.4.2, F. 5.7b", "The dense samples do not contract", "none",
-          "volumetric strain never below -0.001")
+@rows.row("no-contraction", "5.4.2, F. 5.7b",
+          "The dense samples do not contract", "none", "volumetric strain never below -0.001")
 def no_contraction(study):
     def find(whats):
         least = by_pressure(study, whats, lambda test: min(test["volumetric_strain"]))
@@ -67,8 +70,9 @@ def no_contraction(study):
     return on_sets(SETS, find)
 
 
-@rows.row("dilation-rise", "5.4.2", "The dilation rate rises to a maximum, then falls towards 0",
-          "rises, falls", "its peak above its value at the first 1 % and at the end, every pressure")
+@rows.row("dilation-rise", "5.4.2",
+          "The dilation rate rises to a maximum, then falls towards 0", "rises, falls",
+          "its peak above its value at the first 1 % and at the end, every pressure")
 def dilation_rise(study):
     def find(whats):
         def shape(test):
@@ -98,7 +102,8 @@ def _peak_dilation(study, whats, window=0.01, part=0):
     return by_pressure(study, whats, lambda test: test.peak_dilation(window)[part])
 
 
-@rows.row("dilation-range", "F. 5.8b", "Peak dilation rates", "1.1 at the lowest pressure to 0.35",
+@rows.row("dilation-range", "F. 5.8b",
+          "Peak dilation rates", "1.1 at the lowest pressure to 0.35",
           "both ends within 15 %, over a window of 0.01 of axial strain")
 def dilation_range(study):
     def find(whats):
@@ -110,14 +115,14 @@ def dilation_range(study):
     return on_sets(SETS, find)
 
 
-@rows.row("dilation-falls", "F. 5.8b", "The peak dilation rate falls with the pressure", "falls",
-          "strict order")
+@rows.row("dilation-falls", "F. 5.8b",
+          "The peak dilation rate falls with the pressure", "falls", "strict order")
 def dilation_falls(study):
     return on_sets(SETS, lambda whats: order(_peak_dilation(study, whats), rising=False))
 
 
-@rows.row("dilation-strain", "F. 5.8d", "Its axial strain grows with the pressure", "grows",
-          "strict order")
+@rows.row("dilation-strain", "F. 5.8d",
+          "Its axial strain grows with the pressure", "grows", "strict order")
 def dilation_strain(study):
     def find(whats):
         wider = ", ".join(map(text, means(_peak_dilation(study, whats, 0.02, 1))))
@@ -127,7 +132,8 @@ def dilation_strain(study):
 
 
 @rows.row("peaks-apart", "F. 5.8e",
-          "The friction angle peaks well before the dilation rate; at the highest pressure together",
+          "The friction angle peaks well before the dilation rate; at the highest pressure "
+          "together",
           "before; together at the highest",
           "strain of the friction peak at most that of the dilation peak, every pressure",
           doubt="[C] 8.5.1 (5) has it before at every pressure")
@@ -140,7 +146,8 @@ def peaks_apart(study):
     return on_sets(SETS, find)
 
 
-@rows.row("plane-dilation", "F. 5.9", "Peak dilation rates of plane ellipses, e = 0.05 to 0.2",
+@rows.row("plane-dilation", "F. 5.9",
+          "Peak dilation rates of plane ellipses, e = 0.05 to 0.2",
           "0.8 to 1.9; bodies in space 0.35 to 1.1, Ham River sand 0 to 0.78",
           "every e in 0.7 to 2.0")
 def plane_dilation(study):
@@ -149,18 +156,21 @@ def plane_dilation(study):
     return Finding(*series(peak), all(0.7 <= x <= 2.0 for x in means(peak)))
 
 
-@rows.row("density", "F. 5.10a", "Initial and steady packing fraction depend on the pressure",
-          "depend", "both rise with it, in strict order")
+@rows.row("density", "F. 5.10a",
+          "Initial and steady packing fraction depend on the pressure", "depend",
+          "both rise with it, in strict order")
 def density(study):
     def find(whats):
         first = by_pressure(study, whats, lambda test: 1.0 - test.start("porosity"))
         steady = by_pressure(study, whats, lambda test: 1.0 - test.mean_at("porosity", STEADY))
-        return all_of(labelled("initial", order(first, True)), labelled("at 0.205", order(steady, True)))
+        return all_of(labelled("initial", order(first, True)),
+                      labelled("at 0.205", order(steady, True)))
     return on_sets(SETS, find)
 
 
 @rows.row("density-loss", "(5.4), F. 5.10b",
-          "The loss of packing fraction to the steady state (20.5 % strain) goes with the pressure",
+          "The loss of packing fraction to the steady state (20.5 % strain) goes with the "
+          "pressure",
           "strong correlation, steep", "|correlation| at least 0.98")
 def density_loss(study):
     def find(whats):
@@ -173,8 +183,9 @@ def density_loss(study):
     return on_sets(SETS, find)
 
 
-@rows.row("ultimate", "8.5.1 (6)", "The ultimate friction angle does not depend on the initial state",
-          "independent", "dense and loose preparation within 2 degrees at 10 and 50 MPa")
+@rows.row("ultimate", "8.5.1 (6)",
+          "The ultimate friction angle does not depend on the initial state", "independent",
+          "dense and loose preparation within 2 degrees at 10 and 50 MPa")
 def ultimate(study):
     gap = {}
     for what in ("p010", "p050"):
@@ -185,8 +196,8 @@ def ultimate(study):
                    "loose less dense, degrees, by pressure in MPa")
 
 
-@rows.row("steady-void", "8.5.1 (7)", "The steady void ratio depends on the pressure", "depends",
-          "strict order at the end")
+@rows.row("steady-void", "8.5.1 (7)",
+          "The steady void ratio depends on the pressure", "depends", "strict order at the end")
 def steady_void(study):
     def void(test):
         porosity = test.last("porosity")
@@ -194,7 +205,8 @@ def steady_void(study):
     return on_sets(SETS, lambda whats: order(by_pressure(study, whats, void), rising=False))
 
 
-@rows.row("spheres", "1.2, 8.1", "Non-spherical bodies resist more, and over a longer strain", "more",
+@rows.row("spheres", "1.2, 8.1",
+          "Non-spherical bodies resist more, and over a longer strain", "more",
           "spheres prepared alike: lower and earlier peak at 10, 50, 100 MPa")
 def spheres(study):
     whats = ("p010", "p050", "p100")
@@ -210,9 +222,10 @@ def spheres(study):
                   labelled("at strains", Finding(*series(strain))))
 
 
-@rows.row("points", "5.4.1", "Axial strains of the states A to D of test 4d", "not given",
-          "reported", doubt="[?] no rule is given: B where a_s has lost four fifths of its steepest "
-          "rise, C the peak, D where the volume changes by less than 0.02 a strain over 0.05")
+@rows.row("points", "5.4.1",
+          "Axial strains of the states A to D of test 4d", "not given", "reported",
+          doubt="[?] no rule is given: B where a_s has lost four fifths of its steepest rise, C "
+                "the peak, D where the volume changes by less than 0.02 a strain over 0.05")
 def points(study):
     found = {point: each(study, lambda seed, point=point: study.test(
         shear_name("spheroid", "p030", seed)).points[point]) for point in "ABCD"}

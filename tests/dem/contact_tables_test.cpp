@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `tangency-dem contacts` and `tangency-dem particles`: their tables against the state itself,
+/// which is read here by the library and looked at pair by pair.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tangency/dem/observe.hpp>
+#include <tangency/dem/state_file.hpp>
+#include <tangency/geometry/vectors.hpp>
+
+#include "../tool/process.hpp"
+#include "scenes.hpp"
+
+namespace tangency::testing {
+namespace {
+
+constexpr const char* kContactHeader =
+    "a,b,ix,iy,iz,x,y,z,nx,ny,nz,gap,bx,by,bz,ax,ay,az,fn,fx,fy,fz,sliding";
+constexpr const char* kParticleHeader =
+    "id,type,x,y,z,r1,r2,r3,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contacts";
+
+/// Numbers of a table's rows, whose header is as wanted.
+std::vector<std::vector<double>> numbers_of(const std::string& csv, const std::string& header) {
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, header);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    auto& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+Vec3 vector_at(const std::vector<double>& row, std::size_t first) {
+  return {row[first], row[first + 1], row[first + 2]};
+}
+
+/// A sheared sample: spheroids that have friction and turned, in an order of space.
+std::string sheared_scene(const std::string& stage_keys = "") {
+  return with(small_scene(), "[output]\n",
+              "[[stage]]\nkind = \"shear\"\nmean_stress = 10e6\naxial_strain_rate = 0.05\n"
+              "axial_strain = 0.1\n" +
+                  stage_keys + "[output]\ncontact_interval = 100000\n");
+}
+
+class Tables : public ::testing::Test {
+ protected:
+  /// Runs a scene and looks at the state of its end.
+  void run(const std::string& scene) {
+    const Finished ended = run_tool(
+        {"run", folder_.write("scene.toml", scene), "--out", out_, "--quiet", "--replace"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    state_ = dem::load_state(file_);
+  }
+  std::string table(const std::string& command) const {
+    const Finished ended = run_tool({command, file_});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.err, "");
+    return ended.out;
+  }
+  std::vector<std::vector<double>> contacts() const {
+    return numbers_of(table("contacts"), kContactHeader);
+  }
+  const dem::Particles& particles() const { return state_.particles; }
+
+  TemporaryFolder folder_;
+  std::string out_ = folder_.path("out"), file_ = out_ + "/final.state";
+  dem::State state_;
+};
+
+TEST_F(Tables, OfParticlesHoldTheirNumbersToTheBitByTheirIds) {
+  run(sheared_scene());
+  const auto rows = numbers_of(table("particles"), kParticleHeader);
+  ASSERT_EQ(rows.size(), particles().size());
+  EXPECT_FALSE(std::is_sorted(particles().id.begin(), particles().id.end()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[static_cast<std::size_t>(particles().id[i])];
+    EXPECT_EQ(row[0], particles().id[i]);
+    EXPECT_EQ(row[1], particles().type[i]);
+    EXPECT_EQ(vector_at(row, 2), particles().position[i]);
+    EXPECT_EQ(vector_at(row, 5), particles().semi_axes[i]);
+    const Quaternion& q = particles().orientation[i];
+    EXPECT_EQ((std::vector<double>(row.begin() + 8, row.begin() + 12)),
+              (std::vector<double>{q.w(), q.x(), q.y(), q.z()}));
+    EXPECT_EQ(vector_at(row, 12), particles().velocity[i]);
+    EXPECT_EQ(vector_at(row, 15), particles().angular_velocity[i]);
+    EXPECT_EQ(row[18], state_.contacts.resultants().contacts[i]);
+  }
+}
+
+// Every touching pair of the list, seen from the particle with the lower id, has its row, and no
+// other row is there.
+TEST_F(Tables, OfContactsHoldTheirNumbersToTheBit) {
+  run(sheared_scene());
+  const auto rows = contacts();
+  using Name = std::array<double, 5>;
+  std::map<Name, std::vector<double>> by_name;
+  std::vector<Name> names;
+  for (const auto& row : rows) {
+    names.push_back({row[0], row[1], row[2], row[3], row[4]});
+    by_name[names.back()] = row;
+  }
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  std::size_t touching = 0, exchanged = 0;
+  for (std::size_t k = 0; k < state_.list.pairs().size(); ++k) {
+    const dem::Pair& pair = state_.list.pairs()[k];
+    const dem::Contact contact = state_.contacts.records()[k];
+    if (!contact.touches()) continue;
+    ++touching;
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    const bool turned = particles().id[a] > particles().id[b];
+    exchanged += turned ? 1 : 0;
+    const double sign = turned ? -1.0 : 1.0;
+    Name name{static_cast<double>(particles().id[turned ? b : a]),
+              static_cast<double>(particles().id[turned ? a : b])};
+    for (std::size_t axis = 0; axis < 3; ++axis) name[2 + axis] = sign * pair.image[axis] + 0.0;
+    ASSERT_TRUE(by_name.contains(name)) << k;
+    const std::vector<double>& row = by_name[name];
+    EXPECT_EQ(vector_at(row, 8), sign * contact.normal);
+    EXPECT_EQ(row[11], -contact.overlap);
+    EXPECT_EQ(vector_at(row, 12), sign * contact.branch);
+    const Vec3 arm = turned ? Vec3(contact.arm - contact.branch) : contact.arm;
+    EXPECT_EQ(vector_at(row, 15), arm);
+    EXPECT_EQ(vector_at(row, 5), particles().position[turned ? b : a] + arm);
+    EXPECT_EQ(row[18], contact.normal_force);
+    EXPECT_EQ(vector_at(row, 19), sign * contact.force);
+  }
+  EXPECT_EQ(rows.size(), touching);
+  EXPECT_GT(exchanged, 0u);
+  EXPECT_LT(exchanged, touching);
+}
+
+// With the table of particles alone: where things are, and the stress.
+TEST_F(Tables, BelongTogether) {
+  run(sheared_scene());
+  const auto bodies = numbers_of(table("particles"), kParticleHeader);
+  Mat3 stress = Mat3::Zero();
+  std::vector<double> counts(bodies.size(), 0.0);
+  const double size = particles().semi_axes[0][0];
+  for (const auto& row : contacts()) {
+    const auto a = static_cast<std::size_t>(row[0]), b = static_cast<std::size_t>(row[1]);
+    const Vec3 normal = vector_at(row, 8), branch = vector_at(row, 12), force = vector_at(row, 19);
+    const Vec3 from_a =
+        vector_at(bodies[b], 2) + state_.cell.edges * vector_at(row, 2) - vector_at(bodies[a], 2);
+    EXPECT_LT((branch - from_a).norm(), 1e-12 * size);
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-14);
+    EXPECT_NEAR(force.dot(normal), row[18], 1e-12 * force.norm());
+    EXPECT_LT(row[11], 0.0);
+    EXPECT_GT(row[18], 0.0);
+    stress += force * branch.transpose() / state_.cell.volume();
+    ++counts[a], ++counts[b];
+  }
+  for (std::size_t id = 0; id < bodies.size(); ++id) EXPECT_EQ(counts[id], bodies[id][18]) << id;
+  const Mat3 wanted = dem::stress_of(state_.contacts, state_.cell).tensor;
+  EXPECT_LT((0.5 * (stress + stress.transpose()) - wanted).norm(), 1e-12 * wanted.norm());
+}
+
+/// Sliding contacts and others; each is where its shear force says, by that coefficient.
+std::pair<int, int> sliding_and_not(const std::vector<std::vector<double>>& rows, double friction) {
+  std::pair<int, int> counts{0, 0};
+  for (const auto& row : rows) {
+    const Vec3 shear = vector_at(row, 19) - row[18] * vector_at(row, 8);
+    const double share = shear.norm() / (friction * row[18]);
+    EXPECT_LT(share, 1.0 + 1e-9);
+    EXPECT_EQ(row[22], share > 1.0 - 1e-9 ? 1.0 : 0.0) << share;
+    ++(row[22] == 1.0 ? counts.first : counts.second);
+  }
+  return counts;
+}
+
+TEST_F(Tables, TellWhichContactsSlide) {
+  run(sheared_scene());
+  const auto [sliding, sticking] = sliding_and_not(contacts(), 0.5);
+  EXPECT_GT(sliding, 0);
+  EXPECT_GT(sticking, 0);
+}
+
+// A state does not know the friction of a stage, and the run does.
+TEST_F(Tables, OfARunTellWhichSlideByTheFrictionOfTheStage) {
+  run(sheared_scene("friction_coefficient = 0.2\n"));
+  const std::string table_of_run = out_ + "/contacts/" + std::to_string(state_.cycle) + ".csv";
+  const std::string of_run = read_file(table_of_run);
+  const auto rows = numbers_of(of_run, kContactHeader);
+  EXPECT_GT(sliding_and_not(rows, 0.2).first, 0);
+  EXPECT_EQ(sliding_and_not(contacts(), 0.5).first, 0);
+  // Nor does the run when it is over, so that it leaves the table as it is.
+  const Finished again =
+      run_tool({"run", folder_.path("scene.toml"), "--out", out_, "--quiet", "--resume", file_});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(read_file(table_of_run), of_run);
+}
+
+TEST_F(Tables, LeaveOutContactsWithWalls) {
+  run(with(small_scene(), "[cell]\n", "[cell]\nwalls = \"xyz\"\n"));
+  std::size_t inner = 0, walls = 0;
+  for (std::size_t k = 0; k < state_.list.pairs().size(); ++k)
+    if (state_.contacts.touches(k))
+      ++(static_cast<std::size_t>(state_.list.pairs()[k].b) < particles().size() ? inner : walls);
+  EXPECT_GT(walls, 0u);
+  EXPECT_EQ(contacts().size(), inner);
+}
+
+TEST_F(Tables, OfAStateWithoutContactsAreTheHeaderAlone) {
+  run("schema = 1\n[particles.p]\ncount = 8\nmean_radius = 1.0\n[contact]\nnormal_stiffness = 1e6\n"
+      "[[stage]]\nkind = \"place\"\n[[stage]]\nkind = \"servo\"\nduration = 1\n[output]\n");
+  EXPECT_EQ(table("contacts"), std::string(kContactHeader) + "\n");
+  EXPECT_EQ(numbers_of(table("particles"), kParticleHeader).size(), 8u);
+}
+
+TEST_F(Tables, GoToAFileWholeOrNotAtAll) {
+  run(small_scene());
+  const std::string file = folder_.path("table.csv");
+  for (const std::string command : {"contacts", "particles"}) {
+    const Finished ended = run_tool({command, file_, "--out", file});
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(read_file(file), table(command));
+    const Finished full = [&] {
+      const FileSizeLimit limit(100);
+      return run_tool({command, file_, "--out", file});
+    }();
+    EXPECT_EQ(full.status, 2);
+    EXPECT_EQ(full.err.find(file + ": "), 0u) << full.err;
+    EXPECT_EQ(read_file(file), table(command));
+  }
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"out", "scene.toml", "table.csv"}));
+}
+
+TEST_F(Tables, RefuseWhatIsNoStateInOneLine) {
+  run(small_scene());
+  std::string newer = read_file(file_), damaged = newer;
+  newer[8] = 99;  // the version, after the 8 letters at the start
+  damaged[damaged.size() / 2] ^= 1;
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {folder_.path("none"), ": cannot be read: No such file or directory\n"},
+      {out_, ": cannot be read: Is a directory\n"},
+      {folder_.path("scene.toml"),
+       ": no state of tangency-dem: final.state or checkpoint.state of a run\n"},
+      {folder_.write("damaged", damaged), ": damaged: its hash is wrong\n"},
+      {folder_.write("newer", newer), ": state of version 99: this program reads version "}};
+  const std::string table = folder_.write("table.csv", "earlier");
+  for (const std::string command : {"contacts", "particles"})
+    for (const auto& [file, message] : cases) {
+      const Finished ended = run_tool({command, file, "--out", table});
+      EXPECT_EQ(ended.status, 2) << file;
+      EXPECT_EQ(ended.out, "");
+      EXPECT_EQ(ended.err.find(file + message), 0u) << ended.err;
+      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+      EXPECT_EQ(read_file(table), "earlier");
+    }
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"contacts"}, {"particles"}, {"contacts", file_, "--out", ""}})
+    EXPECT_EQ(run_tool(words).status, 2);
+}
+
+}  // namespace
+}  // namespace tangency::testing
