@@ -27,7 +27,7 @@ WIDTH, HEIGHT = 440, 325
 
 # Of the legend, in pixels: a line of it, what gnuplot takes for a letter and for a sample of a curve, and
 # the width that it fills. Measured on what gnuplot 5.4 draws with letters of 13.
-LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 46, 340
+LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 46, 315
 
 # Chosen: points of a curve; more cannot be told apart at WIDTH.
 MOST_POINTS = 220
@@ -162,6 +162,7 @@ set tics nomirror out scale 0.5 textcolor '#222222'
 set grid linewidth 0.5 linetype 1 linecolor '#dddddd'
 set boxwidth 0.8 relative
 set autoscale fix
+set format '%.5g'
 """
 
 

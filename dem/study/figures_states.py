@@ -24,8 +24,8 @@ SURFACE, LINES, BODIES, HEIGHT = 270, 330, 480, 0.8
 # Chosen: radius of a line of the mean normal force of the first state, in mean arms of its contacts.
 LINE_RADIUS = 0.07
 
-# Chosen: width of a picture, in what its points span, for the bodies about them.
-ROOM = 1.12
+# Chosen: width of a picture of lines, in what they span.
+ROOM = 1.05
 
 # Patches of a third of an octant for long axes, of which there are fewer than contacts.
 AXES_PATCHES = 2
@@ -203,7 +203,7 @@ def force_lines(pictures):
 
     def scales():
         """Width of the pictures, and the radius of a line over its force."""
-        width = max(rendering.span([start for start, *_ in lines(p)], HEIGHT)[1] for p in states.points)
+        width = max(rendering.span(ends_of(lines(p)), HEIGHT)[1] for p in states.points)
         first = lines(states.points[0])
         arm = 0.5 * sum(math.dist(start, end) for start, end, *_ in first) / len(first)
         return ROOM * width, LINE_RADIUS * arm * len(first) / sum(force for *_, force in first)
@@ -211,7 +211,7 @@ def force_lines(pictures):
     def row(point):
         contacts = states.once("lines" + point, lambda: lines(point))
         width, per_force = states.once("scales of lines", scales)
-        centre, _ = rendering.span([start for start, *_ in contacts], HEIGHT)
+        centre, _ = rendering.span(ends_of(contacts), HEIGHT)
         made = []
         for axis, (name, shade) in enumerate(GROUPS.items()):
             group = [c for c in contacts if axis_of(c[2]) == axis]
@@ -229,6 +229,10 @@ def force_lines(pictures):
         "A line joins the centres of two particles that touch; its thickness is the normal force, on one scale. "
         "Groups are the axes along which normals mostly point. The text sees the axial group, z, bear more and more, "
         "the lateral ones less.")
+
+
+def ends_of(contacts):
+    return [end for contact in contacts for end in contact[:2]]
 
 
 def axis_of(normal):

@@ -62,10 +62,20 @@ class Results:
             file = os.path.join(folder, kind + ".csv")
             if os.path.exists(file):
                 self.kept[place] = series.Columns.of(file, stage)
+                if kind == "micro":
+                    self.add_shape(folder, stage)
             else:
                 self.lack(f"{os.path.basename(folder)}/{kind}.csv")
                 self.kept[place] = series.Columns()
         return self.kept[place]
+
+    def add_shape(self, folder, stage):
+        """To micro.csv what only histories tell of growth, by its cycles."""
+        micro, history = self.kept[folder, "micro", stage], self.table(folder)
+        for name in ("elongation", "eccentricity"):
+            if micro.count and name not in micro.table.names:
+                cycles, values = series.ascending(history.column("cycle"), history.column(name))
+                micro.add(name, [series.at(cycles, values, cycle) for cycle in micro.column("cycle")])
 
     def summary(self, folder, name):
         """A number of a run's summary.json; nan where it has none."""
@@ -141,6 +151,8 @@ class Results:
         """A column at an axial strain, nan where the run does not reach it."""
         table = self.table(folder, kind, stage)
         x, y = series.ascending(table.column("axial_strain"), table.column(column))
+        if x and x[-1] < strain:
+            self.lack(f"{os.path.basename(folder)} beyond a strain of {x[-1]:.3g}")
         return series.at(x, y, strain)
 
     def largest(self, folder, column, kind="micro", stage="shear"):

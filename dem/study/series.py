@@ -43,6 +43,11 @@ class Columns:
                     kept.table[name][0] = 0.0
         return kept
 
+    def add(self, name, values):
+        """A column more, in the table itself."""
+        self.table.names.append(name)
+        self.table.columns[name] = values
+
     def column(self, wanted):
         """By its name, or by a function of a row, which is numbers by name."""
         if not callable(wanted):
@@ -137,6 +142,23 @@ def slope(x, y, window):
         points = [(a - middle, b) for a, b in zip(x[first:last], y[first:last]) if math.isfinite(b)]
         slopes.append(fitted_slope(points))
     return slopes
+
+
+def running_mean(x, y, window):
+    """The mean of the finite y within window/2 of each x, x ascending; nan where there are none."""
+    means, first, last = [], 0, 0
+    total = count = 0
+    for middle in x:
+        while last < len(x) and x[last] <= middle + 0.5 * window:
+            if math.isfinite(y[last]):
+                total, count = total + y[last], count + 1
+            last += 1
+        while first < last and x[first] < middle - 0.5 * window:
+            if math.isfinite(y[first]):
+                total, count = total - y[first], count - 1
+            first += 1
+        means.append(total / count if count else NAN)
+    return means
 
 
 def fitted_slope(points):

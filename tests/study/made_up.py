@@ -52,8 +52,7 @@ def history_row(stage, x, pressure, seed):
 def micro_row(stage, x, pressure, seed):
     a_s = 1.8 * rise(x, pressure) + 0.01 * seed
     p = 1e6 * pressure
-    row = {"cycle": round(1e5 * x), "stage": stage, "axial_strain": x, "elongation": 1 + x,
-           "eccentricity": x / (2 + x), "contacts": 500,
+    row = {"cycle": round(1e5 * x), "stage": stage, "axial_strain": x, "contacts": 500,
            "f0": F0, "z0": 19.0, "a_cv": 0.8, "a1": 0.6 + 0.1 * x, "P2": -0.17, "P2_model": -0.174,
            "a_axial_r_rot": 0.2 * x, "a_s": a_s, "a_s_small": a_s, "a_s_coaxial": 0.98 * a_s}
     for k, name in enumerate(MODULI):

@@ -70,6 +70,11 @@ class Series(unittest.TestCase):
         ends = series.slope([0.0, 1.0, 2.0], [0, 1, 2], 2.0)
         self.assertEqual([math.isnan(slope) for slope in ends], [True, False, True])
 
+    def test_running_means_are_of_the_window_and_of_numbers_alone(self):
+        means = series.running_mean([0, 1, 2, 3, 10], [1.0, 2.0, NAN, 5.0, 7.0], 2.5)
+        self.assertEqual(means, [1.5, 1.5, 3.5, 5.0, 7.0])
+        self.assertTrue(math.isnan(series.running_mean([0.0], [NAN], 1.0)[0]))
+
     def test_a_stage_begins_with_what_it_resumes_at_no_strain(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "history.csv")
@@ -93,6 +98,22 @@ class Runs(unittest.TestCase):
                 made_up.write_run(out, stem, seed)
             found = results.Results(out).folders("a-shear")
             self.assertEqual([os.path.basename(f) for f in found], ["a-shear-s2", "a-shear-s10"])
+
+    def test_averages_have_the_shape_that_the_history_has_at_their_cycle(self):
+        with tempfile.TemporaryDirectory() as out:
+            folder = made_up.write_run(out, "a", stage="grow")
+            table = results.Results(out).table(folder, "micro")
+            for x, elongation in zip(table.column("axial_strain"), table.column("elongation")):
+                self.assertAlmostEqual(elongation, 1 + x, places=9)
+
+    def test_a_strain_that_a_run_does_not_reach_is_lacking(self):
+        with tempfile.TemporaryDirectory() as out:
+            found = results.Results(out)
+            folder = made_up.write_run(out, "a")
+            self.assertAlmostEqual(found.value_at(folder, "porosity", 0.2), 0.26, places=9)
+            self.assertEqual(found.take_lacking(), [])
+            self.assertTrue(math.isnan(found.value_at(folder, "porosity", 0.5)))
+            self.assertEqual(found.take_lacking(), ["a-s1 beyond a strain of 0.4"])
 
     def test_a_chain_is_of_the_seeds_that_have_all_of_it(self):
         with tempfile.TemporaryDirectory() as out:
