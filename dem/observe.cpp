@@ -40,6 +40,25 @@ struct Unbalanced {
   }
 };
 
+/// What a growth changes and is drawn against.
+void see_shapes(const Particles& particles, const Cell& cell, Observation& seen) {
+  double solid = 0.0, radii = 0.0;
+  for (const Vec3& axes : particles.semi_axes) {
+    solid += volume_of(axes, particles.dimensions);
+    radii += mean_radius_of(axes, particles.dimensions);
+  }
+  seen.porosity = 1.0 - solid / cell.volume();
+  seen.packing_density = solid / cell.volume();
+  seen.void_ratio = seen.porosity / seen.packing_density;
+  seen.contact_density = 2.0 * static_cast<double>(seen.contacts) / cell.volume();
+  seen.overlap_fraction = seen.mean_overlap / (2.0 * radii / static_cast<double>(particles.size()));
+  // All of a type have one shape; in memory its particles stand anywhere.
+  const auto first = std::min_element(particles.type.begin(), particles.type.end());
+  const Vec3& axes = particles.semi_axes[static_cast<std::size_t>(first - particles.type.begin())];
+  seen.elongation = axes[0] / axes[1];
+  seen.eccentricity = (axes[0] - axes[1]) / (axes[0] + axes[1]);
+}
+
 /// Over the pairs of a chunk.
 struct TensorSum {
   Mat3 tensor = Mat3::Zero();
@@ -186,9 +205,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
       2.0 * static_cast<double>(seen.contacts) / static_cast<double>(particles.size());
   seen.coordination_std =
       standard_deviation(contacts.resultants().contacts, seen.coordination_number);
-  double solid = 0.0;
-  for (const Vec3& axes : particles.semi_axes) solid += volume_of(axes, particles.dimensions);
-  seen.porosity = 1.0 - solid / cell.volume();
+  see_shapes(particles, cell, seen);
   seen.balance = balance_of(particles, contacts, gravity);
   seen.kinetic_energy = kinetic_energy(particles);
   seen.elastic_energy = totals.energy;
@@ -229,6 +246,12 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"damping_loss", seen.account.damping},
           {"energy_error", seen.energy_error},
           {"stage_cycle", stage_cycle},
+          {"elongation", seen.elongation},
+          {"eccentricity", seen.eccentricity},
+          {"packing_density", seen.packing_density},
+          {"void_ratio", seen.void_ratio},
+          {"contact_density", seen.contact_density},
+          {"overlap_fraction", seen.overlap_fraction},
           {"asymmetry", seen.asymmetry},
           {"boundary_s_xx", b(0, 0)},
           {"boundary_s_yy", b(1, 1)},

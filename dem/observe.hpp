@@ -109,6 +109,11 @@ struct Observation {
   Balance balance;
   double kinetic_energy;  ///< half a step ago, when velocities were known
   double elastic_energy;
+  double elongation, eccentricity;  ///< a / b and (a - b) / (a + b) of the first type, now
+  double packing_density;           ///< (sum of particle volumes) / cell volume
+  double void_ratio;                ///< porosity / packing_density
+  double contact_density;           ///< 2 contacts / cell volume
+  double overlap_fraction;          ///< mean_overlap / (2 mean of the mean radii)
   EnergyAccount account{};
   /// Kinetic and elastic energy now less what the account says: what the time step lost or gained.
   double energy_error = 0.0;

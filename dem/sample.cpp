@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <random>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -184,24 +184,6 @@ Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, 
   return particles;
 }
 
-}  // namespace
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-Quaternion uniform_rotation(std::mt19937_64& random, int dimensions) {
-  if (dimensions == 2) {
-    const auto [cosine, sine] = cosine_sine(std::numbers::pi * uniform(random));
-    return {cosine, 0.0, 0.0, sine};
-  }
-  const double u = uniform(random);
-  const CosineSine first = cosine_sine(2.0 * std::numbers::pi * uniform(random));
-  const CosineSine second = cosine_sine(2.0 * std::numbers::pi * uniform(random));
-  const double s = std::sqrt(1.0 - u), t = std::sqrt(u);
-  return {t * second.cosine, s * first.sine, s * first.cosine, t * second.sine};
-}
-
-namespace {
-
 /// The cell's edges. @throws DoesNotFit
 Vec3 edges_for(const std::vector<Batch>& batches, const Placement& how) {
   if (how.arrangement == Arrangement::random) return room_for(batches, how);
@@ -257,7 +239,7 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
       centre[k] = spacing[k] * (static_cast<double>(at[k]) + 0.5) +
                   how.jitter * (2.0 * uniform(random) - 1.0);
     const Batch& batch = batches[static_cast<std::size_t>(kinds[site])];
-    particles.add(centre, uniform_rotation(random, how.dimensions),
+    particles.add(centre, how.axes.draw(random, batch.directed_axis, how.dimensions),
                   batch.shape.semi_axes(how.dimensions), batch.density, kinds[site]);
   }
   return particles;
@@ -289,8 +271,8 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
                              : edges[axis] * uniform(random);
       } while (placed.meets(centre, axes.maxCoeff()));
       placed.add(centre, axes.maxCoeff());
-      particles.add(centre, uniform_rotation(random, how.dimensions), axes, batches[k].density,
-                    static_cast<std::int32_t>(k));
+      particles.add(centre, how.axes.draw(random, batches[k].directed_axis, how.dimensions), axes,
+                    batches[k].density, static_cast<std::int32_t>(k));
     }
   }
   return particles;

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
+#include <tangency/dem/start_axes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -23,6 +23,7 @@ struct Batch {
   Shape shape;
   double density;
   std::size_t count;
+  int directed_axis = 0;  ///< the body axis that StartAxes turn
 };
 
 /// One particle of an explicit arrangement.
@@ -57,6 +58,7 @@ struct Placement {
   int dimensions = 3;              ///< 2: in the plane, on a square lattice, by bounding circles
   std::array<bool, 3> walled{};    ///< as in Cell
   std::span<const Body> bodies{};  ///< of an explicit arrangement, which needs a cell_size
+  StartAxes axes{};                ///< not of an explicit arrangement
 };
 
 /// A cell without room, too thin for its particles (thin_cell.hpp), or with too many sites: what()
@@ -82,8 +84,8 @@ void check_thickness(const std::vector<Batch>& batches, const Placement& how);
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
 /// Puts the particles at rest on the sites of a simple cubic lattice, the kinds shuffled and
-/// surplus sites left empty at random, positions jittered and axes turned by rotations drawn
-/// uniformly: with aligned axes and exact sites a compressed assembly is a perfect crystal.
+/// surplus sites left empty at random, positions jittered and axes drawn: with aligned axes and
+/// exact sites a compressed assembly is a perfect crystal.
 ///
 /// (1) No two particles overlap: sites are as far apart as the largest particle's diameter plus
 ///     twice the jitter.
@@ -92,16 +94,9 @@ Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& c
 Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
 /// Puts the particles at rest at random: the largest first, each at the first place drawn where its
-/// bounding sphere meets none of those before it nor an image of its own, axes turned by rotations
-/// drawn uniformly. (1) and (2) hold.
+/// bounding sphere meets none of those before it nor an image of its own, axes drawn. (1) and (2)
+/// hold.
 /// @throws DoesNotFit
 Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
-
-/// Uniform on [0, 1), from the 53 high bits: unlike std::uniform_real_distribution the same
-/// everywhere.
-double uniform(std::mt19937_64& random);
-
-/// A rotation drawn uniformly [Shoemake1992]; in the plane one about z.
-Quaternion uniform_rotation(std::mt19937_64& random, int dimensions = 3);
 
 }  // namespace tangency::dem

@@ -4,13 +4,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include <tangency/dem/scene_growth.hpp>
 #include <tangency/dem/scene_loading.hpp>
 #include <tangency/dem/scene_section.hpp>
 #include <tangency/dem/whole_file.hpp>
@@ -18,8 +20,8 @@
 namespace tangency::dem {
 namespace {
 
-/// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
-constexpr double kMostGrowthOfAnIncrement = 0.01;
+/// Classes of micro.csv by default, the published ones [Ouadfel1998, section 2.3.2].
+constexpr std::int64_t kClassesOfNearUniform = 4, kRingsOfPolar = 18;
 
 /// What walls are called in [contact.NAME-NAME].
 constexpr std::string_view kWallName = "wall";
@@ -49,10 +51,7 @@ class Reader {
     read_particles();
     read_contacts();
     read_stages();
-    const Section output(source_, table("output"), "output", "output");
-    scene_.output = {output.integer("history_interval"), output.integer("frame_interval"),
-                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
-                     output.integer("contact_interval")};
+    read_output();
     return std::move(scene_);
   }
 
@@ -67,6 +66,19 @@ class Reader {
     if (!node->is_table())
       source_.fail(node->source(), std::string(name) + " = " + text_of(*node) + ": a table");
     return *node->as_table();
+  }
+
+  void read_output() {
+    const Section output(source_, table("output"), "output", "output");
+    scene_.output = {output.integer("history_interval"),    output.integer("frame_interval"),
+                     output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
+                     output.integer("contact_interval"),    output.integer("micro_interval")};
+    scene_.output.polar = output.text("partition") == "polar";
+    const std::int64_t usual = scene_.output.polar ? kRingsOfPolar : kClassesOfNearUniform;
+    const std::int64_t classes = output.optional_integer("classes").value_or(usual);
+    if (scene_.output.polar && classes < 2)
+      output.refuse("classes", classes, "2 or more with partition = \"polar\"");
+    scene_.output.classes = static_cast<int>(classes);
   }
 
   void read_cell() {
@@ -270,7 +282,9 @@ class Reader {
       return;
     }
     added.drive = read_drive(section, kind, scene_);
-    if (kind == "grow") added.growth = read_growth(section);
+    if (kind != "grow") return;
+    check_flatness(section);
+    added.growth = read_growth(section, scene_);
   }
 
   /// Files are called by their stage's name.
@@ -313,18 +327,41 @@ class Reader {
     only_of("lattice", {"jitter"});
     only_of("random", {"bounding_fraction"});
     only_of("explicit", {"file"});
-    if (arrangement == "explicit") section.forbid("seed", "not with arrangement = \"explicit\"");
+    if (arrangement == "explicit")
+      for (const char* key : {"seed", "axes", "axes_direction", "axes_cone_deg"})
+        section.forbid(key, "not with arrangement = \"explicit\"");
     const Place place{arrangement == "random"     ? Arrangement::random
                       : arrangement == "explicit" ? Arrangement::explicit_bodies
                                                   : Arrangement::lattice,
-                      static_cast<std::uint64_t>(section.integer("seed")), section.real("jitter"),
-                      section.real("bounding_fraction"), section.text("file", "")};
+                      static_cast<std::uint64_t>(section.integer("seed")),
+                      section.real("jitter"),
+                      section.real("bounding_fraction"),
+                      section.text("file", ""),
+                      read_start_axes(section)};
     const double most = largest_bounding_fraction(scene_.dimensions);
     if (place.bounding_fraction > most)
       section.fail("bounding_fraction",
                    "a finite number > 0 and <= " + short_text(most) +
                        " with dimensions = " + std::to_string(scene_.dimensions));
     return place;
+  }
+
+  StartAxes read_start_axes(const Section& section) const {
+    const std::string rule = section.text("axes");
+    if (rule == "random") section.forbid("axes_direction", "not with axes = \"random\"");
+    if (rule != "cone") section.forbid("axes_cone_deg", "with axes = \"cone\" alone");
+    if (rule == "cone" && !section.has("axes_cone_deg")) section.fail_missing("axes_cone_deg");
+    const Vec3 axial = Vec3::Unit(scene_.dimensions - 1);
+    const Vec3 direction = section.optional_real3("axes_direction").value_or(axial);
+    if (direction.isZero(0.0)) section.fail("axes_direction", "3 finite numbers, not all 0");
+    if (scene_.dimensions == 2 && direction[2] != 0.0)
+      section.fail("axes_direction", "with dimensions = 2 none along z");
+    const double degrees = section.optional_real("axes_cone_deg").value_or(0.0);
+    return {rule == "aligned" ? StartAxes::Rule::aligned
+            : rule == "cone"  ? StartAxes::Rule::cone
+            : rule == "plane" ? StartAxes::Rule::across
+                              : StartAxes::Rule::random,
+            direction, degrees * std::numbers::pi / 180.0};
   }
 
   /// The scene's [[body]] tables, which an explicit arrangement without a file must have.
@@ -381,34 +418,6 @@ class Reader {
       if (size) source_.fail(size->source(), "cell.size = " + text_of(*size) + ": " + error.what());
       source_.fail(stage.source(), path + ": " + error.what());
     }
-  }
-
-  Growth read_growth(const Section& section) const {
-    check_flatness(section);
-    Growth growth{section.real("elongation"), section.optional_real("flatness"),
-                  section.integer("increments"), section.real("max_inertial_fraction")};
-    const double change = largest_change(growth);
-    if (change > kMostGrowthOfAnIncrement) {
-      Growth enough = growth;
-      while (largest_change(enough) > kMostGrowthOfAnIncrement)
-        enough.increments += (enough.increments + 99) / 100;
-      section.refuse("increments", growth.increments,
-                     std::to_string(enough.increments) +
-                         " or more: an increment would change a semi-axis by " +
-                         short_text(change) + " of itself, and at most " +
-                         short_text(kMostGrowthOfAnIncrement) + " is allowed");
-    }
-    return growth;
-  }
-
-  /// Of any type's semi-axes in one increment, in the last stage so far.
-  double largest_change(const Growth& growth) const {
-    double largest = 0.0;
-    for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
-      largest = std::max(largest,
-                         growth.largest_change(scene_.shape_in(type, scene_.stages.size() - 1, 0),
-                                               scene_.dimensions));
-    return largest;
   }
 
   const toml::table& root_;

@@ -34,6 +34,8 @@ constexpr Range kNotNegative = between(0.0, 1e30);
 constexpr Range kAnySign = between(-1e30, 1e30);
 /// Of semi-axes. Chosen: two of them make a needle or a disk of 1e8.
 constexpr Range kAxisRatio = between(1.0, 1e4);
+/// (a - b) / (a + b) of these, but for a last digit.
+constexpr Range kEccentricity = between(0.0, 0.9998);
 /// Measured on shear tests of one sample at steps growing from 0.05 sqrt(m/K_n): a step above
 /// 0.3 sqrt(m/K_n) does not blow up. The servo hides that the motion is wrong, and the peak
 /// friction angle silently falls from 44 to 33 degrees.
@@ -118,6 +120,15 @@ constexpr std::array kKeys{
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
     Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
         "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
+    Key{"stage", "axes", text, "-", "random", kNoRange, "random aligned cone plane", "place",
+        "Where the longest axis points, of oblate bodies the symmetry axis (the shortest), of "
+        "spheres that of their later shape: anywhere; along axes_direction; uniform in a cone "
+        "about it; uniform in the plane across it (with dimensions = 2 the line across it). The "
+        "spin about the axis is uniform"},
+    Key{"stage", "axes_direction", real3, "-", "(z, in the plane y)", kAnySign, "", "place",
+        "aligned, cone, plane: a direction of any length"},
+    Key{"stage", "axes_cone_deg", real, "degrees", "(needed by cone)", above_to(0.0, 90.0), "",
+        "place", "cone: the largest angle to axes_direction"},
     Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kIsotropicKinds,
         "Mean stress to reach (compress) or to hold (grow, relax, unload)"},
     Key{"stage", "mean_stress", real, "Pa", "(not held)", kPositive, "", "shear servo",
@@ -147,14 +158,27 @@ constexpr std::array kKeys{
         "Of a principal stress in the plane of z and x (in the plane y and x), from z towards x"},
     Key{"stage", "duration", integer, "cycles", "", between(1, kMostCycles), "", "servo",
         "The stage ends after so many"},
-    Key{"stage", "elongation", real, "-", "", kAxisRatio, "", "grow",
+    Key{"stage", "elongation", real, "-", "(by eccentricity)", kAxisRatio, "", "grow",
         "a / b at the end, of all types; mean radii and masses stay"},
+    Key{"stage", "eccentricity", real, "-", "(by elongation)", kEccentricity, "", "grow",
+        "(a - b) / (a + b) at the end instead of the elongation; increments are then equal in it"},
     Key{"stage", "flatness", real, "-", "(as it is)", kAxisRatio, "", "grow",
         "b / c at the end, of all types; 1 in the plane"},
     Key{"stage", "increments", integer, "-", "200", between(1, kMostIncrements), "", "grow",
-        "Steps in which elongation and flatness change; one changes a semi-axis by at most 0.01"},
+        "Steps in which the shape changes, each after a wait for balance and stress; one changes a "
+        "semi-axis by at most 0.01"},
+    Key{"stage", "cycles_per_percent", integer, "cycles", "(increments)",
+        between(1, kMostIncrements), "", "grow",
+        "Of an eccentricity, instead of increments: 0.01 of it grows in so many cycles, an "
+        "increment in each without a wait; then the assembly waits for balance and stress before "
+        "the next 0.01"},
+    Key{"stage", "mean_stress_start", real, "Pa", "(mean_stress)", kPositive, "", "grow",
+        "Mean stress where the growth begins; it changes linearly in the eccentricity of the first "
+        "type up to ramp_eccentricity"},
+    Key{"stage", "ramp_eccentricity", real, "-", "(no ramp)", kEccentricity, "", "grow",
+        "Where mean_stress is reached, on the way of the first type's eccentricity"},
     Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
-        "Increments wait for the inertial fraction to be at most this, and so does the end"},
+        "What waits, and the end, wait for the inertial fraction to be at most this"},
     Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kIsotropicKinds,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", kPositive, "", "shear",
@@ -202,6 +226,13 @@ constexpr std::array kKeys{
     Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
         "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
         "there are none at all"},
+    Key{"output", "micro_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
+        "Between two rows of micro.csv; a stage's end has one too. With 0 there is none at all"},
+    Key{"output", "partition", text, "-", "near-uniform", kNoRange, "near-uniform polar", "",
+        "micro.csv: how directions are sorted: near-uniform has 24 N^2 classes, polar N rings of "
+        "2 N sectors about z; in the plane 8 N and 2 N arcs"},
+    Key{"output", "classes", integer, "-", "(4; polar 18)", between(1, 100), "", "",
+        "micro.csv: N of the partition; polar from 2"},
     Key{"output", "checkpoint_interval", integer, "cycles", "5000", between(0, kMostCycles), "", "",
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",

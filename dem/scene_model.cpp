@@ -10,7 +10,11 @@ namespace tangency::dem {
 
 std::vector<Batch> Scene::batches() const {
   std::vector<Batch> all;
-  for (const ParticleType& type : particle_types) all.push_back(type.batch);
+  for (std::size_t type = 0; type < particle_types.size(); ++type) {
+    Batch& batch = all.emplace_back(particle_types[type].batch);
+    const bool grows = batch.shape.elongation == 1.0 && batch.shape.flatness == 1.0;
+    batch.directed_axis = directed_axis(grows ? shape_in(type, stages.size(), 0) : batch.shape);
+  }
   return all;
 }
 
@@ -44,7 +48,8 @@ Placement Scene::placement() const {
           place.bounding_fraction,
           dimensions,
           walled,
-          bodies};
+          bodies,
+          place.axes};
 }
 
 Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const {

@@ -17,6 +17,7 @@
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/sample.hpp>
+#include <tangency/dem/start_axes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::dem {
@@ -34,6 +35,7 @@ struct Place {
   double bounding_fraction;  ///< of a random arrangement without a cell size
   /// Of an explicit arrangement whose bodies do not stand in the scene: a table of them.
   std::string file;
+  StartAxes axes{};
 };
 
 /// How a stage moves, and when it ends: as soon as all that is set holds.
@@ -74,6 +76,9 @@ struct OutputIntervals {
   std::int64_t history, frame, checkpoint;  ///< cycles; 0: only where a stage ends
   double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
   std::int64_t contacts = 0;                ///< cycles; 0: no tables of contacts
+  std::int64_t micro = 0;                   ///< cycles; 0: no micro.csv
+  bool polar = false;  ///< micro.csv's partition of directions; else near-uniform
+  int classes = 0;     ///< its number N
 };
 
 struct Scene {
@@ -89,6 +94,7 @@ struct Scene {
   std::vector<Stage> stages;  ///< the first, and no other, places
   OutputIntervals output;
 
+  /// Spheres have the directed axis of what they grow into.
   std::vector<Batch> batches() const;
   std::size_t particle_count() const;
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }

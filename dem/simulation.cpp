@@ -167,9 +167,19 @@ void Simulation::prepare_stage() {
   if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
+  renew_loading();
   turns_ = anything_turns();
   least_ = least_cell_of(state_.particles);
   characteristic_time_ = characteristic_time(state_.particles, laws_.largest_stiffness());
+}
+
+void Simulation::renew_loading() {
+  if (finished()) return;
+  loading_ = stage().drive->loading;
+  const auto& growth = stage().growth;
+  if (!growth || !growth->ramp) return;
+  double& wanted = loading_.targets.front().wanted;
+  wanted = growth->stress_after(scene_.shape_in(0, state_.stage, 0), state_.increments, wanted);
 }
 
 /// Smooth spheres at rest never turn. (In the plane a turn costs next to nothing.)
@@ -264,7 +274,8 @@ void Simulation::move_particles(double dt) {
 bool Simulation::grows_now() const {
   const PhaseTimer timer(profile_, Phase::control);
   require_single_contacts();
-  return !is_grown() && is_relaxed();
+  if (is_grown()) return false;
+  return !stage().growth->waits_after(state_.increments) || is_relaxed();
 }
 
 void Simulation::require_single_contacts() const {
@@ -279,7 +290,7 @@ Mat3 Simulation::next_rate(double dt) {
   std::vector<ServoMemory> servos = state_.servos;
   const Stress stress = stress_of(state_.contacts, state_.cell);
   Cell next = state_.cell;
-  next.rate = stage().drive->loading.rate(stress, dt, servos);
+  next.rate = loading_.rate(stress, dt, servos);
   next.strain(dt);
   require_thickness(next, least_);
   state_.servos = std::move(servos);
@@ -320,14 +331,14 @@ void Simulation::watch(const Stress& stress) {
   if (stage.stress_tolerance) return;  // the stage ends when they are met
   if (stage.axial_strain && -state_.cell.logarithmic_strain()(axial, axial) < kSettlingStrain)
     return;
-  stage.loading.watch(stress, !stage.axial_strain, state_.servos);
+  loading_.watch(stress, !stage.axial_strain, state_.servos);
 }
 
 /// Are the stresses the wanted ones and, where the stage asks for it, the assembly in balance?
 bool Simulation::is_relaxed() const {
   const Drive& stage = *this->stage().drive;
   if (stage.stress_tolerance &&
-      !stage.loading.is_met(stress_of(state_.contacts, state_.cell), *stage.stress_tolerance))
+      !loading_.is_met(stress_of(state_.contacts, state_.cell), *stage.stress_tolerance))
     return false;
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
@@ -362,6 +373,7 @@ void Simulation::grow() {
   require_thickness(state_.cell, least);
   least_ = least;
   ++state_.increments;
+  if (stage().growth->ramp) renew_loading();
   Particles& particles = state_.particles;
   const auto energy = [&] { return state_.contacts.totals().energy + kinetic_energy_now(); };
   const double before = energy();
@@ -410,7 +422,8 @@ CyclesNeeded Simulation::cycles_needed() const {
   }
   if (stage.stress_tolerance) needs(cycles_to_a_packing(), "mean_stress");
   if (const auto& growth = this->stage().growth)
-    needs(static_cast<double>(growth->increments - state_.increments), "increments");
+    needs(static_cast<double>(growth->increments - state_.increments),
+          growth->cycles_per_percent ? "cycles_per_percent" : "increments");
   return most;
 }
 

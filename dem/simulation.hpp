@@ -74,6 +74,9 @@ class Simulation {
   bool finished() const { return state_.stage == scene_.stages.size(); }
   /// The current stage, or the last one when finished.
   const Stage& stage() const;
+  /// Of the current stage, with the mean stress to which a growth's ramp has come. Requires
+  /// !finished().
+  const Loading& loading() const { return loading_; }
 
   /// One cycle of the current stage. Requires !finished().
   /// @throws Diverged
@@ -114,6 +117,7 @@ class Simulation {
 
  private:
   void prepare_stage();
+  void renew_loading();
   void sort_in_space();
   bool anything_turns() const;
   bool grows_now() const;
@@ -135,6 +139,7 @@ class Simulation {
   Scene scene_;
   State state_;
   ContactLaws laws_;  ///< the scene's, with the current stage's friction
+  Loading loading_;   ///< the current stage's, with its growth's stress
   std::string changed_laws_;
   bool turns_ = true;                 ///< is there anything that could turn, or seem to?
   LeastCell least_;                   ///< of the particles as they are

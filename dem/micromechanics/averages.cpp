@@ -10,15 +10,10 @@
 #include <vector>
 
 #include <tangency/dem/micromechanics/distributions.hpp>
+#include <tangency/dem/micromechanics/spheroid.hpp>
 
 namespace tangency::micromechanics {
 namespace {
-
-/// Of two semi-axes that count as one. Chosen: shapes that are computed from ratios are off by
-/// rounding, and tables have some ten digits.
-constexpr double kEqualAxes = 1e-9;
-
-bool equal(double a, double b) { return std::abs(a - b) <= kEqualAxes * std::max(a, b); }
 
 /// With the harmonics of order 4 left out.
 template <class Model>
@@ -168,7 +163,7 @@ std::optional<int> common_axis(const BodyArrays& bodies, int dimensions) {
   return common;
 }
 
-void require_bodies(const ContactArrays& contacts, const BodyArrays& bodies) {
+void require_as_many(const ContactArrays& contacts, const BodyArrays& bodies) {
   const auto wanted = static_cast<std::size_t>(contacts.particles);
   for (const auto size : {bodies.orientation.size(), bodies.semi_axes.size()})
     if (size != wanted)
@@ -184,11 +179,13 @@ SpherePartition Classes::partition() const {
 }
 
 std::optional<int> telling_axis(const Vec3& semi_axes, int dimensions) {
-  const double a = semi_axes[0], b = semi_axes[1], c = semi_axes[2];
-  if (dimensions == 2) return equal(a, b) ? std::nullopt : std::optional(a > b ? 0 : 1);
-  if (equal(a, b)) return equal(a, c) ? std::nullopt : std::optional(2);
-  if (equal(b, c)) return 0;
-  if (equal(a, c)) return 1;
+  const double a = semi_axes[0], b = semi_axes[1];
+  if (dimensions == 2) {
+    if (std::abs(a - b) <= kEqualAxes * std::max(a, b)) return std::nullopt;
+    return a > b ? 0 : 1;
+  }
+  if (shape_of(semi_axes) == Shape::sphere) return std::nullopt;
+  if (const auto symmetry = symmetry_of(semi_axes)) return static_cast<int>(symmetry->axis);
   Eigen::Index longest = 0;
   semi_axes.maxCoeff(&longest);
   return static_cast<int>(longest);
@@ -222,7 +219,7 @@ Averages averages_of(const ContactArrays& contacts, const BodyArrays& bodies,
   if (!contacts.arm.empty())
     found.contact_vectors = of_directions(contact_vectors(contacts), dimensions);
   if (bodies.orientation.empty() && bodies.semi_axes.empty()) return found;
-  require_bodies(contacts, bodies);
+  require_as_many(contacts, bodies);
   found.body_axis = common_axis(bodies, dimensions);
   found.long_axes = of_directions(long_axes_of(bodies, dimensions), dimensions);
   if (!contacts.arm.empty() && !contacts.bodies.empty())

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 
+#include <tangency/dem/micromechanics/body_arrays.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
@@ -41,12 +42,6 @@ struct Classes {
   SpherePartition partition() const;
   /// In the plane: as many equal arcs as classes meet its circle, 8 N or 2 N.
   int arcs() const { return kind == Kind::near_uniform ? 8 * count : 2 * count; }
-};
-
-/// The bodies of a packing, one entry a particle; views of arrays that the caller keeps.
-struct BodyArrays {
-  std::span<const Quaternion> orientation;  ///< unit, body to space
-  std::span<const Vec3> semi_axes;
 };
 
 /// The body axis that tells how a body lies: of revolution, that axis; of three different axes the

@@ -18,9 +18,9 @@ double two_digits(double x, double (*round)(double)) {
 }
 std::string rounded_down(double x) { return tables::rounded_text(two_digits(x, std::floor), 2); }
 std::string rounded_up(double x) { return tables::rounded_text(two_digits(x, std::ceil), 2); }
-/// Of two semi-axes, of which none is below 1.
-std::string rounded_down_ratio(double x) {
-  return tables::rounded_text(std::max(1.0, two_digits(x, std::floor)), 2);
+/// Of what is not below `least`.
+std::string rounded_down_from(double least, double x) {
+  return tables::rounded_text(std::max(least, two_digits(x, std::floor)), 2);
 }
 /// An integer's text, without an exponent.
 std::string whole_up(double x) {
@@ -95,13 +95,19 @@ std::string earlier_end(const Simulation& simulation) {
   const Shape start = scene.shape_in(0, state.stage, 0);
   const Shape now = scene.shape_in(0, state.stage, state.increments);
   std::vector<std::string> keys;
-  const auto end_at = [&](const char* key, double first, double reached, double last) {
+  const auto end_at = [&](const char* key, double least, double first, double reached,
+                          double last) {
     const std::string name = std::string(key) + " to ";
-    if (last > first) keys.push_back("lower " + name + rounded_down_ratio(reached));
+    if (last > first) keys.push_back("lower " + name + rounded_down_from(least, reached));
     if (last < first) keys.push_back("raise " + name + rounded_up(reached));
   };
-  end_at("elongation", start.elongation, now.elongation, stage.growth->elongation);
-  end_at("flatness", start.flatness, now.flatness, stage.growth->flatness.value_or(start.flatness));
+  if (const Growth& growth = *stage.growth; growth.by_eccentricity)
+    end_at("eccentricity", 0.0, eccentricity_of(start.elongation), eccentricity_of(now.elongation),
+           eccentricity_of(growth.elongation));
+  else
+    end_at("elongation", 1.0, start.elongation, now.elongation, growth.elongation);
+  end_at("flatness", 1.0, start.flatness, now.flatness,
+         stage.growth->flatness.value_or(start.flatness));
   return joined(keys, " and ");
 }
 

@@ -18,6 +18,7 @@
 #include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
@@ -52,6 +53,8 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  micro.csv          with a micro_interval: fabric, forces and stress, a row every so many cycles
+                     and at the end of each stage; columns: tangency-dem micro --help
   contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
                      the end of each stage a table as `tangency-dem contacts` makes of a state
   states/            states that stages keep, each to be resumed from like final.state:
@@ -97,6 +100,12 @@ logarithmic and count from the start of the stage:
                         J since the start: lost to friction and to damping
   energy_error          J: kinetic and elastic energy less what all these say it should be
   stage_cycle           cycles of the stage
+  elongation eccentricity
+                        a / b and (a - b) / (a + b) of the scene's first type of particles, now
+  packing_density       1 - porosity
+  void_ratio            porosity / packing_density
+  contact_density       1/m^3, 2 contacts / cell volume; with dimensions = 2 1/m^2
+  overlap_fraction      mean_overlap over twice the mean of the mean radii
   asymmetry             |s - s'| / mean stress of the stress before it is made symmetric, by
                         moments out of balance; 0 without stress
   boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
@@ -124,6 +133,8 @@ More keys of summary.json:
   peak_dilation_rate, strain_at_peak_dilation
                         of that stage: largest slope of volumetric over axial strain, by least
                         squares over such rows
+  relaxation_share      of the last stage of kind grow: the share of its cycles in which no
+                        increment was made
   strain_at_A, strain_at_B, strain_at_C, strain_at_D, D_is_last_row
                         of the last stage with save_points: axial strains of its states, and
                         whether D is the last row for want of a constant volume
@@ -270,6 +281,11 @@ void add_micro(tables::Program& program) {
   const tables::Option count =
       command.option("--classes", words->count, "N of the partition [4; polar 18]")
           .between(1, micromechanics::Classes::kMost);
+  command
+      .option("--since", words->options.since,
+              "An older state of the same run: strain since then, too")
+      .type_name("OLDER")
+      .not_empty();
   command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
       .type_name("FILE")
       .not_empty();
@@ -278,7 +294,7 @@ void add_micro(tables::Program& program) {
               "A row a class of directions as CSV; - to standard output")
       .type_name("FILE")
       .not_empty();
-  command.footer(kMicroHelp);
+  command.footer(std::string(kMicroHelp) + kStrainHelp);
   command.runs([words, count] {
     words->options.classes = classes_of(words->partition, words->count, count.given());
     return micro(words->options);

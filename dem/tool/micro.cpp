@@ -8,6 +8,7 @@
 #include <tangency/dem/tool/micro_table.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
@@ -35,9 +36,14 @@ int micro(const MicroOptions& options) {
   if (!options.histogram.empty() && packing.dimensions == 2)
     throw StateError(options.state + ": a packing in the plane: --histogram is of space alone");
   const MicroSummary summary = micro_summary(packing, options.classes);
-  if (!options.json.empty()) write(options.json, micro_json(state, packing, summary));
+  const StrainReport strain =
+      options.since.empty()
+          ? strain_report(state, packing)
+          : strain_report(state, packing, load_state(options.since), options.since);
+  if (!options.json.empty()) write(options.json, micro_json(state, packing, summary, strain));
   if (!options.histogram.empty()) write(options.histogram, histogram_csv(packing, summary));
-  if (options.json != "-" && options.histogram != "-") write("-", micro_table(summary));
+  if (options.json != "-" && options.histogram != "-")
+    write("-", micro_table(summary) + "\n" + strain_table(strain));
   return success;
 }
 

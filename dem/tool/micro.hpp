@@ -11,6 +11,7 @@ namespace tangency::dem {
 
 struct MicroOptions {
   std::string state;
+  std::string since;  ///< an older state of the same run; empty: none
   micromechanics::Classes classes;
   std::string json, histogram;  ///< files; empty: none
 };

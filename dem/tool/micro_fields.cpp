@@ -36,6 +36,7 @@ class Columns {
     add_axes();
     add_signs();
     add_axis_groups();
+    for (const auto& [name, value] : body_numbers(summary_.bodies)) add(name, value);
     return std::move(fields_);
   }
 

@@ -15,7 +15,4 @@ namespace tangency::dem {
 /// are not defined are NaN.
 std::vector<Field> micro_fields(const MicroSummary& summary);
 
-/// What each column means, for the help of the command: a line or more a group of them.
-extern const char* const kMicroColumnsHelp;
-
 }  // namespace tangency::dem

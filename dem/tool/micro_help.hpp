@@ -38,9 +38,54 @@ JSON, null where something is not defined:
   s0, D_n, shares, shares_eight, axisymmetric_shares, signed_magnitudes, signs, joint_signs,
   coaxiality, part_coaxiality, axisymmetry, stress_asymmetry, force_asymmetry,
   branch_asymmetry, vector_normal_angle_mean_deg, vector_normal_angle_largest_deg,
-  direction_groups, radial_rings (polar), plane, mean_normal_force
+  direction_groups, radial_rings (polar), contact_statistics, plane, mean_normal_force
 In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
 amplitudes.
+
+Columns of micro.csv, which a run with a micro_interval writes: cycle, time, stage, stage_cycle
+and axial_strain as in history.csv; empty cells where something is not defined. X stands for r
+contact normals, n normal force, t tangential force, z normal and zt tangential branch, len
+branch length, E long axes, lambda contact vectors:
+  contacts wall_contacts particles rattlers coordination_number
+  coordination_without_rattlers coordination_std coordination_skewness
+  coordination_excess_kurtosis empty_classes contact_density
+                        rattlers have fewer than two contacts
+  f0 z0 mean_branch_length
+                        means over orientations
+  mean_normal_force     over contacts
+  A_X A_error_X a_axial_X
+                        magnitude with the sign of X:a^r; the root of the sum of squares of its
+                        standard errors; component zz, in the plane yy
+  a_cv a_cv_error a1 a1_error
+                        contact vectors in body axes: magnitude, component along the body's axis
+  b_X b_error_X         magnitudes of order 4
+  unexplained2_X unexplained4_X
+                        share of the variance of class means that orders 2, and 2 and 4, leave
+  asymmetry_t asymmetry_zt vector_normal_angle_mean_deg vector_normal_angle_largest_deg
+  stress_asymmetry
+  mean_stress s1 s2 s3 a_s, and with _seven, _eight, _fourth, _noshape, _independent
+                        mean, principal values, sqrt(3/2) |deviator| / mean (in the plane
+                        sin(phi)): measured, and by the theory as in the JSON
+  s0 D_n                isotropic part; factor of the mean stress by signed magnitudes
+  P_xx P_yy P_zz axial_deg_P commutator_P
+                        of the parts P of the stress: diagonals, axes against the measured stress
+  share_X axisymmetric_X (r n t z zt rz rf zf) share_shape a_s_axisymmetric
+                        what each gives to a_s_seven; by signed magnitudes alone
+  a_s_small a_s_coaxial sin(phi) of coaxial tensors in the plane
+  axial_deg_X commutator_X axisymmetry_X sign_X joint_X
+                        axes and signs against a^r; df is a^n - a^t, dz is a^z - a^zt
+  fraction_x fraction_y fraction_z normal_force_x normal_force_y normal_force_z
+                        contacts whose normal is mainly along an axis, and their normal force
+  f_short f_intermediate f_long pair_ss pair_si pair_sl pair_ii pair_il pair_ll
+                        shares of contact sides by the length of the contact vector, of contacts
+                        by both; of bodies of one shape, as what follows
+  f_short_model f_intermediate_model f_long_model pair_model_ss and the like
+                        calculated from a1
+  P2 P4 P2_model        <P2>, <P4> of the cosine of normal and axis of symmetry, and calculated
+                        from a1; in the plane <cos 2 gamma>
+  a_axial_r_rot         of <P2> a^E over sides: what the bodies' axes explain of a^r
+  chi_squared chi_degrees chi_p
+                        are local normals independent of how bodies lie?
 
 Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
 angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length

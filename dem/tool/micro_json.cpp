@@ -202,6 +202,44 @@ Json radial_rings(const Packing& packing, const MicroSummary& summary) {
   return rings;
 }
 
+/// The columns' numbers with their deviations, and the distances and correlations beside them.
+Json contact_statistics_of(const BodySummary& bodies) {
+  Json all;
+  for (const auto& [name, value] : body_numbers(bodies)) all[name] = json(value);
+  const auto put = [&](const char* name, const mm::Estimate& x) {
+    all[name] = json(x.value);
+    all[std::string(name) + "_error"] = json(x.error);
+  };
+  if (const auto& turn = bodies.rotation) {
+    put("P2", turn->second);
+    put("P4", turn->fourth);
+    all["r_rot"] = json(turn->rotated);
+    all["r_other"] = json(turn->other);
+    all["r_other_error"] = json(turn->other_error);
+  }
+  if (const auto& turn = bodies.in_plane) {
+    put("P2", turn->factor);
+    put("a_L", turn->a_l);
+    all["a_L_by_arc"] = json(turn->arc_law_a_l);
+    all["r_rot"] = json(turn->rotated);
+    all["r_other"] = json(turn->other);
+    all["r_other_error"] = json(turn->other_error);
+  }
+  if (bodies.contacts && bodies.contacts->spheroid) {
+    const mm::SpheroidStatistics& seen = *bodies.contacts->spheroid;
+    put("a1", seen.a1);
+    all["a1_by_area"] = json(seen.area_law_a1);
+    all["f_by_area"] = seen.by_area;
+    all["G_off_model"] = json(seen.off_model);
+    all["G_off_area"] = json(seen.off_area);
+    put("correlation_coordination", seen.correlations.coordination);
+    for (std::size_t k = 0; k < 3; ++k)
+      put((std::string("correlation_orientation_") + "xyz"[k]).c_str(),
+          seen.correlations.orientation[k]);
+  }
+  return all;
+}
+
 Json plane_of(const MicroSummary& summary) {
   if (!summary.plane) return nullptr;
   const mm::PlaneState& state = *summary.plane;
@@ -257,7 +295,8 @@ std::string lines_of(const Json& all) {
 
 }  // namespace
 
-std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary) {
+std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary,
+                       const StrainReport& strain) {
   const mm::Averages& averages = summary.averages;
   const int dimensions = summary.dimensions;
   Json all;
@@ -286,7 +325,9 @@ std::string micro_json(const State& state, const Packing& packing, const MicroSu
   all["vector_normal_angle_largest_deg"] = json(summary.largest_vector_angle);
   all["direction_groups"] = axis_groups_of(summary);
   all["radial_rings"] = radial_rings(packing, summary);
+  all["contact_statistics"] = contact_statistics_of(summary.bodies);
   all["plane"] = plane_of(summary);
+  all["average_strain"] = strain_json(strain);
   return lines_of(all);
 }
 

@@ -132,11 +132,12 @@ MicroSummary micro_summary(const Packing& packing, const mm::Classes& classes) {
   summary.state = mm::second_order_state(summary.averages, summary.dimensions);
   summary.plane = mm::plane_state(summary.averages, summary.dimensions);
   summary.stresses = stresses_of(summary, arrays);
+  summary.axis_groups = mm::axis_groups(arrays.normal, arrays.force);
   if (arrays.size() == 0) return summary;
   double sum = 0.0;
   for (const double force : packing.contacts.normal_force) sum += force;
+  summary.bodies = body_summary(arrays, bodies_of(packing));
   summary.mean_normal_force = sum / static_cast<double>(arrays.size());
-  summary.axis_groups = mm::axis_groups(arrays.normal, arrays.force);
   measure_vector_angles(summary, packing.contacts);
   return summary;
 }
@@ -210,6 +211,38 @@ Named<std::optional<Mat3>> compared_tensors(const mm::Averages& averages) {
           {"E", second_of(averages.long_axes)},
           {"df", difference(averages.force_normal, averages.force_tangential)},
           {"dz", difference(averages.branch_normal, averages.branch_tangential)}};
+}
+
+Named<double> body_numbers(const BodySummary& bodies) {
+  constexpr std::array kLengths{"short", "intermediate", "long"};
+  constexpr std::array kPairs{"ss", "si", "sl", "ii", "il", "ll"};
+  const auto& seen = bodies.contacts;
+  const bool has_model = seen && seen->spheroid;
+  Named<double> all;
+  const auto add = [&](const std::string& name, double value) { all.emplace_back(name, value); };
+  for (std::size_t k = 0; k < kLengths.size(); ++k)
+    add(std::string("f_") + kLengths[k], seen ? seen->length[k].value : kNotDefined);
+  for (std::size_t k = 0; k < kLengths.size(); ++k)
+    add(std::string("f_") + kLengths[k] + "_model",
+        has_model ? seen->spheroid->calculated[k] : kNotDefined);
+  for (std::size_t k = 0; k < kPairs.size(); ++k)
+    add(std::string("pair_") + kPairs[k], seen ? seen->pairs[k].value : kNotDefined);
+  for (std::size_t k = 0; k < kPairs.size(); ++k)
+    add(std::string("pair_model_") + kPairs[k],
+        has_model ? seen->spheroid->calculated_pairs[k] : kNotDefined);
+  const auto& in_space = bodies.rotation;
+  const auto& in_plane = bodies.in_plane;
+  add("P2", in_space ? in_space->second.value : in_plane ? in_plane->factor.value : kNotDefined);
+  add("P4", in_space ? in_space->fourth.value : kNotDefined);
+  add("P2_model", bodies.calculated_factor);
+  add("a_axial_r_rot", in_space   ? in_space->rotated(2, 2)
+                       : in_plane ? in_plane->rotated(1, 1)
+                                  : kNotDefined);
+  const auto& chi = bodies.independence;
+  add("chi_squared", chi ? chi->chi_squared : kNotDefined);
+  add("chi_degrees", chi ? static_cast<double>(chi->degrees) : kNotDefined);
+  add("chi_p", chi ? chi->p_value : kNotDefined);
+  return all;
 }
 
 Named<std::optional<int>> joint_signs_of(const mm::Averages& averages) {

@@ -19,6 +19,7 @@
 #include <tangency/dem/micromechanics/distributions.hpp>
 #include <tangency/dem/micromechanics/plane.hpp>
 #include <tangency/dem/micromechanics/stress_force_fabric.hpp>
+#include <tangency/dem/tool/body_summary.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/geometry/vectors.hpp>
 
@@ -62,6 +63,8 @@ struct MicroSummary {
   std::optional<micromechanics::PlaneState> plane;
   Named<StressSummary> stresses;  ///< those of kStressNames
 
+  BodySummary bodies;
+
   double mean_normal_force = kNotDefined;  ///< over contacts
   std::array<micromechanics::AxisGroup, 3> axis_groups{};
   /// Between contact vectors and normals, over both sides of all contacts, degrees.
@@ -102,6 +105,11 @@ PlaneRatios plane_ratios(const std::optional<micromechanics::PlaneState>& plane)
 /// The tensors whose axes and signs are compared with those of a^r: n t z zt E df dz, the last two
 /// a^n - a^t and a^z - a^zt.
 Named<std::optional<Mat3>> compared_tensors(const micromechanics::Averages& averages);
+
+/// In the order of columns: f_short f_intermediate f_long, the same with _model, pair_ss to
+/// pair_ll, pair_model_ss to pair_model_ll, P2 P4 P2_model a_axial_r_rot chi_squared chi_degrees
+/// chi_p.
+Named<double> body_numbers(const BodySummary& bodies);
 
 /// sgn((XY)':a^r) of r_t r_df r_zt r_dz t_zt t_dz df_zt df_dz.
 Named<std::optional<int>> joint_signs_of(const micromechanics::Averages& averages);

@@ -55,6 +55,8 @@ void add(PackingContacts& all, const Entry& entry, const Contact& contact, const
   all.normal_force.push_back(contact.normal_force);
   all.gap.push_back(-contact.overlap);
   all.sliding.push_back(is_sliding ? 1 : 0);
+  all.normal_stiffness.push_back(contact.normal_stiffness);
+  all.shear_stiffness.push_back(contact.shear.stiffness);
 }
 
 PackingParticles particles_of(const State& state) {

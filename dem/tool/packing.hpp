@@ -41,6 +41,9 @@ struct PackingContacts {
   /// 1 where the shear force is at the Coulomb limit of the laws, else 0; 0 without shear force.
   std::vector<std::uint8_t> sliding;
 
+  std::vector<double> normal_stiffness;  ///< at this overlap, force/length
+  std::vector<double> shear_stiffness;   ///< the larger one; 0 where no shear is borne
+
   std::size_t size() const { return bodies.size(); }
 };
 

@@ -6,16 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <system_error>
-#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,6 +21,9 @@
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/history.hpp>
+#include <tangency/dem/tool/micro_fields.hpp>
+#include <tangency/dem/tool/micro_summary.hpp>
+#include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/summary.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
@@ -31,6 +32,9 @@ namespace tangency::dem {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// An interval, in cycles, that no run comes to.
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 /// Makes the directory and sees that files can be made in it. Leaves nothing when not.
 fs::path usable(const fs::path& directory) {
@@ -60,61 +64,36 @@ tables::Descriptor locked(const fs::path& directory) {
   return lock;
 }
 
-std::string header_line() {
-  std::string line;
-  for (const Field& field : history_fields(0, 0.0, "", 0, Observation{}))
-    line += (line.empty() ? "" : ",") + field.name;
-  return line + "\n";
+/// Of history.csv.
+std::vector<Field> history_columns() { return history_fields(0, 0.0, "", 0, Observation{}); }
+
+/// Of micro.csv.
+std::vector<Field> micro_columns(const Simulation& simulation, const std::string& stage,
+                                 double axial_strain, const MicroSummary& summary) {
+  const State& state = simulation.state();
+  std::vector<Field> row{{"cycle", state.cycle},
+                         {"time", state.time},
+                         {"stage", stage},
+                         {"stage_cycle", state.stage_cycle},
+                         {"axial_strain", axial_strain}};
+  for (Field& field : micro_fields(summary)) row.push_back(std::move(field));
+  return row;
 }
 
-std::string csv_line(const std::vector<Field>& fields) {
-  std::string line;
-  for (const Field& field : fields) {
-    if (!line.empty()) line += ',';
-    std::visit(
-        [&](const auto& value) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
-            line += value;
-          else
-            line += tables::to_text(value);
-        },
-        field.value);
-  }
-  return line + "\n";
+micromechanics::Classes classes_of(const OutputIntervals& output) {
+  using Kind = micromechanics::Classes::Kind;
+  return {output.polar ? Kind::polar : Kind::near_uniform, output.classes};
 }
 
 /// The first result of a run in a directory.
 std::optional<std::string> result_in(const fs::path& directory) {
   for (const char* name : {"history.csv", "summary.json", "final.state", "checkpoint.state",
-                           "frames.pvd", "frames.xyz", "frames.xyz.part"})
+                           "frames.pvd", "frames.xyz", "frames.xyz.part", "micro.csv"})
     if (fs::exists(directory / name)) return name;
   for (const auto& file : {first_file(directory / "contacts", cycle_of_contact_table),
                            first_file(directory / "states", cycle_of_kept_state)})
     if (file) return file->lexically_relative(directory).string();
   return std::nullopt;
-}
-
-/// The rows of the history in a directory; none where there is no history.
-std::vector<std::string> rows_in(const fs::path& directory) {
-  const fs::path file = directory / "history.csv";
-  std::ifstream in(file);
-  if (!in) return {};
-  std::vector<std::string> rows;
-  std::string line;
-  std::getline(in, line);
-  if (line + "\n" != header_line())
-    throw OutputError(file.string() +
-                      ": not as this program wrote it, so that it cannot be carried on: that "
-                      "file, none, or another --out");
-  while (std::getline(in, line)) rows.push_back(line);
-  return rows;
-}
-
-std::int64_t cycle_of(const std::string& row) { return std::atoll(row.c_str()); }
-
-std::string stage_of(const std::string& row) {
-  const std::size_t begin = row.find(',', row.find(',') + 1) + 1;  // cycle, time, stage
-  return row.substr(begin, row.find(',', begin) - begin);
 }
 
 /// Is a row of the state's cycle one of its run? It has the numbers that the state keeps too, of
@@ -138,7 +117,8 @@ bool is_of(const std::string& row, const Simulation& simulation) {
 /// does.
 bool is_history_of(const fs::path& directory, const fs::path& state, const Simulation& simulation) {
   const std::int64_t cycle = simulation.state().cycle;
-  for (const std::string& row : rows_in(directory))
+  const RunTable history(directory / "history.csv", history_columns());
+  for (const std::string& row : history.rows_in_file())
     if (cycle > 0 && cycle_of(row) == cycle) return is_of(row, simulation);
   std::error_code none;
   for (const char* file : {"checkpoint.state", "final.state"})
@@ -167,64 +147,61 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
     : directory_(usable(options.out)),
       lock_(locked(directory_)),
       carries_on_(carries_on(directory_, options, simulation)),
+      history_(directory_ / "history.csv", history_columns()),
+      micro_(directory_ / "micro.csv", micro_columns(simulation, "", 0.0, MicroSummary())),
       frames_(directory_, carries_on_ ? simulation.state().cycle : -1,
               simulation.scene().output.frame > 0),
       contacts_(directory_, carries_on_ ? simulation.state().cycle : -1,
                 simulation.scene().output.contacts > 0),
       kept_(directory_, carries_on_ ? simulation.state().cycle : -1, simulation) {
-  if (carries_on_) carry_on(simulation);
+  if (carries_on_) {
+    const OutputIntervals& output = simulation.scene().output;
+    history_.carry_on(simulation, output.history);
+    micro_.carry_on(simulation, output.micro > 0 ? output.micro : kNever);
+  }
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
   if (carries_on_) return;
-  for (const char* name : {"checkpoint.state", "history.csv"}) fs::remove(directory_ / name);
-}
-
-/// Keeps the rows that the run had written when it was at this state. Of the state's own cycle
-/// there may be more: of the end of its stage and of stages after it that ended at once.
-void Results::carry_on(const Simulation& simulation) {
-  const State& state = simulation.state();
-  const auto& stages = simulation.scene().stages;
-  const auto is_called = [&](std::size_t first, std::size_t end, const std::string& name) {
-    return std::any_of(stages.begin() + static_cast<std::ptrdiff_t>(first),
-                       stages.begin() + static_cast<std::ptrdiff_t>(end),
-                       [&](const Stage& stage) { return stage.name == name; });
-  };
-  const auto had = [&](const std::string& row) {
-    if (state.stage_cycle > 0)
-      return !last_row_ && state.cycle % simulation.scene().output.history == 0;
-    return is_called(0, state.stage, stage_of(row)) ||
-           !is_called(state.stage, stages.size(), stage_of(row));
-  };
-  for (const std::string& row : rows_in(directory_)) {
-    if (cycle_of(row) > state.cycle) break;
-    if (cycle_of(row) == state.cycle) {
-      if (!had(row)) break;
-      last_row_ = moment_of(simulation);
-    }
-    history_ += row + "\n";
-  }
-}
-
-Results::Moment Results::moment_of(const Simulation& simulation) {
-  const State& state = simulation.state();
-  return {state.cycle, state.stage_cycle == 0 ? state.stage - 1 : state.stage};
+  for (const char* name : {"checkpoint.state", "history.csv", "micro.csv"})
+    fs::remove(directory_ / name);
 }
 
 void Results::add_row(const Simulation& simulation) { add_row(simulation, moment_of(simulation)); }
 
-void Results::add_last_row_of_stage(const Simulation& simulation) {
-  add_row(simulation, {simulation.state().cycle, simulation.state().stage});
+void Results::add_micro(const Simulation& simulation) {
+  add_micro(simulation, moment_of(simulation));
 }
 
+void Results::add_last_row_of_stage(const Simulation& simulation) {
+  const Moment end{simulation.state().cycle, simulation.state().stage};
+  add_row(simulation, end);
+  if (simulation.scene().output.micro > 0) add_micro(simulation, end);
+}
+
+namespace {
+
+/// Strains count from the first cycle of a stage.
+bool is_unstrained(const Simulation& simulation, const Moment& moment) {
+  return simulation.state().stage_cycle == 0 && moment.stage == simulation.state().stage;
+}
+
+}  // namespace
+
 void Results::add_row(const Simulation& simulation, const Moment& moment) {
-  if (last_row_ == moment) return;
-  last_row_ = moment;
+  if (history_.has(moment)) return;
   const State& state = simulation.state();
   Observation seen = simulation.observe();
-  // Strains count from the first cycle of a stage.
-  if (state.stage_cycle == 0 && moment.stage == state.stage)
-    seen.axial_strain = seen.volumetric_strain = 0.0;
+  if (is_unstrained(simulation, moment)) seen.axial_strain = seen.volumetric_strain = 0.0;
   const std::string& stage = simulation.scene().stages[moment.stage].name;
-  history_ += csv_line(history_fields(state.cycle, state.time, stage, state.stage_cycle, seen));
+  history_.add(moment, history_fields(state.cycle, state.time, stage, state.stage_cycle, seen));
+}
+
+void Results::add_micro(const Simulation& simulation, const Moment& moment) {
+  if (micro_.has(moment)) return;
+  const double strain = is_unstrained(simulation, moment) ? 0.0 : simulation.observe().axial_strain;
+  const MicroSummary summary = micro_summary(packing_of(simulation.state(), simulation.laws()),
+                                             classes_of(simulation.scene().output));
+  const std::string& stage = simulation.scene().stages[moment.stage].name;
+  micro_.add(moment, micro_columns(simulation, stage, strain, summary));
 }
 
 void Results::checkpoint(const Simulation& simulation) const {
@@ -242,7 +219,8 @@ StateKeeper::Outcome Results::keep_points(const Simulation& simulation,
 }
 
 void Results::write_history() const {
-  write_whole(directory_ / "history.csv", header_line() + history_);
+  history_.write();
+  if (micro_.has_rows()) micro_.write();
 }
 
 void Results::finish_incomplete(const Simulation& simulation) {

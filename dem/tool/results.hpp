@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a run leaves in its directory: history.csv, summary.json, the states, the frames
+/// What a run leaves in its directory: history.csv, micro.csv, summary.json, the states, the frames
 /// and the tables of contacts.
 /// Every file is written beside its place and renamed, so that none is ever half written. A row of
 /// the history is of a cycle and a stage; a stage that ends at once has one too. summary.json
@@ -19,17 +19,12 @@
 #include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/frames.hpp>
 #include <tangency/dem/tool/run_options.hpp>
+#include <tangency/dem/tool/run_table.hpp>
 #include <tangency/dem/tool/state_keeper.hpp>
 #include <tangency/dem/tool/summary.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::dem {
-
-/// --out DIR that cannot be used, or is being written to; what() is one line.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 class Results {
  public:
@@ -39,14 +34,17 @@ class Results {
   /// @throws WriteError   what was there is still there
   Results(const RunOptions& options, const Simulation& simulation);
 
-  bool has_rows() const { return !history_.empty(); }
+  bool has_rows() const { return history_.has_rows(); }
   /// A row of history.csv and a frame of the simulation as it is now, each at most one a cycle and
   /// stage. At the start of a stage the row is that of the end of the one before.
   void add_row(const Simulation& simulation);
+  /// A row of micro.csv, alike.
+  void add_micro(const Simulation& simulation);
   void add_frame(const Simulation& simulation) { frames_.add(simulation); }
   /// A table of contacts, at most one a cycle.
   void add_contacts(const Simulation& simulation) { contacts_.add(simulation); }
-  /// The row of a stage that is at its end, which may be its start.
+  /// The row of a stage that is at its end, which may be its start; of micro.csv too, where the
+  /// scene has one.
   void add_last_row_of_stage(const Simulation& simulation);
 
   /// The states that stages keep.
@@ -68,23 +66,14 @@ class Results {
   void finish(const Simulation& simulation, const RunCost& cost);
 
  private:
-  /// What a row is of.
-  struct Moment {
-    std::int64_t cycle;
-    std::size_t stage;
-    bool operator==(const Moment&) const = default;
-  };
-  static Moment moment_of(const Simulation& simulation);
-
-  void carry_on(const Simulation& simulation);
   void add_row(const Simulation& simulation, const Moment& moment);
+  void add_micro(const Simulation& simulation, const Moment& moment);
   void write_history() const;
 
   std::filesystem::path directory_;
   tables::Descriptor lock_;
   bool carries_on_;
-  std::string history_;             ///< rows after the header
-  std::optional<Moment> last_row_;  ///< nothing where it is of no moment that this run may come to
+  RunTable history_, micro_;
   Frames frames_;
   ContactTables contacts_;
   StateKeeper kept_;

@@ -108,8 +108,10 @@ class Run {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
     // A run that is over would leave no row in a directory of its own.
-    if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished()))
+    if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished())) {
       results_.add_row(simulation_);
+      if (simulation_.scene().output.micro > 0) results_.add_micro(simulation_);
+    }
     if (simulation_.state().cycle == 0) {
       results_.add_frame(simulation_);
       results_.add_contacts(simulation_);
@@ -158,6 +160,7 @@ class Run {
     const OutputIntervals& every = simulation_.scene().output;
     const std::int64_t now = simulation_.state().cycle;
     if (now % every.history == 0) results_.add_row(simulation_);
+    if (every.micro > 0 && now % every.micro == 0) results_.add_micro(simulation_);
     if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
     if (every.contacts > 0 && now % every.contacts == 0) results_.add_contacts(simulation_);
     results_.kept().after_cycle(simulation_);
@@ -305,7 +308,7 @@ class Run {
     const auto compare = [&](const std::string& what, double is, double wanted) {
       unmet.push_back(what + " " + short_text(is) + " of " + short_text(wanted));
     };
-    for (const Target& target : stage.loading.targets)
+    for (const Target& target : simulation_.loading().targets)
       compare(target.name, target.measured(seen.stress), target.wanted);
     if (stage.axial_strain) compare("axial strain", seen.axial_strain, *stage.axial_strain);
     if (stage.duration)

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <tangency/dem/instruction_set.hpp>
 #include <tangency/dem/observe.hpp>
@@ -46,6 +48,23 @@ void add_peaks(nlohmann::ordered_json& summary, const History& history, const Sc
   summary["strain_at_peak_dilation"] = peaks->strain_at_dilation;
 }
 
+/// Of the scene's last stage of kind grow, if the history has it. An increment takes a cycle, and
+/// no cycle makes two.
+void add_relaxation_share(nlohmann::ordered_json& summary, const History& history,
+                          const Scene& scene) {
+  const auto last = std::find_if(scene.stages.rbegin(), scene.stages.rend(),
+                                 [](const Stage& stage) { return stage.growth.has_value(); });
+  if (last == scene.stages.rend()) return;
+  const auto is_namesake = [&](const auto& other) { return other.name == last->name; };
+  const auto later = std::count_if(scene.stages.rbegin(), last, is_namesake);
+  std::vector<StageRows> rows = stages_of(history);
+  std::erase_if(rows, [&](const StageRows& stage) { return !is_namesake(stage); });
+  if (std::ssize(rows) <= later) return;
+  const std::size_t end = rows[rows.size() - 1 - static_cast<std::size_t>(later)].end;
+  summary["relaxation_share"] =
+      1.0 - static_cast<double>(last->growth->increments) / history.column("stage_cycle")[end - 1];
+}
+
 /// The points of the scene's last stage that keeps them, if their states are there.
 void add_points(nlohmann::ordered_json& summary, const History& history, const Scene& scene,
                 const fs::path& folder) {
@@ -75,6 +94,7 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
   nlohmann::ordered_json summary;
   put_fields(summary, history);
   add_peaks(summary, history, simulation.scene());
+  add_relaxation_share(summary, history, simulation.scene());
   summary["particles"] = state.particles.size();
   summary["cycles"] = state.cycle;
   summary["wall_seconds"] = cost.wall_seconds;

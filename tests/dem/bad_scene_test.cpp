@@ -211,6 +211,9 @@ std::string place(const std::string& keys) {
 std::string contact(const std::string& keys) {
   return with(scene_with("compress"), "normal_stiffness = 1e10\n", keys);
 }
+std::string grow(const std::string& keys) {
+  return with(scene_with("grow"), "elongation = 1.5\n", keys);
+}
 std::string walled(const std::string& keys) {
   return with(servo(keys), "[cell]\n", "[cell]\nwalls = \"z\"\n");
 }
@@ -277,6 +280,58 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
       {"seed with explicit",
        with(scene_with("explicit"), "\"explicit\"\n", "\"explicit\"\nseed = 3\n"),
        "scene.toml:14: stage[0].seed = 3: not with arrangement = \"explicit\""},
+      {"axes with explicit",
+       with(scene_with("explicit"), "\"explicit\"\n", "\"explicit\"\naxes = \"aligned\"\n"),
+       "scene.toml:14: stage[0].axes = 'aligned': not with arrangement = \"explicit\""},
+      {"a direction with explicit",
+       with(scene_with("explicit"), "\"explicit\"\n",
+            "\"explicit\"\naxes_direction = [0.0, 0.0, 1.0]\n"),
+       "scene.toml:14: stage[0].axes_direction = [ 0.0, 0.0, 1.0 ]: not with arrangement = "
+       "\"explicit\""},
+      {"a direction of random axes", place("axes_direction = [0.0, 0.0, 1.0]\n"),
+       "scene.toml:13: stage[0].axes_direction = [ 0.0, 0.0, 1.0 ]: not with axes = \"random\""},
+      {"no direction", place("axes = \"plane\"\naxes_direction = [0.0, 0.0, 0.0]\n"),
+       "scene.toml:14: stage[0].axes_direction = [ 0.0, 0.0, 0.0 ]: 3 finite numbers, not all 0"},
+      {"a direction out of the plane",
+       with(with(place("axes = \"aligned\"\naxes_direction = [0.0, 1.0, 1.0]\n"), "[cell]\n",
+                 "[cell]\ndimensions = 2\n"),
+            "90.0]", "1.0]"),
+       "scene.toml:15: stage[0].axes_direction = [ 0.0, 1.0, 1.0 ]: with dimensions = 2 none along "
+       "z"},
+      {"a cone without its angle", place("axes = \"cone\"\n"),
+       "scene.toml:11: stage[0].axes_cone_deg is missing: a finite number > 0 and <= 90 (degrees)"},
+      {"an angle without a cone", place("axes = \"plane\"\naxes_cone_deg = 20.0\n"),
+       "scene.toml:14: stage[0].axes_cone_deg = 20.0: with axes = \"cone\" alone"},
+      {"growth to nowhere", grow(""),
+       "scene.toml:13: stage[1].elongation is missing: a finite number from 1 to 10000"},
+      {"growth to two ends", grow("elongation = 1.5\neccentricity = 0.2\n"),
+       "scene.toml:15: stage[1].elongation = 1.5: not together with eccentricity"},
+      {"a rate of an elongation", grow("elongation = 1.5\ncycles_per_percent = 100\n"),
+       "scene.toml:16: stage[1].cycles_per_percent = 100: with an eccentricity alone"},
+      {"a rate and increments",
+       grow("eccentricity = 0.2\nincrements = 100\ncycles_per_percent = 100\n"),
+       "scene.toml:16: stage[1].increments = 100: not together with cycles_per_percent"},
+      {"a rate of what does not grow", grow("eccentricity = 0.0\ncycles_per_percent = 100\n"),
+       "scene.toml:16: stage[1].cycles_per_percent = 100: with an eccentricity that the particles "
+       "do not have yet"},
+      {"too fast a rate", grow("eccentricity = 0.5\ncycles_per_percent = 1\n"),
+       "scene.toml:16: stage[1].cycles_per_percent = 1: 2 or more: an increment would change a "
+       "semi-axis by 0.0178 of itself, and at most 0.01 is allowed"},
+      {"a ramp without its end", grow("eccentricity = 0.2\nmean_stress_start = 1e5\n"),
+       "scene.toml:16: stage[1].mean_stress_start = 1e+05: together with ramp_eccentricity"},
+      {"a ramp without its start", grow("eccentricity = 0.2\nramp_eccentricity = 0.1\n"),
+       "scene.toml:16: stage[1].ramp_eccentricity = 0.1: together with mean_stress_start"},
+      {"a ramp beyond the growth",
+       grow("elongation = 1.5\nmean_stress_start = 1e5\nramp_eccentricity = 0.21\n"),
+       "scene.toml:17: stage[1].ramp_eccentricity = 0.21: a finite number > 0 and <= 0.2, on the "
+       "way of the first type's"},
+      {"a ramp that ends where it begins",
+       grow("elongation = 1.5\nmean_stress_start = 1e5\nramp_eccentricity = 0.0\n"),
+       "scene.toml:17: stage[1].ramp_eccentricity = 0.0: a finite number > 0 and <= 0.2, on the "
+       "way of the first type's"},
+      {"a ramp without growth",
+       grow("eccentricity = 0.0\nmean_stress_start = 1e5\nramp_eccentricity = 0.0\n"),
+       "scene.toml:17: stage[1].ramp_eccentricity = 0.0: with an eccentricity that changes"},
       {"lateral and mean stress", scene_with("shear") + "mean_stress = 1e6\nlateral_stress = 1e6\n",
        "scene.toml:18: stage[1].lateral_stress = 1e+06: not together with mean_stress"},
       {"a ratio in the plane",
@@ -349,6 +404,18 @@ TEST(Combinations, ThatAreSoundAreAccepted) {
   EXPECT_EQ(refusal(scene_with("compress") + "save = true\n" + stage_of("compress")), "");
   EXPECT_EQ(refusal(with(scene_with("explicit"), "[1.0, 2.0, 3.0]", "[1.0, -2e10, 3.0]")), "");
   EXPECT_EQ(refusal(servo("shear_rate = [0.01, 0.0, 0.0]\n")), "");
+  EXPECT_EQ(refusal(place("axes = \"cone\"\naxes_cone_deg = 90.0\n")), "");
+  EXPECT_EQ(refusal(place("arrangement = \"random\"\naxes = \"plane\"\n"
+                          "axes_direction = [-1.0, 0.0, 1e-3]\n")),
+            "");
+  EXPECT_EQ(refusal(grow("eccentricity = 0.2\n")), "");
+  EXPECT_EQ(refusal(grow("eccentricity = 0.2\ncycles_per_percent = 1000\n"
+                         "mean_stress_start = 1e5\nramp_eccentricity = 0.01\n")),
+            "");
+  // An elongation that is e = 0.2 but for its last digit.
+  EXPECT_EQ(refusal(grow("elongation = 1.4999999999999998\nmean_stress_start = 1e5\n"
+                         "ramp_eccentricity = 0.2\n")),
+            "");
   EXPECT_EQ(refusal(scene_with("shear") + "mean_stress = 1e6\nintermediate_ratio = 1\n"), "");
   EXPECT_EQ(refusal(servo("mean_stress = 1e6\nintermediate_ratio = 0.5\nmax_strain_rate = 0.01\n")),
             "");

@@ -143,6 +143,24 @@ TEST(Observe, RowHasTheAssemblysNumbers) {
   EXPECT_NEAR(row.kinetic_energy, 0.5 * sphere * 25.0, 1e-12);
 }
 
+TEST(Observe, GrowthIsSeenByTheFirstTypeAndByWhatFillsTheCell) {
+  Particles particles = row_of_spheres();
+  // The first type need not stand first.
+  particles.add({1.0, 8.0, 8.0}, Eigen::Quaterniond::Identity(), {1.5, 1.0, 1.0}, 1.0, 0);
+  for (std::size_t i = 0; i < 4; ++i) particles.type[i] = 1;
+  const Seen seen(particles, cube(10.0));
+  const Observation row = observe(particles, cube(10.0), seen.contacts);
+  EXPECT_EQ(row.elongation, 1.5);
+  EXPECT_EQ(row.eccentricity, 0.2);
+  const double solid = 4.0 / 3.0 * std::numbers::pi * 5.5;
+  EXPECT_NEAR(row.packing_density, solid / 1000.0, 1e-15);
+  EXPECT_NEAR(row.packing_density, 1.0 - row.porosity, 1e-15);
+  EXPECT_NEAR(row.void_ratio, (1000.0 - solid) / solid, 1e-12);
+  EXPECT_EQ(row.contact_density, 2.0 * 2.0 / 1000.0);
+  const double mean_radius = (4.0 + std::cbrt(1.5)) / 5.0;
+  EXPECT_NEAR(row.overlap_fraction, 0.375 / (2.0 * mean_radius), 1e-15);
+}
+
 /// The stress before it is made symmetric, and (1/V) sum of resultant (x) place in the cell: by the
 /// contacts' records alone.
 struct BySums {
@@ -243,8 +261,9 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
       "s_zx,friction_angle_deg,coordination_number,coordination_std,porosity,contacts,"
       "mean_normal_force,mean_overlap,inertial_fraction,kinetic_energy,elastic_energy,"
       "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,"
-      "stage_cycle,asymmetry,boundary_s_xx,boundary_s_yy,boundary_s_zz,boundary_s_xy,boundary_s_yz,"
-      "boundary_s_zx,");
+      "stage_cycle,elongation,eccentricity,packing_density,void_ratio,contact_density,"
+      "overlap_fraction,asymmetry,boundary_s_xx,boundary_s_yy,boundary_s_zz,boundary_s_xy,"
+      "boundary_s_yz,boundary_s_zx,");
 }
 
 }  // namespace

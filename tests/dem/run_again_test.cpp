@@ -35,14 +35,18 @@ std::string mixture() {
          "time_step_factor = 0.3\n"
          "[[stage]]\nkind = \"shear\"\nmean_stress = 20e6\naxial_strain_rate = 0.05\n"
          "axial_strain = 0.1\ntime_step_factor = 0.3\n"
-         "[output]\nhistory_interval = 7\nframe_interval = 100\ncheckpoint_interval = 60\n";
+         "[output]\nhistory_interval = 7\nframe_interval = 100\ncheckpoint_interval = 60\n"
+         "micro_interval = 35\n";
 }
 
-constexpr const char* kResults[] = {"final.state", "history.csv", "frames.xyz", "frames.pvd"};
+constexpr const char* kResults[] = {"final.state", "history.csv", "micro.csv", "frames.xyz",
+                                    "frames.pvd"};
 
 void expect_same_results(const std::string& a, const std::string& b) {
-  for (const char* file : kResults)
+  for (const char* file : kResults) {
+    EXPECT_EQ(std::filesystem::exists(a + "/" + file), std::filesystem::exists(b + "/" + file));
     EXPECT_TRUE(read_file(a + "/" + file) == read_file(b + "/" + file)) << file;
+  }
   auto of_a = nlohmann::json::parse(read_file(a + "/summary.json"));
   auto of_b = nlohmann::json::parse(read_file(b + "/summary.json"));
   for (const char* key : {"wall_seconds", "ns_per_listed_pair_per_cycle"})

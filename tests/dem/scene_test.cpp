@@ -106,7 +106,8 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
-            "kind, name, save, arrangement, file, seed, jitter, bounding_fraction");
+            "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, axes, "
+            "axes_direction, axes_cone_deg");
   EXPECT_EQ(refusal_with("[contact]", "[contact.grain-stone]"),
             "scene.toml:7: contact.grain-stone: NAME-NAME of two of the scene's particle types");
 }

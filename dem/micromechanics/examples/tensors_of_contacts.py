@@ -67,7 +67,8 @@ def tensors(coefficients):
 
 
 scalar = lambda n: [value(p, n) for _, p in BASIS]
-tangential = lambda n: [minus([g / order for g in gradient(p, n)], n, value(p, n)) for order, p in BASIS]
+slope = lambda n: [[g / order for g in gradient(p, n)] for order, p in BASIS]  # a n or b nnn
+tangential = lambda n: [minus(s, n, dot(s, n)) for s in slope(n)]
 GRAM = [[sphere_mean(p, q) if a == b else 0.0 for b, q in BASIS] for a, p in BASIS]
 RISE = [(order + 1) / order for order, _ in BASIS]  # mean square of the gradients' over the scalars'
 
@@ -81,7 +82,7 @@ def vectors(places, weights, normals, data, projected):
     columns = [[1.0] + scalar(n) for n in places]
     along = [dot(v, n) for v, n in zip(data, normals)]
     rest = [minus(v, n, a) for v, n, a in zip(data, normals, along)]
-    slopes = [tangential(n) for n in places]
+    slopes = [slope(n) if projected else tangential(n) for n in places]
     right = [sum(w * c[m] * a for w, c, a in zip(weights, columns, along)) for m in range(15)]
     across = [sum(w * dot(s[m], t) for w, s, t in zip(weights, slopes, rest)) for m in range(14)]
     if projected:
@@ -155,6 +156,8 @@ def main(contact_file, particle_file):
             ("", n, shares, False), ("published", [c[3] for c in classes], shares, True),
             ("contact_sums", n, inverse, True)):
         to = found.setdefault(name, {}) if name else found
+        if min(weights) <= 0.0:  # order 2 alone makes a density below 0 there: no sums
+            continue
         to["f0"], to["normal_force"], to["tangential_force"] = vectors(places, weights, n, force, projected)
         to["z0"], to["branch_normal"], to["branch_tangential"] = vectors(places, weights, n, branch, projected)
         to["mean_branch_length"], to["branch_length"], _ = vectors(places, weights, n, length, projected)
