@@ -25,7 +25,7 @@ double chi_squared_tail(double chi_squared, std::int64_t degrees) {
   if (degrees < 1)
     throw std::invalid_argument("degrees = " + std::to_string(degrees) + ": must be at least 1");
   if (!(chi_squared > 0.0)) return std::isnan(chi_squared) ? kNone : 1.0;
-  constexpr double kBeyond = 1e100;  // derived: far above any whole number of degrees
+  constexpr double kBeyond = 1e20;  // derived: above any whole number of degrees
   if (chi_squared > kBeyond) return 0.0;
   // Q(degrees/2, half) as its finite sum: of half^j e^-half/j!, j whole or half a number.
   constexpr double kLarge = 0x1p500;  // chosen: terms grow to the power of half

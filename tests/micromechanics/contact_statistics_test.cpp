@@ -83,7 +83,7 @@ TEST(LengthShares, OfFlatBodiesAreThoseOfTheirEquator) {
 }
 
 TEST(LengthShares, ClassesAreThirdsBetweenTheSemiAxes) {
-  const Vec3 r(1.0, 0.8, 0.7);
+  const Vec3 r(1.0, 0.75, 0.7);
   EXPECT_EQ(length_class(r, Vec3(5.0, 0.0, 0.0)), 2U);
   EXPECT_EQ(length_class(r, Vec3(0.0, 0.1, 0.0)), 0U);
   EXPECT_EQ(length_class({1.0, 0.85, 0.7}, Vec3::UnitY()), 1U);

@@ -35,8 +35,8 @@ TEST(ChiSquared, TailIsTheIncompleteGammaFunction) {
           << degrees << " " << x;
     }
   EXPECT_EQ(chi_squared_tail(0.0, 5), 1.0);
-  for (const double x : {1e99, 1e200, std::numeric_limits<double>::infinity()})
-    EXPECT_EQ(chi_squared_tail(x, 50), 0.0);
+  for (const double x : {1e4, 1e19, 1e200, std::numeric_limits<double>::infinity()})
+    EXPECT_LT(chi_squared_tail(x, 50), 1e-300);
   EXPECT_TRUE(std::isnan(chi_squared_tail(std::numeric_limits<double>::quiet_NaN(), 5)));
   EXPECT_THROW(chi_squared_tail(1.0, 0), std::invalid_argument);
 }

@@ -30,7 +30,7 @@ double integral(const std::function<double(double)>& f, double from, double to) 
   const int status = gsl_integration_qag(&function, from, to, 1e-15, 1e-13, kIntervals,
                                          GSL_INTEG_GAUSS61, work.get(), &value, &error);
   // Rounding may forbid the bound asked for; a bad integral is another matter.
-  if (status != GSL_SUCCESS && !(error <= 1e-12 * std::abs(value) + 1e-14))
+  if (status != GSL_SUCCESS && !(error <= 1e-12 * std::abs(value) + 1e-13))
     throw std::runtime_error("quadrature did not converge");
   return value;
 }
