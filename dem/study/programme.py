@@ -209,13 +209,15 @@ class Programme:
         first = self._add("horizontal", "growth", seed, "horizontal", b,
                           of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
                                   ramp_eccentricity=0.005, **ramp),
-                          after=lattice, history=10, micro=scale.micro, tables=["final.state"],
+                          after=lattice, history=2, micro=scale.micro, tables=["final.state"],
                           cost=2)
+        second = self._add("horizontal", "ramp", seed, "horizontal", b,
+                           of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
+                                   ramp_eccentricity=0.01, **ramp),
+                           after=first, history=2, micro=scale.micro, cost=1)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
-                          of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
-                                  ramp_eccentricity=0.01, **ramp),
                           of.grow("grow18", DENSE, E_LONG, scale.increments),
-                          of.relax("p100", DENSE), after=first, history=20,
+                          of.relax("p100", DENSE), after=second, history=20,
                           micro=scale.micro // 2, tables=["final.state"], cost=6)
         for pressure, run in self._release("horizontal", seed, "horizontal", b, grown).items():
             self._shear("horizontal", f"{p_name(pressure)}-", seed, "horizontal", b, pressure, run)
