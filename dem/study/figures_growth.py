@@ -11,7 +11,7 @@ from figures import Chapter
 # Growth of the tests' sample from spheres to e = 0.176, and on to 0.22: each resumes the one before.
 CHAIN = ("spheroid-growth", "spheroid-growth2")
 FURTHER = CHAIN + ("spheroid-growth3",)
-HORIZONTAL = ("horizontal-growth", "horizontal-growth2")
+HORIZONTAL = ("horizontal-growth", "horizontal-ramp", "horizontal-growth2")
 
 ECCENTRICITY = "eccentricity e = (a − b) / (a + b)"
 
