@@ -236,15 +236,17 @@ class Programme:
         of, scale, pressure = Stages(plane=True), self.scale, scale_plane(10e6)
         b = body(scale.particles, plane=True, kind="ellipse")
         after = self._add("ellipse", "e00", seed, "plane", b, of.random(seed),
-                          of.compact(pressure), of.relax("e00", pressure, max_unbalanced_ratio=0.02),
+                          of.compact(pressure), of.relax("e00", pressure,
+                                                         max_unbalanced_ratio=0.02),
                           history=20, tables=["final.state"], cost=3)
         self._shear("ellipse", "e00-", seed, "plane", b, pressure, after, of=of)
         for e in (0.05, 0.1, 0.15, 0.2, 0.25, 0.3):
             name = f"e{round(100 * e):02d}"
             after = self._add("ellipse", name, seed, "plane", b,
                               of.grow("grow", pressure, e,
-                                      max(4, round(0.12 * scale.increments))),
-                              of.relax(name, pressure, max_unbalanced_ratio=0.02), after=after, history=20,
+                                      max(8, round(0.12 * scale.increments))),
+                              of.relax(name, pressure, max_unbalanced_ratio=0.02), after=after,
+                              history=20,
                               tables=["final.state"], cost=3)
             if e <= 0.2:  # as published
                 self._shear("ellipse", f"{name}-", seed, "plane", b, pressure, after, of=of)
