@@ -50,6 +50,11 @@ def growth(maker):
                "coordination_std",
                "Standard deviation of a particle's number of contacts. The text has 0.67 at first, a rise "
                "in compression, then a fall, and at most 1.5 up to e = 0.2."),
+        over_e("growth-relative-scatter", "Relative scatter of the coordination number",
+               "standard deviation / mean, %",
+               lambda row: 100.0 * row["coordination_std"] / row["coordination_number"],
+               "The text has 10 to 18 %: 11 % at first, and less from e = 0.05 to 0.17 than before and after.",
+               y_range=(0, 30)),
         over_e("growth-packing", "Packing density in growth", "packing density",
                lambda row: 1.0 - row["porosity"],
                "Share of the cell that particles fill, overlaps counted twice. The text has 0.81 at "

@@ -24,7 +24,7 @@ def strength(maker):
                         dashed_name="predicted", y_range=(0, None)),
         orders(maker),
         *(lode(maker, family) for family in ("sphere", "spheroid")),
-        *(parts(maker, pressure) for pressure in (10, 50)),
+        *(parts(maker, pressure) for pressure in (10, 50, 100)),
         maker.pressures("share-shape", "Share of the shape", "share of a_{s}, %",
                         lambda row: 100.0 * row["share_shape"] / row["a_s_seven"],
                         "What branches bear: their own two shares and half of each product with them. "

@@ -284,6 +284,13 @@ class ClosedForms(unittest.TestCase):
             self.assertAlmostEqual(law(0.0), 0.0, places=12)
             self.assertAlmostEqual(law(math.pi / 2), 0.5, places=12)
 
+    def test_the_largest_deviation(self):
+        angles = [math.degrees(figures_local.deviation_of(1 / 0.7, math.radians(0.01 * k)))
+                  for k in range(9001)]
+        self.assertAlmostEqual(max(angles), 20.016, places=3)
+        self.assertAlmostEqual(0.01 * angles.index(max(angles)), 34.99, places=1)
+        self.assertAlmostEqual(angles[0] + angles[-1], 0.0, places=5)
+
     def test_anisotropy_by_arc_length(self):
         for ratio, wanted in ((1.1, 0.0478), (1 / 0.7, 0.18524), (2.0, 0.38987), (10.0, 1.4518)):
             self.assertAlmostEqual(figures_local.arc_anisotropy(ratio), wanted, places=4)
