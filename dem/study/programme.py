@@ -180,9 +180,10 @@ class Programme:
                               of.grow("grow", pressure, E_LONG, scale.increments),
                               of.relax("dense", pressure), history=20, tables=["final.state"],
                               cost=6)
-            # A cell of 27 becomes too thin for its particles beyond.
+            # Beyond, a body of 27 touches another one twice: measured, of nine samples the first
+            # at 0.19, and such a run ends.
             self._shear(family, "", seed, "table", b, pressure, grown,
-                        strain=min(0.34, scale.strain) if family == "test1" else None)
+                        strain=min(0.17, scale.strain) if family == "test1" else None)
 
     def _growth(self, seed):
         """Growth to e = 0.22, as fast as the tests' and slowly."""

@@ -194,9 +194,10 @@ def test1(study):
     contacts = apart[COORDINATION][0]
     return Finding(f"{text(degrees)}; {text(contacts)}", text(scatter_, 2), len(study.seeds),
                    degrees > max(2.0, scatter_) and contacts > 1.0,
-                   "the published rate of test 1 is ten times that of the others; ours is the "
-                   "same; "
-                   "largest distances: " + ", ".join(
+                   "the published rate of test 1 is ten times that of the others, ours is the "
+                   f"same; to {text(study.test(f'test1-shear-s{study.small_seeds[0]}').end)} of "
+                   "strain, since bodies of so small a cell then touch each other twice; largest "
+                   "distances: " + ", ".join(
                        f"{name} {text(value)}" for name, (value, _) in apart.items()))
 
 
