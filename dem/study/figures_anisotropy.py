@@ -38,7 +38,7 @@ def curves(maker):
                    "In the text it grows linearly with strain and hardly depends on the pressure. Below 0: "
                    "branches are longer across the load.", zero=True),
         anisotropy("anisotropy-zt", "Branch, tangential component", "axial component of a^{zt}", "a_axial_zt",
-                   "Small beside the others. It belongs to bodies that are no spheres.", zero=True),
+                   "It belongs to bodies that are no spheres: branches of spheres have no tangential component.", zero=True),
         anisotropy("anisotropy-len", "Branch, length", "axial component", "a_axial_len",
                    "Of the distance of the centres. The text says that branches become long horizontally.",
                    zero=True),

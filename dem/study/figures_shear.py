@@ -32,27 +32,27 @@ def stress(maker):
     return [
         maker.pressures("shear-ratio", "Shear stress ratio", "a_{s} = (σ_{1} − σ_{3}) / p",
                         axial_ratio,
-                        "A peak, softening, then one curve for all pressures. The text has the same: "
-                        "strength falls as pressure grows, and the ultimate strength does not depend on it."),
+                        "The text has a peak, softening, then one curve for all pressures: strength falls as pressure "
+                        "grows, and the ultimate strength does not depend on it."),
         maker.pressures("shear-angle", "Friction angle", "friction angle, degrees", "friction_angle_deg",
                         "The same as an angle. The text has peaks from 39° to 43.5°."),
         maker.pressures("shear-volume", "Volumetric strain", "volumetric strain", "volumetric_strain",
-                        "Samples dilate from the start, less at higher pressure. The text finds no "
-                        "contraction, and curves that do not meet.", zero=True),
+                        "In the text samples dilate from the start, less at higher pressure, without contraction and in "
+                        "curves that do not meet.", zero=True),
         maker.pressures("shear-dilation", "Rate of dilation", "dε_{v} / dε_{a}", "volumetric_strain",
                         "Slope of the curves before, over a window of 0.02. The text has a maximum from 0.35 "
                         "to 1.1, which falls and comes later as pressure grows.",
                         map_y=lambda x, y: series.slope(x, y, WINDOW), zero=True),
         maker.pressures("shear-porosity", "Porosity", "porosity", "porosity",
-                        "Initial and steady values depend on the pressure, in the text too."),
+                        "In the text initial and steady values depend on the pressure."),
         maker.pressures("shear-density", "Packing density", "packing density",
                         lambda row: 1.0 - row["porosity"],
                         "The other side of porosity: how much of the cell is filled."),
         peak(maker, "peak-angle", "Peak friction angle", "friction angle, degrees",
-             "peak_friction_angle_deg", "It falls as pressure grows. The text has 39° to 43.5°."),
+             "peak_friction_angle_deg", "In the text it falls as pressure grows, from 43.5° to 39°."),
         peak_strains(maker),
         peak(maker, "peak-dilation", "Peak rate of dilation", "dε_{v} / dε_{a}", "peak_dilation_rate",
-             "It falls as pressure grows. The text has 0.35 to 1.1."),
+             "In the text it falls as pressure grows, from 1.1 to 0.35."),
         maker.against_pressure(
             "steady-density", "Loss of packing density to the steady state", "ρ_{i} − ρ_{ss}",
             {"to 20.5 % strain": lambda folder: results.value_at(folder, "porosity", STEADY)
@@ -78,8 +78,8 @@ def peak_strains(maker):
     return maker.against_pressure(
         "peak-strain", "Strains of the peaks", "axial strain",
         {"peak friction": of("strain_at_peak_friction"), "peak dilation": of("strain_at_peak_dilation")},
-        "Both grow with the pressure. The text has the peak of friction well before that of dilation, and both "
-        "together at the highest pressure.")
+        "In the text both grow with the pressure; friction peaks well before dilation, and with it at the highest "
+        "pressure.")
 
 
 def plane_dilation(maker):
@@ -135,12 +135,12 @@ def compared(maker):
     angle, volume = "friction_angle_deg", "volumetric_strain"
     return [
         several("compared-spheres", "Spheroids and spheres", "friction angle, degrees", angle, spheres,
-                "Spheres resist less. The text says that other bodies resist more, over a longer strain."),
+                "Samples are prepared alike. The text says that other bodies than spheres resist more, over a longer strain."),
         several("compared-loose", "Dense and loose samples", "friction angle, degrees", angle, loose,
-                "The ultimate angle does not depend on the initial state, in the text too."),
+                "In the text the ultimate angle does not depend on the initial state."),
         several("compared-loose-void", "Dense and loose: void ratio", "void ratio",
                 lambda row: row["porosity"] / (1.0 - row["porosity"]), loose,
-                "At one pressure both samples go to one void ratio; it is another at another pressure."),
+                "In the text the void ratio of the steady state depends on the pressure."),
         several("compared-size", "How many particles", "friction angle, degrees", angle, sizes,
                 "Tests 1 and 3 have 27 and 125 particles, 4c and 4e 1000. The text finds test 3 very close to 4c, and "
                 "test 1, which is ten times faster, unlike 4e."),
@@ -170,8 +170,8 @@ def contacts(maker):
     return [
         maker.pressures("shear-coordination", "Coordination number", "coordination number",
                         "coordination_number",
-                        "It falls steadily and is constant at large strain. The text has 6 near the "
-                        "steady state and a delay at the start for large pressures."),
+                        "In the text it falls steadily, is constant and near 6 at large strain, and is delayed at the "
+                        "start for large pressures."),
         maker.pressures("shear-loss", "Rate of the loss of contacts", "dγ / dε_{a}",
                         "coordination_number",
                         "Slope over a window of 0.02. In the text it depends on pressure within the first "
@@ -187,7 +187,7 @@ def contacts(maker):
             "it contradicts itself.", y_range=(0, None)),
         maker.pressures("shear-force", "Mean normal force", "mean normal force, GN",
                         lambda row: 1e-9 * row["mean_normal_force"],
-                        "It rises as contacts are lost under a mean stress that is held."),
+                        "Mean over contacts: fewer contacts bear a mean stress that is held."),
         maker.against_pressure(
             "force-pressure", "Mean normal force against pressure", "f_{0}, GN",
             {"initial": lambda folder: initial_f0(results, folder),
@@ -224,7 +224,7 @@ def groups_at(maker, pressure):
                                                 "lateral, y": "y"}.items())]
     return maker.chart("groups-contacts", f"Contacts of the direction groups at {pressure} MPa",
                        "axial strain", "contacts", curves,
-                       "All three groups lose contacts. In the text the axial group loses them slowest.",
+                       "In the text all three groups lose contacts, the axial one slowest.",
                        y_range=(0, None))
 
 

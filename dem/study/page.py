@@ -165,9 +165,9 @@ def text_of(out, chapters):
 
 
 INTRODUCTION = """<h1>A published study, run again</h1>
-<p>A. Ouadfel simulated assemblies of equal ellipsoids in triaxial compression and explained their strength
-by the anisotropies of contacts and forces (<cite>Numerical Simulations of Granular Assemblies with
-Three-Dimensional Ellipsoid-Shaped Particles</cite>, 1998). Here its tests were run again, with another
+<p>H. Ouadfel simulated assemblies of equal ellipsoids in triaxial compression and explained their strength
+by the anisotropies of contacts and forces (<cite>Numerical simulations of granular assemblies with
+three-dimensional ellipsoid-shaped particles</cite>, thesis, University of Waterloo, 1998). Here its tests were run again, with another
 program for contacts and motion, and every statement that has a number or an order is compared.
 In what follows <em>the text</em> is that thesis. Its figures are not available, so only what it says in
 words and tables is compared.</p>

@@ -92,12 +92,14 @@ class Results:
             return {}
 
     def seeds(self, stems):
-        """Folders of each seed that has all of the stems, one resuming the other: [[folder ...]]."""
-        by_seed = {}
-        for stem in stems:
+        """Folders of each seed, one run resuming the other, as far as the seed has them: [[folder ...]]."""
+        chains = {}
+        for at, stem in enumerate(stems):
             for folder in self.folders(stem):
-                by_seed.setdefault(folder.rpartition("-s")[2], []).append(folder)
-        return [chain for chain in by_seed.values() if len(chain) == len(stems)]
+                chain = chains.setdefault(folder.rpartition("-s")[2], [])
+                if len(chain) == at:
+                    chain.append(folder)
+        return [chain for chain in chains.values() if chain]
 
     def lines(self, stems, x, y, kind="history", stage=None):
         """(x, y) of each seed, rows of several stems behind one another."""

@@ -115,13 +115,15 @@ class Runs(unittest.TestCase):
             self.assertTrue(math.isnan(found.value_at(folder, "porosity", 0.5)))
             self.assertEqual(found.take_lacking(), ["a-s1 beyond a strain of 0.4"])
 
-    def test_a_chain_is_of_the_seeds_that_have_all_of_it(self):
+    def test_a_chain_goes_as_far_as_its_seed_has_it(self):
         with tempfile.TemporaryDirectory() as out:
-            for stem, seed in (("a", 1), ("a", 2), ("b", 2)):
+            for stem, seed in (("a", 1), ("a", 2), ("b", 2), ("c", 1), ("c", 3)):
                 made_up.write_run(out, stem, seed)
+            chains = results.Results(out).seeds(("a", "b", "c"))
+            self.assertEqual([[os.path.basename(folder) for folder in chain] for chain in chains],
+                             [["a-s1"], ["a-s2", "b-s2"]])
             lines = results.Results(out).lines(("a", "b"), "axial_strain", "porosity")
-            self.assertEqual(len(lines), 1)
-            self.assertEqual(len(lines[0][0]), 2 * 81)
+            self.assertEqual([len(x) for x, _ in lines], [81, 2 * 81])
 
 
 class Charts(unittest.TestCase):
