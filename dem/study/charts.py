@@ -206,7 +206,8 @@ def script_of(chart):
     key = (f"set key at screen 0.52,{6 / height:.4f} center bottom horizontal maxcols {columns} "
            "samplen 1.6 width -1 font ',13' textcolor '#222222'" if columns else "unset key")
     lines_of = [
-        f"set terminal svg size {WIDTH},{height} fixed enhanced font 'Helvetica,14' background '#ffffff'",
+        f"set terminal svg size {WIDTH},{height} fixed enhanced font 'Helvetica,14' background "
+        "'#ffffff'",
         f"set output {quoted(chart.key + '.svg')}",
         f"set title {quoted(chart.title)} font ',15' textcolor '#222222' offset 0,-0.4",
         f"set xlabel {quoted(chart.x_label)} offset 0,0.3",

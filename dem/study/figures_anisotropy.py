@@ -26,27 +26,33 @@ def curves(maker):
 
     return [
         anisotropy("anisotropy-r", "Contact normals", "modulus of a^{r}", modulus("A_r"),
-                   "The text has a hyperbolic rise, softening, and a steady value that depends on the pressure.",
+                   "The text has a hyperbolic rise, softening, and a steady value that depends on "
+                   "the pressure.",
                    y_range=(0, None)),
         anisotropy("anisotropy-n", "Normal force", "modulus of a^{n}", modulus("A_n"),
-                   "Like the shear stress ratio; in the text its steady value is independent of pressure and its "
-                   "peak is near that of the stress.", y_range=(0, None)),
+                   "Like the shear stress ratio; in the text its steady value is independent of "
+                   "pressure and its peak is near that of the stress.", y_range=(0, None)),
         anisotropy("anisotropy-t", "Tangential force", "modulus of a^{t}", modulus("A_t"),
-                   "In the text it rises fast, then declines slowly to one value for all pressures.",
+                   "In the text it rises fast, then declines slowly to one value for all "
+                   "pressures.",
                    y_range=(0, None)),
         anisotropy("anisotropy-z", "Branch, normal component", "axial component of a^{z}", "a_axial_z",
-                   "In the text it grows linearly with strain and hardly depends on the pressure. Below 0: "
-                   "branches are longer across the load.", zero=True),
+                   "In the text it grows linearly with strain and hardly depends on the pressure. "
+                   "Below 0: branches are longer across the load.", zero=True),
         anisotropy("anisotropy-zt", "Branch, tangential component", "axial component of a^{zt}", "a_axial_zt",
-                   "It belongs to bodies that are no spheres: branches of spheres have no tangential component.", zero=True),
+                   "It belongs to bodies that are no spheres: branches of spheres have no "
+                   "tangential component.", zero=True),
         anisotropy("anisotropy-len", "Branch, length", "axial component", "a_axial_len",
-                   "Of the distance of the centres. The text says that branches become long horizontally.",
+                   "Of the distance of the centres. The text says that branches become long "
+                   "horizontally.",
                    zero=True),
         anisotropy("anisotropy-E", "Long axes", "axial component of a^{E}", "a_axial_E",
-                   "Below 0: long axes turn across the load. The text says that they do.", zero=True),
+                   "Below 0: long axes turn across the load. The text says that they "
+                   "do.", zero=True),
         anisotropy("branch-mean", "Mean branch", "mean over orientations, m", "z0",
-                   "Mean normal component z<sub>0</sub>, with 2r = 20 m. The text calls it constant, independent "
-                   "of pressure and above 20 m; overlaps make that impossible at high pressure."),
+                   "Mean normal component z<sub>0</sub>, with 2r = 20 m. The text calls it "
+                   "constant, independent of pressure and above 20 m; overlaps make that "
+                   "impossible at high pressure."),
         peaks(maker),
         peak_strains(maker),
         rings(maker),
@@ -61,8 +67,8 @@ def peaks(maker):
     return maker.against_pressure(
         "anisotropy-peaks", "Peak anisotropies", "largest modulus",
         {"a_{s}, stress": top("a_s"), "a^{n}": top("A_n"), "a^{r}": top("A_r"), "a^{t}": top("A_t")},
-        "In the text a<sup>n</sup> is above the stress ratio, then come a<sup>r</sup> and a<sup>t</sup>, and "
-        "a<sup>r</sup> falls most steeply.", y_range=(0, None))
+        "In the text a<sup>n</sup> is above the stress ratio, then come a<sup>r</sup> and "
+        "a<sup>t</sup>, and a<sup>r</sup> falls most steeply.", y_range=(0, None))
 
 
 def peak_strains(maker):
@@ -73,8 +79,8 @@ def peak_strains(maker):
         "anisotropy-strains", "Strains of the peaks", "axial strain",
         {"a_{s}, stress": place("a_s"), "a^{n}": place("A_n"), "a^{r}": place("A_r"),
          "a^{t}": place("A_t")},
-        "In the text a<sup>t</sup> peaks well before the stress, a<sup>n</sup> later than it, and a<sup>r</sup> "
-        "well after.", y_range=(0, None))
+        "In the text a<sup>t</sup> peaks well before the stress, a<sup>n</sup> later than it, and "
+        "a<sup>r</sup> well after.", y_range=(0, None))
 
 
 def rings(maker):
@@ -90,8 +96,9 @@ def rings(maker):
              charts.Curve("second and fourth", beta, values("model4"), colour=COLOURS[2])]
     return maker.chart("radial-force", "Tangential force away from the load's axis, at C",
                        "angle of the normal to the load, degrees", "f_{r}, GN", drawn,
-                       "Mean over rings of 10° at the peak, at 30 MPa. The text finds that the fourth order "
-                       "corrects size and direction of the largest value; the second order has it at 35°.",
+                       "Mean over rings of 10° at the peak, at 30 MPa. The text finds that the "
+                       "fourth order corrects size and direction of the largest value; the second "
+                       "order has it at 35°.",
                        zero=True, labels={k: str(k) for k in range(0, 181, 30)})
 
 
@@ -104,8 +111,9 @@ def plane(maker):
                  ("full form", "a_s_coaxial", "dots")))]
     return maker.chart("plane-disks", "Disks in the plane", "axial strain",
                        "a_{s} = (σ_{1} − σ_{2}) / (σ_{1} + σ_{2})", drawn,
-                       "Half the sum of a<sup>r</sup>, a<sup>n</sup> and a<sup>t</sup> against the measured stress. "
-                       "The text gives it for small anisotropies; the full form has their products.",
+                       "Half the sum of a<sup>r</sup>, a<sup>n</sup> and a<sup>t</sup> against the "
+                       "measured stress. The text gives it for small anisotropies; the full form "
+                       "has their products.",
                        y_range=(0, None))
 
 

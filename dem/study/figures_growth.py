@@ -44,45 +44,50 @@ def growth(maker):
     return [
         over_e("growth-coordination", "Coordination number in growth", "coordination number",
                "coordination_number",
-               "Mean number of contacts of a particle. The text has 6 at first, more than 10 at e = 0.05, the "
-               "largest value, 12.5, near e = 0.15, and then a decline."),
+               "Mean number of contacts of a particle. The text has 6 at first, more than 10 at e "
+               "= 0.05, the largest value, 12.5, near e = 0.15, and then a decline."),
         over_e("growth-scatter", "Scatter of the coordination number", "standard deviation",
                "coordination_std",
-               "Standard deviation of a particle's number of contacts. The text has 0.67 at first, a rise "
-               "in compression, then a fall, and at most 1.5 up to e = 0.2."),
+               "Standard deviation of a particle's number of contacts. The text has 0.67 at first, "
+               "a rise in compression, then a fall, and at most 1.5 up to e = 0.2."),
         over_e("growth-relative-scatter", "Relative scatter of the coordination number",
                "standard deviation / mean, %",
                lambda row: 100.0 * row["coordination_std"] / row["coordination_number"],
-               "The text has 10 to 18 %: 11 % at first, and less from e = 0.05 to 0.17 than before and after.",
+               "The text has 10 to 18 %: 11 % at first, and less from e = 0.05 to 0.17 than before "
+               "and after.",
                y_range=(0, 30)),
         over_e("growth-packing", "Packing density in growth", "packing density",
                lambda row: 1.0 - row["porosity"],
-               "Share of the cell that particles fill, overlaps counted twice. The text has 0.81 at "
-               "e = 0.01 and 0.84 at the densest."),
+               "Share of the cell that particles fill, overlaps counted twice. The text has 0.81 "
+               "at e = 0.01 and 0.84 at the densest."),
         over_e("growth-void-ratio", "Void ratio in growth", "void ratio",
                lambda row: row["porosity"] / (1.0 - row["porosity"]),
-               "Volume of voids over that of particles: the packing density, seen from the other side."),
+               "Volume of voids over that of particles: the packing density, seen from the other "
+               "side."),
         over_e("growth-overlap", "Overlap in growth", "overlap / mean radius, in 10^{−2}",
                lambda row: 100.0 * row["overlap_fraction"],
-               "The text has a linear rise, a moderate decline with a minimum near the densest state, "
-               "and a rise again."),
+               "The text has a linear rise, a moderate decline with a minimum near the densest "
+               "state, and a rise again."),
         over_e("growth-friction", "Deviation from an isotropic stress", "sin φ of the principal stresses",
                lambda row: math.sin(math.radians(row["friction_angle_deg"])),
-               "(σ<sub>1</sub> − σ<sub>3</sub>) / (σ<sub>1</sub> + σ<sub>3</sub>) while the sample grows. "
-               "The text has less than 0.04.",
+               "(σ<sub>1</sub> − σ<sub>3</sub>) / (σ<sub>1</sub> + σ<sub>3</sub>) while the sample "
+               "grows. The text has less than 0.04.",
                y_range=(0, 0.2)),
         over_e("growth-inertia", "Balance in growth", "inertial fraction",
                "inertial_fraction",
-               "Mean unbalanced force of a particle over the mean contact force, a mean over 0.01 of e: each step "
-               "of growth raises it. The text has it low up to e = 0.15, then rising, and finds no equilibrium beyond "
-               "0.2.", map_y=lambda x, y: series.running_mean(x, y, 0.01), x_range=(0.01, None),
+               "Mean unbalanced force of a particle over the mean contact force, a mean over 0.01 "
+               "of e: each step of growth raises it. The text has it low up to e = 0.15, then "
+               "rising, and finds no equilibrium beyond 0.2.", map_y=lambda x, y: series.running_mean(x, y, 0.01), x_range=(0.01, None),
                y_range=(0, None)),
         anisotropies(maker, "growth-anisotropy", "Anisotropies in growth", FURTHER,
-                     "Samples from random places, from e = 0.002 on. Normals of 4000 contacts without any preferred "
-                     "direction have a modulus of some 0.1 by chance, long axes of 1000 particles of 0.2.", x_range=(0.002, None), y_range=(0, None)),
-        anisotropies(maker, "growth-horizontal", "Anisotropies where axes start horizontal", HORIZONTAL,
-                     "The published start: a cubic lattice with long axes across the load. The text "
-                     "finds that anisotropies drop at once and a small residue of the axes' stays.",
+                     "Samples from random places, from e = 0.002 on. Normals of 4000 contacts "
+                     "without any preferred direction have a modulus of some 0.1 by chance, long "
+                     "axes of 1000 particles of 0.2.", x_range=(0.002, None), y_range=(0, None)),
+        anisotropies(maker, "growth-horizontal", "Anisotropies where axes start "
+                                                 "horizontal", HORIZONTAL,
+                     "The published start: a cubic lattice with long axes across the load. The "
+                     "text finds that anisotropies drop at once and a small residue of the axes' "
+                     "stays.",
                      x_range=(0, None), y_range=(0, 3)),
         flatness(maker),
         histogram(maker),
@@ -114,8 +119,9 @@ def flatness(maker):
                                                  "from a lattice": HORIZONTAL}.items())]
     return maker.chart("growth-a1", "Contacts near the sides or the ends", "a / b",
                        "a_{1}, along the long axis", curves,
-                       "Anisotropy of contact vectors in the particle's own axes: above 0 they gather "
-                       "near the ends. The text has a U with its zero at a/b = 1.07, and then a line.",
+                       "Anisotropy of contact vectors in the particle's own axes: above 0 they "
+                       "gather near the ends. The text has a U with its zero at a/b = 1.07, and "
+                       "then a line.",
                        zero=True, x_range=(1.01, None))
 
 
@@ -140,8 +146,8 @@ def histogram(maker):
         results.lack("averages of spheroid-p100 and spheroid-p010")
     return maker.chart("coordination-histogram", "Coordination numbers of the samples",
                        "contacts of a particle", "particles, %", curves,
-                       "Dense sample and the one that was released furthest, all seeds. The text finds a "
-                       "Gaussian shape.", y_range=(0, None))
+                       "Dense sample and the one that was released furthest, all seeds. The text "
+                       "finds a Gaussian shape.", y_range=(0, None))
 
 
 RELEASE = """
@@ -175,7 +181,8 @@ def release(maker):
                 "Share of the cell that particles do not fill; overlaps count twice."),
         against("release-force", "Mean normal force before shear", "mean normal force, GN", 2, 1e-9,
                 "mean_normal_force",
-                "Published values go about with the pressure, as the number of contacts changes little."),
+                "Published values go about with the pressure, as the number of contacts changes "
+                "little."),
         limits(maker),
     ]
 
@@ -200,9 +207,10 @@ def limits(maker):
         curves.append(curve)
     return maker.chart("release-limit", "Towards no pressure, without friction", "mean stress, MPa, logarithmic",
                        "contacts of a particle, rattlers apart", curves,
-                       "As many contacts as free motions need: 6 for spheres, 10 for bodies of revolution, "
-                       "12 for three different axes, 4 for disks, 6 for ellipses. The text has 12 for "
-                       "smooth spheroids, which is an erratum.", logarithmic=True, y_range=(3, 13))
+                       "As many contacts as free motions need: 6 for spheres, 10 for bodies of "
+                       "revolution, 12 for three different axes, 4 for disks, 6 for ellipses. The "
+                       "text has 12 for smooth spheroids, which is an "
+                       "erratum.", logarithmic=True, y_range=(3, 13))
 
 
 def chapters(maker):

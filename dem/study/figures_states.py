@@ -151,19 +151,21 @@ def distributions(pictures):
         even = 0.25 / math.pi
         return *axes_of(states.table("particles", point)), *models(averages["long_axes"], even), even, "1/4π"
 
-    of = ("Blue spikes are classes of directions, orange the second-order model, green the second and fourth "
-          "order. The three of a state have one scale; the grey rings are ")
+    of = ("Blue spikes are classes of directions, orange the second-order model, green the second "
+          "and fourth order. The three of a state have one scale; the grey rings are ")
     return [
         surfaces(pictures, "normals", "Contact normals E(n)", normals,
-                 of + "an equal distribution. The text sees a sphere, an ellipsoid, then a peanut, and finds that "
-                 "the fourth order improves the fit."),
+                 of + "an equal distribution. The text sees a sphere, an ellipsoid, then a peanut, "
+                      "and finds that the fourth order improves the fit."),
         surfaces(pictures, "normal-force", "Mean normal force over directions", normal_force,
-                 of + "the mean f<sub>0</sub>. The text finds that the fourth order changes little."),
+                 of + "the mean f<sub>0</sub>. The text finds that the fourth order changes "
+                      "little."),
         surfaces(pictures, "tangential-force", "Mean tangential force over directions", tangential_force,
-                 of + "a tenth of f<sub>0</sub>. Shown is the size of the mean vector. The text finds that the "
-                 "fourth order improves the fit dramatically."),
+                 of + "a tenth of f<sub>0</sub>. Shown is the size of the mean vector. The text "
+                      "finds that the fourth order improves the fit dramatically."),
         surfaces(pictures, "axes", "Long axes", axes,
-                 of + "an equal distribution. The text sees a circle become a donut across the load.",
+                 of + "an equal distribution. The text sees a circle become a donut across the "
+                      "load.",
                  points=[states.points[0], states.points[-1]]),
     ]
 
@@ -220,15 +222,15 @@ def force_lines(pictures):
             file = f"force-{point}-{name}.png"
             pictures.add(file, "".join(sticks), width, centre, LINES)
             share = 100 * len(group) / len(contacts)
-            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: {len(group)} "
-                                f"contacts, {shown(share)} % of all.", f"{point}, group {name}: {len(group)}"))
+            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: "
+                                      f"{len(group)} contacts, {shown(share)} % of all.", f"{point}, group {name}: {len(group)}"))
         return made
 
     return pictures.gallery(
         "Lines of force by direction group", 3, row, pictures.states.points,
-        "A line joins the centres of two particles that touch; its thickness is the normal force, on one scale. "
-        "Groups are the axes along which normals mostly point. The text sees the axial group, z, bear more and more, "
-        "the lateral ones less.")
+        "A line joins the centres of two particles that touch; its thickness is the normal force, "
+        "on one scale. Groups are the axes along which normals mostly point. The text sees the "
+        "axial group, z, bear more and more, the lateral ones less.")
 
 
 def ends_of(contacts):
@@ -267,14 +269,16 @@ def bodies(pictures):
         pictures.add(file, "".join(map(body, rows)), 1.05 * states.once("width of bodies", width),
                      centre, BODIES)
         across = sum(inclination(long_axis(row)) > 54 for row in rows) / len(rows)
-        return [Picture(file, f"The sample in state {point}: {shown(100 * across)} % of the long axes are more than "
-                        "54 degrees away from the load's axis.", f"{point}, {POINTS[point]}")]
+        return [Picture(file, f"The sample in state {point}: {shown(100 * across)} % of the long "
+                              "axes are more than 54 degrees away from the load's "
+                              "axis.", f"{point}, {POINTS[point]}")]
 
     legend = " ".join(f'<span class="key"><i style="background:{shade}"></i>to {angle}°</span>'
                       for shade, angle in zip(shades, ANGLES))
     return pictures.gallery(
         "The sample before and after", 2, row, points,
-        f"Colours are angles of long axes to the load: {legend}. The text sees long axes turn across the load.")
+        f"Colours are angles of long axes to the load: {legend}. The text sees long axes turn "
+        "across the load.")
 
 
 def inclination(axis):
@@ -290,8 +294,8 @@ def body(row):
     matrix += [row[c] for c in "xyz"]
     angle = inclination(columns[0])
     shade = charts.SCALE[next((k for k, most in enumerate(ANGLES) if angle <= most), -1)]
-    return (f"sphere {{ 0, 1 matrix {rendering.vector(matrix)} pigment {{ color {rendering.colour(shade)} }} "
-            "finish { Surface } }\n")
+    return ("sphere "
+            f"{{ 0, 1 matrix {rendering.vector(matrix)} pigment {{ color {rendering.colour(shade)} }} finish {{ Surface }} }}\n")
 
 
 def chapter(pictures):

@@ -117,7 +117,8 @@ def missing_of(runs):
     named = {row["run"]: row["status"] for row in runs if row["status"] != "complete"}
     if not named:
         return ""
-    items = ", ".join(f"{html.escape(run)} ({html.escape(status)})" for run, status in named.items())
+    items = ", ".join(f"{html.escape(run)} "
+                      f"({html.escape(status)})" for run, status in named.items())
     return f'<p class="lacking">Runs that are not complete: {items}.</p>\n'
 
 
@@ -159,8 +160,9 @@ def text_of(out, chapters):
              '<section id="rows">\n<h2>All statements</h2>\n', ROWS, rows_of(rows), "</section>\n",
              *(chapter_of(folder, chapter) for chapter in chapters),
              f"<footer>Made {made}, {len({row['run'] for row in runs})} runs, seeds "
-             f"{html.escape(', '.join(seeds)) or 'none'}. Tables of the runs are in <code>runs</code>, each "
-             "chart's data in <code>pictures</code>.</footer>\n</body>\n</html>\n"]
+             f"{html.escape(', '.join(seeds)) or 'none'}. Tables of the runs are in "
+             "<code>runs</code>, each chart's data in "
+             "<code>pictures</code>.</footer>\n</body>\n</html>\n"]
     return "".join(parts)
 
 

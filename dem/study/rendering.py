@@ -52,8 +52,8 @@ def mesh(surface, shade):
 
 
 def stick(start, end, radius, shade):
-    return (f"cylinder {{ {vector(start)}, {vector(end)}, {radius:.4g} pigment {{ color {colour(shade)} }} "
-            "finish { Surface } }\n")
+    return ("cylinder "
+            f"{{ {vector(start)}, {vector(end)}, {radius:.4g} pigment {{ color {colour(shade)} }} finish {{ Surface }} }}\n")
 
 
 def scene(bodies, width, centre=(0.0, 0.0, 0.0)):

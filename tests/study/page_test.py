@@ -232,7 +232,8 @@ class WhatIsMissing(Made):
         page.write_page(self.out, self.tool, quick=True)
         read_page = Reader(read(self.out))
         self.assertEqual(read_page.faults, [])
-        self.assertIn("Runs that are not complete: spheroid-p070-shear-s1 (failed).", read_page.text)
+        self.assertIn("Runs that are not complete: spheroid-p070-shear-s1 "
+                      "(failed).", read_page.text)
         ratio = next(f for f in read_page.figures if "one curve for all pressures" in f["text"])
         self.assertEqual(ratio["images"], 1)
         for name in ("spheroid-p030-shear", "spheroid-p070-shear", "spheroid-p050-shear-s1"):
