@@ -9,8 +9,8 @@ from figures import Chapter
 
 
 TEXT = """
-<p>An <em>anisotropy</em> a is the second-order part of how a quantity depends on the direction n of a
-contact: a factor 1 + a<sub>ij</sub>n<sub>i</sub>n<sub>j</sub>. Its modulus is
+<p>An <em>anisotropy</em> a is the second-order part of how a quantity depends on the direction n of
+a contact: a factor 1 + a<sub>ij</sub>n<sub>i</sub>n<sub>j</sub>. Its modulus is
 √(a<sub>ij</sub>a<sub>ij</sub>). a<sup>r</sup> is that of the contact normals, a<sup>n</sup> and
 a<sup>t</sup> of the normal and tangential force, a<sup>z</sup> and a<sup>zt</sup> of the normal and
 tangential component of the branch, which joins two centres, and a<sup>E</sup> of the long axes.</p>
@@ -36,10 +36,12 @@ def curves(maker):
                    "In the text it rises fast, then declines slowly to one value for all "
                    "pressures.",
                    y_range=(0, None)),
-        anisotropy("anisotropy-z", "Branch, normal component", "axial component of a^{z}", "a_axial_z",
+        anisotropy("anisotropy-z", "Branch, normal component", "axial component of a^{z}",
+                   "a_axial_z",
                    "In the text it grows linearly with strain and hardly depends on the pressure. "
                    "Below 0: branches are longer across the load.", zero=True),
-        anisotropy("anisotropy-zt", "Branch, tangential component", "axial component of a^{zt}", "a_axial_zt",
+        anisotropy("anisotropy-zt", "Branch, tangential component", "axial component of a^{zt}",
+                   "a_axial_zt",
                    "It belongs to bodies that are no spheres: branches of spheres have no "
                    "tangential component.", zero=True),
         anisotropy("anisotropy-len", "Branch, length", "axial component", "a_axial_len",
@@ -66,7 +68,8 @@ def peaks(maker):
 
     return maker.against_pressure(
         "anisotropy-peaks", "Peak anisotropies", "largest modulus",
-        {"a_{s}, stress": top("a_s"), "a^{n}": top("A_n"), "a^{r}": top("A_r"), "a^{t}": top("A_t")},
+        {"a_{s}, stress": top("a_s"), "a^{n}": top("A_n"), "a^{r}": top("A_r"),
+         "a^{t}": top("A_t")},
         "In the text a<sup>n</sup> is above the stress ratio, then come a<sup>r</sup> and "
         "a<sup>t</sup>, and a<sup>r</sup> falls most steeply.", y_range=(0, None))
 
@@ -84,7 +87,7 @@ def peak_strains(maker):
 
 
 def rings(maker):
-    """f_r over the angle to the load at the peak: measured rings and the models of order 2 and 4."""
+    """f_r over the angle to the load at the peak: measured rings, models of order 2 and 4."""
     rows = maker.states.rings("C")
     beta = [math.degrees(row["beta"]) for row in rows]
 
@@ -92,7 +95,8 @@ def rings(maker):
         return [math.nan if row.get(name) is None else 1e-9 * row[name] for row in rows]
 
     drawn = [charts.Curve("measured", beta, values("value"), colour=COLOURS[0], style="points"),
-             charts.Curve("second order", beta, values("model2"), colour=COLOURS[1], style="dashes"),
+             charts.Curve("second order", beta, values("model2"), colour=COLOURS[1],
+                          style="dashes"),
              charts.Curve("second and fourth", beta, values("model4"), colour=COLOURS[2])]
     return maker.chart("radial-force", "Tangential force away from the load's axis, at C",
                        "angle of the normal to the load, degrees", "f_{r}, GN", drawn,

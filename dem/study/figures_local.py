@@ -9,10 +9,11 @@ from figures import Chapter
 from results import shear_of
 
 TEXT = """
-<p>Where on its surface is a particle touched, and how does the turning of long axes turn contact normals?
-The <em>contact vector</em> joins a particle's centre and a contact. Its anisotropy in the particle's own
-axes is a<sup>cv</sup>, with the component a<sub>1</sub> along the long axis. By their length contact vectors
-are <em>short</em>, <em>intermediate</em> or <em>long</em>: thirds between b and a.</p>
+<p>Where on its surface is a particle touched, and how does the turning of long axes turn contact
+normals? The <em>contact vector</em> joins a particle's centre and a contact. Its anisotropy in the
+particle's own axes is a<sup>cv</sup>, with the component a<sub>1</sub> along the long axis. By
+their length contact vectors are <em>short</em>, <em>intermediate</em> or <em>long</em>: thirds
+between b and a.</p>
 """
 
 LENGTHS = ("short", "intermediate", "long")
@@ -82,7 +83,8 @@ def pairs(maker):
     return maker.chart("local-pairs", "Types of contacts at 30 MPa, 20 % strain",
                        "short, intermediate, long on either side", "share of contacts", drawn,
                        "If both sides are independent, shares are products of those of the "
-                       "lengths. The text finds counted and calculated ones close.", y_range=(0, None), x_range=(-0.6, 5.6),
+                       "lengths. The text finds counted and calculated ones close.",
+                       y_range=(0, None), x_range=(-0.6, 5.6),
                        labels=dict(enumerate(PAIRS)))
 
 
@@ -109,7 +111,8 @@ def spread(maker):
     drawn = [charts.Curve(f"a_{{1}} = {a1:g}", degrees,
                           [cumulated(a1, math.radians(d)) for d in degrees], colour=COLOURS[k])
              for k, a1 in enumerate((0.5, 0.8))]
-    drawn.append(charts.Curve("by area", degrees, [area_share(RATIO, math.radians(d)) for d in degrees],
+    drawn.append(charts.Curve("by area", degrees,
+                              [area_share(RATIO, math.radians(d)) for d in degrees],
                               colour=COLOURS[7], style="dashes"))
     return maker.chart("local-spread", "Share of contacts up to an angle, b/a = 0.7",
                        "angle to the long axis, degrees", "G", drawn,
@@ -135,7 +138,8 @@ def deviation(maker):
                        "angle of the contact vector to the long axis, "
                        "degrees", "angle, degrees", drawn,
                        "Calculated. At b/a = 0.7 it is 20° at most, and 13° on average over the "
-                       "surface; the text calls it very small.", y_range=(0, None), labels={k: str(k) for k in range(0, 91, 15)})
+                       "surface; the text calls it very small.", y_range=(0, None),
+                       labels={k: str(k) for k in range(0, 91, 15)})
 
 
 def rotation(maker):

@@ -9,9 +9,10 @@ from results import shear_of
 SHARES = ("r", "n", "t", "z", "zt", "rz", "rf", "zf")
 
 TEXT = """
-<p>The stress is a mean over directions of force times branch, so it is a sum of parts that belong to the
-anisotropies and to products of them. The text takes seven: isotropic, fabric, branch, force, and the
-three products of two. Below, <em>predicted</em> is this sum from the measured anisotropies.</p>
+<p>The stress is a mean over directions of force times branch, so it is a sum of parts that belong
+to the anisotropies and to products of them. The text takes seven: isotropic, fabric, branch, force,
+and the three products of two. Below, <em>predicted</em> is this sum from the measured
+anisotropies.</p>
 """
 
 
@@ -45,7 +46,8 @@ def principal(maker, pressure):
                                    kind="micro", stage="shear", colour=COLOURS[k - 1]))
         drawn.append(results.curve("", stem,
                                    lambda row, k=k: 1e-6 * row[f"s{k}_seven"], kind="micro",
-                                   stage="shear", colour=COLOURS[k - 1], style="dashes", band=False))
+                                   stage="shear", colour=COLOURS[k - 1], style="dashes",
+                                   band=False))
     drawn.append(in_legend("predicted", drawn))
     return maker.chart(f"sff-principal-{pressure:03d}", f"Principal stresses at {pressure} MPa",
                        "axial strain", "stress, MPa", drawn,
@@ -61,8 +63,10 @@ def orders(maker):
              for k, (name, column, style) in enumerate((
                  ("measured", "a_s", "line"), ("seven parts", "a_s_seven", "dashes"),
                  ("eight parts", "a_s_eight", "dashes"), ("orders 2 and 4", "a_s_fourth", "dots"),
-                 ("without shape", "a_s_noshape", "dots"), ("group means", "a_s_independent", "dots")))]
-    return maker.chart("sff-orders", "How the prediction is made, at 30 MPa", "axial strain", "a_{s}",
+                 ("without shape", "a_s_noshape", "dots"),
+                 ("group means", "a_s_independent", "dots")))]
+    return maker.chart("sff-orders", "How the prediction is made, at 30 MPa", "axial strain",
+                       "a_{s}",
                        drawn,
                        "The eighth part is the product of all three; fourth orders are the models' "
                        "next terms. Without shape, branches are as those of "
@@ -109,9 +113,11 @@ def branches(maker):
 
 
 def axes(maker):
-    drawn = [maker.results.curve(name, shear_of(30), "axial_deg_" + part, kind="micro", stage="shear",
+    drawn = [maker.results.curve(name, shear_of(30), "axial_deg_" + part, kind="micro",
+                                 stage="shear",
                                  colour=COLOURS[k], band=False)
-             for k, (part, name) in enumerate({"fabric": "fabric", "branch": "branch", "force": "force",
+             for k, (part, name) in enumerate({"fabric": "fabric", "branch": "branch",
+                                               "force": "force",
                                                "fabric_force": "fabric-force"}.items())]
     return maker.chart("sff-axes", "Axes of the parts at 30 MPa", "axial strain",
                        "angle, degrees", drawn,

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What the study's runs left, as curves for its page.
 
-OUT/runs/STEM-sSEED is a run; the runs of one stem differ by their seed, and a curve is their mean and
-band. Pressures are in MPa here, strains are fractions, other units are those of the tables. What a
-figure asks for and is not there is kept in `lacking`, which the figure takes and tells.
+OUT/runs/STEM-sSEED is a run; the runs of one stem differ by their seed, and a curve is their mean
+and band. Pressures are in MPa here, strains are fractions, other units are those of the tables.
+What a figure asks for and is not there is kept in `lacking`, which the figure takes and tells.
 """
 
 import glob
@@ -75,7 +75,8 @@ class Results:
         for name in ("elongation", "eccentricity"):
             if micro.count and name not in micro.table.names:
                 cycles, values = series.ascending(history.column("cycle"), history.column(name))
-                micro.add(name, [series.at(cycles, values, cycle) for cycle in micro.column("cycle")])
+                micro.add(name, [series.at(cycles, values,
+                                           cycle) for cycle in micro.column("cycle")])
 
     def summary(self, folder, name):
         """A number of a run's summary.json; nan where it has none."""
@@ -92,7 +93,8 @@ class Results:
             return {}
 
     def seeds(self, stems):
-        """Folders of each seed, one run resuming the other, as far as the seed has them: [[folder ...]]."""
+        """Folders of each seed, one run resuming the other, as far as the seed has them: [[folder
+        ...]]."""
         chains = {}
         for at, stem in enumerate(stems):
             for folder in self.folders(stem):
