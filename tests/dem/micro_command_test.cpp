@@ -182,6 +182,28 @@ TEST(MicroCommand, PartsAddUpAndSharesAreOfTheShearStressRatio) {
               1.0, 0.1);
 }
 
+TEST(MicroCommand, SharesOfWhereBodiesAreTouchedAddUpAndTheirTurnIsOfContactNormals) {
+  const Json all = spheroids().json();
+  const Json& seen = all["contact_statistics"];
+  for (const char* end : {"", "_model"}) {
+    double sides = 0.0, pairs = 0.0;
+    for (const char* length : {"f_short", "f_intermediate", "f_long"})
+      sides += seen[length + std::string(end)].get<double>();
+    const std::string head = *end == '\0' ? "pair_" : "pair_model_";
+    for (const char* pair : {"ss", "si", "sl", "ii", "il", "ll"})
+      pairs += seen[head + pair].get<double>();
+    EXPECT_NEAR(sides, 1.0, 1e-12);
+    EXPECT_NEAR(pairs, 1.0, 1e-12);
+  }
+  EXPECT_NEAR(seen["a1"], all["local_contacts"]["second"][0][0].get<double>(), 1e-12);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(seen["r_rot"][i][j].get<double>() + seen["r_other"][i][j].get<double>(),
+                  all["fabric"]["second"][i][j], 1e-12);
+  EXPECT_LT(seen["P2"].get<double>(), 0.0);
+  EXPECT_NEAR(seen["P2"], seen["P2_model"].get<double>(), 0.1);
+}
+
 // dem/tool/histogram.hpp (1)
 TEST(MicroCommand, HistogramsOfBothPartitionsAddUpAndAgreeOnTheMeanForce) {
   const Made& made = spheroids();
@@ -243,6 +265,9 @@ TEST(MicroCommand, OfThePlaneHasThePlanesTensors) {
                   all["stresses"]["measured"]["mean"].get<double>(),
               1.0, 0.15);
   EXPECT_FALSE(all["local_contacts"].is_null());
+  EXPECT_NEAR(all["contact_statistics"]["a_L"], all["local_contacts"]["second"][0][0].get<double>(),
+              1e-12);
+  EXPECT_TRUE(all["contact_statistics"]["f_short"].is_null());
   const Finished table = made.micro();
   EXPECT_EQ(table.status, 0) << table.err;
   EXPECT_NE(table.out.find("sin(phi), coaxial"), table.out.npos) << table.out;
@@ -261,6 +286,7 @@ TEST(MicroCommand, OfSpheresHasNoTensorOfBodyAxes) {
   EXPECT_TRUE(all["long_axes"].is_null());
   EXPECT_TRUE(all["local_contacts"].is_null());
   EXPECT_TRUE(all["coaxiality"]["E"].is_null());
+  EXPECT_TRUE(all["contact_statistics"]["P2"].is_null());
   EXPECT_FALSE(all["contact_vectors"].is_null());
   EXPECT_LT(all["branch_tangential"]["magnitude"].get<double>(), 1e-9);
   EXPECT_LT(all["vector_normal_angle_largest_deg"].get<double>(), 1e-5);
@@ -347,6 +373,7 @@ TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
             all["stress_force_fabric"]["fabric_force"][2][2].get<double>());
   EXPECT_EQ(last("joint_df_dz"), all["joint_signs"]["df_dz"].get<double>());
   EXPECT_EQ(last("fraction_z"), all["direction_groups"]["z"]["fraction"].get<double>());
+  EXPECT_EQ(last("P2"), all["contact_statistics"]["P2"].get<double>());
   EXPECT_EQ(last("axial_deg_n"), all["coaxiality"]["n"]["axial_deg"].get<double>());
   EXPECT_NEAR(last("mean_stress"), number(history.at("mean_stress").back()),
               1e-12 * last("mean_stress"));

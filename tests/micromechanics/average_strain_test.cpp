@@ -177,6 +177,29 @@ TEST(StrainOfEdges, AddUpToTheGradientOfTheCell) {
                         net.contacts.view(), later_contacts.view());
     EXPECT_LT((parts.sum() - gradient).norm(), kExact);
     EXPECT_EQ(parts.kept.edges + parts.gained.edges, later_contacts.bodies.size());
+    // Each edge is looked for among the contacts, which were taken from edges as they are.
+    const auto is_in = [](const Links& links, const MeshEdge& edge) {
+      for (std::size_t c = 0; c < links.bodies.size(); ++c)
+        if (links.bodies[c] == edge.bodies && links.image[c] == edge.image) return true;
+      return false;
+    };
+    const auto difference = displacement_differences(net.mesh, later.view());
+    const auto expect_part = [&](const StrainOfEdges::Part& part, bool before, bool after) {
+      Mat3 sum = Mat3::Zero();
+      std::size_t edges = 0;
+      for (std::size_t i = 0; i < net.mesh.edges.size(); ++i) {
+        const MeshEdge& edge = net.mesh.edges[i];
+        if (is_in(net.contacts, edge) != before || is_in(later_contacts, edge) != after) continue;
+        sum += difference[i] * edge.area.transpose() / net.mesh.volume;
+        ++edges;
+      }
+      EXPECT_EQ(part.edges, edges);
+      EXPECT_LT((part.gradient - sum).norm(), kExact);
+    };
+    expect_part(parts.kept, true, true);
+    expect_part(parts.lost, true, false);
+    expect_part(parts.gained, false, true);
+    expect_part(parts.apart, false, false);
     EXPECT_EQ(parts.kept.edges + parts.gained.edges + parts.lost.edges + parts.apart.edges,
               net.mesh.edges.size());
     EXPECT_GT(parts.kept.edges, 0u);
