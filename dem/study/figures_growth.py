@@ -12,7 +12,7 @@ from figures import Chapter
 # before.
 CHAIN = ("spheroid-growth", "spheroid-growth2")
 FURTHER = CHAIN + ("spheroid-growth3",)
-HORIZONTAL = ("horizontal-growth", "horizontal-growth2")
+HORIZONTAL = ("horizontal-growth", "horizontal-ramp", "horizontal-growth2")
 
 ECCENTRICITY = "eccentricity e = (a − b) / (a + b)"
 

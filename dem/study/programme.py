@@ -32,13 +32,13 @@ class Scale:
     large: int = 8000
     small: tuple = (27, 125)  # of tests 1 and 3
     history: int = 10  # cycles between rows of a shear
-    micro: int = 100  # and between rows of micro.csv
+    micro: int = 200  # and between rows of micro.csv
     more_small: int = 3  # seeds of tests 1 and 3 for one of the others
 
 
 # Fewer than 64 are too few for a cell that is sheared in the plane or of triaxial bodies.
 REDUCED = Scale(particles=64, seeds=(1,), strain=0.1, increments=40, large=125, small=(27, 64),
-                more_small=1)
+                micro=100, more_small=1)
 
 
 def with_seeds(scale, count):
@@ -209,13 +209,15 @@ class Programme:
         first = self._add("horizontal", "growth", seed, "horizontal", b,
                           of.grow("grow005", middle, 0.005, 8, mean_stress_start=10e6,
                                   ramp_eccentricity=0.005, **ramp),
-                          after=lattice, history=10, micro=scale.micro, tables=["final.state"],
+                          after=lattice, history=2, micro=scale.micro, tables=["final.state"],
                           cost=2)
+        second = self._add("horizontal", "ramp", seed, "horizontal", b,
+                           of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
+                                   ramp_eccentricity=0.01, **ramp),
+                           after=first, history=2, micro=scale.micro, cost=1)
         grown = self._add("horizontal", "growth2", seed, "horizontal", b,
-                          of.grow("grow01", DENSE, 0.01, 8, mean_stress_start=middle,
-                                  ramp_eccentricity=0.01, **ramp),
                           of.grow("grow18", DENSE, E_LONG, scale.increments),
-                          of.relax("p100", DENSE), after=first, history=20,
+                          of.relax("p100", DENSE), after=second, history=20,
                           micro=scale.micro // 2, tables=["final.state"], cost=6)
         for pressure, run in self._release("horizontal", seed, "horizontal", b, grown).items():
             self._shear("horizontal", f"{p_name(pressure)}-", seed, "horizontal", b, pressure, run)
@@ -234,15 +236,17 @@ class Programme:
         of, scale, pressure = Stages(plane=True), self.scale, scale_plane(10e6)
         b = body(scale.particles, plane=True, kind="ellipse")
         after = self._add("ellipse", "e00", seed, "plane", b, of.random(seed),
-                          of.compact(pressure), of.relax("e00", pressure),
+                          of.compact(pressure), of.relax("e00", pressure,
+                                                         max_unbalanced_ratio=0.02),
                           history=20, tables=["final.state"], cost=3)
         self._shear("ellipse", "e00-", seed, "plane", b, pressure, after, of=of)
         for e in (0.05, 0.1, 0.15, 0.2, 0.25, 0.3):
             name = f"e{round(100 * e):02d}"
             after = self._add("ellipse", name, seed, "plane", b,
                               of.grow("grow", pressure, e,
-                                      max(4, round(0.25 * scale.increments))),
-                              of.relax(name, pressure), after=after, history=20,
+                                      max(8, round(0.12 * scale.increments))),
+                              of.relax(name, pressure, max_unbalanced_ratio=0.02), after=after,
+                              history=20,
                               tables=["final.state"], cost=3)
             if e <= 0.2:  # as published
                 self._shear("ellipse", f"{name}-", seed, "plane", b, pressure, after, of=of)
