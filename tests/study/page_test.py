@@ -263,7 +263,8 @@ class WhatIsMissing(Made):
         os.chmod(file.name, 0o755)
         page.write_page(out, file.name, quick=True)
         figures = [figure for figure in Reader(read(out)).figures
-                   if "Not drawn; missing: tangency-dem micro: tangency-dem: no state" in figure["text"]]
+                   if "Not drawn; missing: tangency-dem micro: tangency-dem: no state"
+                   in figure["text"]]
         self.assertGreaterEqual(len(figures), 4)
 
 
