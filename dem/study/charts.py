@@ -2,7 +2,8 @@
 """Charts of the study's page: curves with bands and points, drawn by gnuplot as SVG.
 
 A chart's texts are gnuplot's enhanced ones: a_{s} has a subscript, e^{2} a superscript. Each chart
-leaves KEY.csv, what it shows, and KEY.svg. Errors: gnuplot that is missing or fails is a StudyError.
+leaves KEY.csv, what it shows, and KEY.svg. Errors: gnuplot that is missing or fails is a
+StudyError.
 """
 
 import csv
@@ -18,15 +19,15 @@ from running import StudyError
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56b4e9", "#e69f00", "#555555",
            "#7b3fa0")
 
-# Of what has an order, as pressures: dark to light, so that it also speaks to who sees no hues; five
-# colours of the map viridis, the last one darker, since the ground is white.
+# Of what has an order, as pressures: dark to light, so that it also speaks to who sees no hues;
+# five colours of the map viridis, the last one darker, since the ground is white.
 SCALE = ("#440154", "#3b528b", "#21918c", "#5ec962", "#c9a800")
 
 # Chosen: pixels of a chart, its legend apart.
 WIDTH, HEIGHT = 440, 325
 
-# Of the legend, in pixels: a line of it, what gnuplot takes for a letter and for a sample of a curve, and
-# the width that it fills. Measured on what gnuplot 5.4 draws with letters of 13.
+# Of the legend, in pixels: a line of it, what gnuplot takes for a letter and for a sample of a
+# curve, and the width that it fills. Measured on what gnuplot 5.4 draws with letters of 13.
 LEGEND_LINE, LEGEND_LETTER, LEGEND_SAMPLE, LEGEND_WIDTH = 20, 8, 46, 315
 
 # Chosen: points of a curve; more cannot be told apart at WIDTH.
@@ -62,7 +63,7 @@ class Curve:
 
 @dataclasses.dataclass
 class Chart:
-    """Ranges are (low, high), where None leaves an end to the data. A zero line is drawn if zero."""
+    """Ranges are (low, high), where None leaves an end to the data; zero draws a line at y = 0."""
 
     key: str
     title: str
@@ -120,8 +121,8 @@ def write_table(file, chart):
         writer = csv.writer(table, lineterminator="\n")
         writer.writerow(("curve", "x", "y", "low", "high"))
         for curve in chart.curves:
-            low, high = curve.low or [math.nan] * len(curve.x), curve.high or [math.nan] * len(curve.x)
-            for row in zip(curve.x, curve.y, low, high):
+            none = [math.nan] * len(curve.x)
+            for row in zip(curve.x, curve.y, curve.low or none, curve.high or none):
                 writer.writerow((curve.name, *map(number, row)))
 
 
@@ -176,7 +177,8 @@ def legend_of(chart):
     if len(names) < 2:
         return 0, 0
     letters = max(len(re.sub(r"[_^{}]", "", name)) for name in names)
-    columns = max(1, min(len(names), int(LEGEND_WIDTH // (letters * LEGEND_LETTER + LEGEND_SAMPLE))))
+    columns = max(1,
+                  min(len(names), int(LEGEND_WIDTH // (letters * LEGEND_LETTER + LEGEND_SAMPLE))))
     return columns, math.ceil(len(names) / columns)
 
 
@@ -200,13 +202,15 @@ def script_of(chart):
     height = HEIGHT + LEGEND_LINE * lines
     floor = (66 + LEGEND_LINE * lines) / height
     if chart.labels:
-        ticks = "(" + ", ".join(f"{quoted(text)} {float(x)!r}" for x, text in chart.labels.items()) + ")"
+        places = (f"{quoted(text)} {float(x)!r}" for x, text in chart.labels.items())
+        ticks = "(" + ", ".join(places) + ")"
     else:
         ticks = "autofreq"
     key = (f"set key at screen 0.52,{6 / height:.4f} center bottom horizontal maxcols {columns} "
            "samplen 1.6 width -1 font ',13' textcolor '#222222'" if columns else "unset key")
     lines_of = [
-        f"set terminal svg size {WIDTH},{height} fixed enhanced font 'Helvetica,14' background '#ffffff'",
+        f"set terminal svg size {WIDTH},{height} fixed enhanced font 'Helvetica,14' background "
+        "'#ffffff'",
         f"set output {quoted(chart.key + '.svg')}",
         f"set title {quoted(chart.title)} font ',15' textcolor '#222222' offset 0,-0.4",
         f"set xlabel {quoted(chart.x_label)} offset 0,0.3",
@@ -218,7 +222,8 @@ def script_of(chart):
         "set rmargin at screen 0.97",
         f"set xrange {range_of(chart.x_range)}",
         f"set yrange {range_of(heights_of(chart))}",
-        "set offsets 0, 0, graph 0.05, graph 0.03" if None in heights_of(chart) else "set offsets 0, 0, 0, 0",
+        "set offsets 0, 0, "
+        + ("graph 0.05, graph 0.03" if None in heights_of(chart) else "0, 0"),
         "set logscale x" if chart.logarithmic else "unset logscale x",
         f"set xtics {ticks}",
         key,
@@ -231,7 +236,8 @@ def script_of(chart):
             block = f"$curve{at}"
             data.append(block_of(block, thinned(curve)))
             plots.extend(plots_of(block, curve))
-    return "\n".join(lines_of) + "\n" + "".join(data) + "plot " + ", \\\n  ".join(plots) + "\nunset output\n"
+    return ("\n".join(lines_of) + "\n" + "".join(data) + "plot " + ", \\\n  ".join(plots)
+            + "\nunset output\n")
 
 
 def block_of(name, curve):

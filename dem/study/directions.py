@@ -2,7 +2,8 @@
 """Directions as surfaces: what depends on a direction, drawn as far from the middle as it is large.
 
 Classes are those of dem/micromechanics/sphere_partition.hpp: 24 n^2 patches of the six faces of a
-cube, each octant's third cut n by n at equal angles. Vectors are tuples of three, in the scene's axes.
+cube, each octant's third cut n by n at equal angles. Vectors are tuples of three, in the scene's
+axes.
 """
 
 import math
@@ -97,8 +98,8 @@ CUTS = (0.0, 0.5, 1.0)
 
 
 def spikes(values, n):
-    """A histogram: of each class {place: value} a pyramid from the middle with a round end. Values that
-    are not finite or not positive have none."""
+    """A histogram: of each class {place: value} a pyramid from the middle with a round end. Values
+    that are not finite or not positive have none."""
     mesh = Mesh()
     for place, value in values.items():
         if not (math.isfinite(value) and value > 0.0):

@@ -25,7 +25,7 @@ class Figure:
     pictures: list
     caption: str
     lacking: list = dataclasses.field(default_factory=list)
-    columns: int = 1  # of several pictures side by side on a wide page; more than one: a row of its own
+    columns: int = 1  # of pictures side by side on a wide page; more than one: a row of its own
 
 
 @dataclasses.dataclass
@@ -66,10 +66,11 @@ def alt_of(chart):
 
 
 def in_legend(name, curves, style="dashes"):
-    """A line of the legend for all curves of a style, grey; it shows where one of the curves does."""
+    """A line of the legend for all curves of a style, grey; shown where one curve is."""
     points = [(x, y) for curve in curves for x, y in zip(curve.x, curve.y)
               if math.isfinite(x) and math.isfinite(y)][:1]
-    return charts.Curve(name, [x for x, _ in points] * 2, [y for _, y in points] * 2, colour="#555555",
+    return charts.Curve(name, [x for x, _ in points] * 2, [y for _, y in points] * 2,
+                        colour="#555555",
                         style=style)
 
 

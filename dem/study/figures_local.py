@@ -9,10 +9,11 @@ from figures import Chapter
 from results import shear_of
 
 TEXT = """
-<p>Where on its surface is a particle touched, and how does the turning of long axes turn contact normals?
-The <em>contact vector</em> joins a particle's centre and a contact. Its anisotropy in the particle's own
-axes is a<sup>cv</sup>, with the component a<sub>1</sub> along the long axis. By their length contact vectors
-are <em>short</em>, <em>intermediate</em> or <em>long</em>: thirds between b and a.</p>
+<p>Where on its surface is a particle touched, and how does the turning of long axes turn contact
+normals? The <em>contact vector</em> joins a particle's centre and a contact. Its anisotropy in the
+particle's own axes is a<sup>cv</sup>, with the component a<sub>1</sub> along the long axis. By
+their length contact vectors are <em>short</em>, <em>intermediate</em> or <em>long</em>: thirds
+between b and a.</p>
 """
 
 LENGTHS = ("short", "intermediate", "long")
@@ -25,22 +26,29 @@ RATIO = 1 / 0.7
 def local(maker):
     return [
         maker.pressures("local-cv", "Anisotropy of contact vectors", "modulus of a^{cv}", "a_cv",
-                        "In the particle's own axes. The text finds it nearly constant over strain and "
-                        "pressure.", kind="micro", y_range=(0, None)),
+                        "In the particle's own axes. The text finds it nearly constant over strain "
+                        "and pressure.", kind="micro", y_range=(0, None)),
         maker.pressures("local-a1", "Along the long axis", "a_{1}", "a1",
-                        "Above 0: contacts gather near the ends, as area does. The text has 0.5 to 0.8; by "
-                        "area alone it would be 0.515.", kind="micro", y_range=(0, None)),
+                        "Above 0: contacts gather near the ends, as area does. The text has 0.5 to "
+                        "0.8; by area alone it would be 0.515.", kind="micro", y_range=(0, None)),
         lengths(maker),
+        maker.pressures("local-short", "Short contact vectors", "share of contact sides", "f_short",
+                        "Full lines are counted, dashes calculated from the measured "
+                        "a<sub>1</sub>. In the text more than half are short, and both are close "
+                        "at every pressure.", kind="micro",
+                        dashed="f_short_model", dashed_name="calculated", y_range=(0.4, 0.7)),
         pairs(maker),
         spread(maker),
         maker.pressures("local-axes", "Long axes against strain", "modulus of a^{E}",
                         lambda row: abs(row["A_E"]),
-                        "In the text it is not mobilised before 3 % of strain at any pressure, then goes "
-                        "hyperbolically to a limit.", kind="micro", y_range=(0, None)),
+                        "In the text it is not mobilised before 3 % of strain at any pressure, "
+                        "then goes hyperbolically to a limit.", kind="micro", y_range=(0, None)),
         maker.pressures("local-P2", "From long axes to normals", "mean of P_{2}(cos γ)", "P2",
-                        "γ is the angle between a contact normal and the particle's long axis. Full lines are "
-                        "measured, dashes follow from a<sub>1</sub>. The text stopped before this.",
+                        "γ is the angle between a contact normal and the particle's long axis. "
+                        "Full lines are measured, dashes follow from a<sub>1</sub>. The text "
+                        "stopped before this.",
                         kind="micro", dashed="P2_model", dashed_name="predicted"),
+        deviation(maker),
         rotation(maker),
         plane_factors(maker),
         plane_rotation(maker),
@@ -55,8 +63,9 @@ def lengths(maker):
                                        stage="shear", colour=COLOURS[k], style=style))
     return maker.chart("local-lengths", "Lengths of contact vectors at 30 MPa", "axial strain",
                        "share of contact sides", drawn,
-                       "Full lines are counted, dashes calculated from the measured a<sub>1</sub>. The text "
-                       "calculates 54, 27 and 19 % for a<sub>1</sub> = 0.75.", y_range=(0, None))
+                       "Full lines are counted, dashes calculated from the measured a<sub>1</sub>. "
+                       "The text calculates 54, 27 and 19 % for a<sub>1</sub> = "
+                       "0.75.", y_range=(0, None))
 
 
 def pairs(maker):
@@ -73,8 +82,9 @@ def pairs(maker):
         drawn.append(charts.Curve(name, list(range(len(PAIRS))), means, colour=colour, style=style))
     return maker.chart("local-pairs", "Types of contacts at 30 MPa, 20 % strain",
                        "short, intermediate, long on either side", "share of contacts", drawn,
-                       "If both sides are independent, shares are products of those of the lengths. The text "
-                       "finds counted and calculated ones close.", y_range=(0, None), x_range=(-0.6, 5.6),
+                       "If both sides are independent, shares are products of those of the "
+                       "lengths. The text finds counted and calculated ones close.",
+                       y_range=(0, None), x_range=(-0.6, 5.6),
                        labels=dict(enumerate(PAIRS)))
 
 
@@ -101,13 +111,35 @@ def spread(maker):
     drawn = [charts.Curve(f"a_{{1}} = {a1:g}", degrees,
                           [cumulated(a1, math.radians(d)) for d in degrees], colour=COLOURS[k])
              for k, a1 in enumerate((0.5, 0.8))]
-    drawn.append(charts.Curve("by area", degrees, [area_share(RATIO, math.radians(d)) for d in degrees],
+    drawn.append(charts.Curve("by area", degrees,
+                              [area_share(RATIO, math.radians(d)) for d in degrees],
                               colour=COLOURS[7], style="dashes"))
     return maker.chart("local-spread", "Share of contacts up to an angle, b/a = 0.7",
                        "angle to the long axis, degrees", "G", drawn,
-                       "Calculated: contacts within an angle of one end. The text finds the law with "
-                       "a<sub>1</sub> from 0.5 to 0.8 near that of equal contacts on equal areas.",
+                       "Calculated: contacts within an angle of one end. The text finds the law "
+                       "with a<sub>1</sub> from 0.5 to 0.8 near that of equal contacts on equal "
+                       "areas.",
                        y_range=(0, None), labels={k: str(k) for k in range(0, 91, 15)})
+
+
+def deviation_of(ratio, beta):
+    """Angle between contact vector and normal at the angle beta to the long axis, (7.29)."""
+    c, s = math.cos(beta)**2, math.sin(beta)**2
+    cosine = (c / ratio**2 + s) / math.sqrt(c / ratio**4 + s)
+    return math.acos(min(1.0, cosine))
+
+
+def deviation(maker):
+    degrees = list(range(0, 91, 2))
+    drawn = [charts.Curve(f"b/a = {1 / ratio:.1f}", degrees,
+                          [math.degrees(deviation_of(ratio, math.radians(d))) for d in degrees],
+                          colour=COLOURS[k]) for k, ratio in enumerate((1 / 0.7, 1 / 0.8))]
+    return maker.chart("local-deviation", "Between contact vector and normal",
+                       "angle of the contact vector to the long axis, "
+                       "degrees", "angle, degrees", drawn,
+                       "Calculated. At b/a = 0.7 it is 20° at most, and 13° on average over the "
+                       "surface; the text calls it very small.", y_range=(0, None),
+                       labels={k: str(k) for k in range(0, 91, 15)})
 
 
 def rotation(maker):
@@ -117,10 +149,12 @@ def rotation(maker):
             ("a^{E}", "a_axial_E", "line"))):
         drawn.append(results.curve(name, shear_of(30), column, kind="micro", stage="shear",
                                    colour=COLOURS[k], style=style))
-    return maker.chart("local-rotation", "What rotation gives to the fabric, at 30 MPa", "axial strain",
+    return maker.chart("local-rotation", "What rotation gives to the fabric, at 30 "
+                                         "MPa", "axial strain",
                        "axial component", drawn,
-                       "The part of a<sup>r</sup> that follows from the turned axes alone, "
-                       "the mean of P<sub>2</sub> times a<sup>E</sup>. The rest is due to gained and lost contacts.", zero=True)
+                       "The part of a<sup>r</sup> that follows from the turned axes alone, the "
+                       "mean of P<sub>2</sub> times a<sup>E</sup>. The rest is due to gained and "
+                       "lost contacts.", zero=True)
 
 
 def arc_anisotropy(ratio, points=720):
@@ -145,8 +179,9 @@ def plane_factors(maker):
              charts.Curve("c_{1} + a^{L} c_{2}", ratios, whole, colour=COLOURS[2])]
     return maker.chart("local-plane-factors", "Factors of the plane model", "a / b, logarithmic",
                        "factor from a^{E} to a^{r}", drawn,
-                       "Calculated: how much of the axes' anisotropy the normals of ellipses take over, with "
-                       "contacts by arc length. As in the text it goes from 0 for disks to 1 for needles.",
+                       "Calculated: how much of the axes' anisotropy the normals of ellipses take "
+                       "over, with contacts by arc length. As in the text it goes from 0 for disks "
+                       "to 1 for needles.",
                        zero=True, logarithmic=True, labels={x: str(x) for x in (1, 2, 5, 10, 20)})
 
 
@@ -159,8 +194,8 @@ def plane_rotation(maker):
         drawn.append(results.curve("", stem, lambda row: abs(row["A_r"]), kind="micro",
                                    stage="shear", colour=COLOURS[k], style="dashes", band=False))
     return maker.chart("local-plane", "Ellipses in the plane", "axial strain", "modulus", drawn,
-                       "Full lines: a<sup>E</sup> of the long axes; dashes: a<sup>r</sup> of the normals. The "
-                       "text had no data of its own in the plane.", y_range=(0, None))
+                       "Full lines: a<sup>E</sup> of the long axes; dashes: a<sup>r</sup> of the "
+                       "normals. The text had no data of its own in the plane.", y_range=(0, None))
 
 
 def chapters(maker):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Chapters of the page on shear tests: stress, volume, contacts and forces (sections 5.4.1 to 5.4.7)."""
+"""Chapters of the page on shear tests: stress, volume, contacts, forces (5.4.1 to 5.4.7)."""
 
 import charts
 import series
@@ -7,8 +7,8 @@ from charts import COLOURS
 from figures import Chapter
 from results import shear_of
 
-# Chosen, of axial strain: over which the curves' rates are taken. Those of the peaks, which summaries have,
-# are of dem/shear_peaks.hpp.
+# Chosen, of axial strain: over which the curves' rates are taken. Those of the peaks, which
+# summaries have, are of dem/shear_peaks.hpp.
 WINDOW = 0.02
 
 # The text's steady state, axial strain.
@@ -21,9 +21,10 @@ def axial_ratio(row):
 
 
 TEXT = """
-<p>Each sample is compressed along the vertical while a servo holds the mean stress. The tests go to an
-axial strain of 0.4, in the reduced programme less far. Curves are means over the seeds, bands go from the lowest
-seed to the highest. Compression is positive in stress and axial strain, dilation in volumetric strain.</p>
+<p>Each sample is compressed along the vertical while a servo holds the mean stress. The tests go to
+an axial strain of 0.4, in the reduced programme less far. Curves are means over the seeds, bands go
+from the lowest seed to the highest. Compression is positive in stress and axial strain, dilation in
+volumetric strain.</p>
 """
 
 
@@ -32,27 +33,33 @@ def stress(maker):
     return [
         maker.pressures("shear-ratio", "Shear stress ratio", "a_{s} = (σ_{1} − σ_{3}) / p",
                         axial_ratio,
-                        "A peak, softening, then one curve for all pressures. The text has the same: "
-                        "strength falls as pressure grows, and the ultimate strength does not depend on it."),
-        maker.pressures("shear-angle", "Friction angle", "friction angle, degrees", "friction_angle_deg",
+                        "The text has a peak, softening, then one curve for all pressures: "
+                        "strength falls as pressure grows, and the ultimate strength does not "
+                        "depend on it."),
+        maker.pressures("shear-angle", "Friction angle", "friction angle, degrees",
+                        "friction_angle_deg",
                         "The same as an angle. The text has peaks from 39° to 43.5°."),
-        maker.pressures("shear-volume", "Volumetric strain", "volumetric strain", "volumetric_strain",
-                        "Samples dilate from the start, less at higher pressure. The text finds no "
-                        "contraction, and curves that do not meet.", zero=True),
-        maker.pressures("shear-dilation", "Rate of dilation", "dε_{v} / dε_{a}", "volumetric_strain",
-                        "Slope of the curves before, over a window of 0.02. The text has a maximum from 0.35 "
-                        "to 1.1, which falls and comes later as pressure grows.",
+        maker.pressures("shear-volume", "Volumetric strain", "volumetric strain",
+                        "volumetric_strain",
+                        "In the text samples dilate from the start, less at higher pressure, "
+                        "without contraction and in curves that do not meet.", zero=True),
+        maker.pressures("shear-dilation", "Rate of dilation", "dε_{v} / dε_{a}",
+                        "volumetric_strain",
+                        "Slope of the curves before, over a window of 0.02. The text has a maximum "
+                        "from 0.35 to 1.1, which falls and comes later as pressure grows.",
                         map_y=lambda x, y: series.slope(x, y, WINDOW), zero=True),
         maker.pressures("shear-porosity", "Porosity", "porosity", "porosity",
-                        "Initial and steady values depend on the pressure, in the text too."),
+                        "In the text initial and steady values depend on the pressure."),
         maker.pressures("shear-density", "Packing density", "packing density",
                         lambda row: 1.0 - row["porosity"],
                         "The other side of porosity: how much of the cell is filled."),
         peak(maker, "peak-angle", "Peak friction angle", "friction angle, degrees",
-             "peak_friction_angle_deg", "It falls as pressure grows. The text has 39° to 43.5°."),
+             "peak_friction_angle_deg", "In the text it falls as pressure grows, from 43.5° to "
+                                        "39°."),
         peak_strains(maker),
-        peak(maker, "peak-dilation", "Peak rate of dilation", "dε_{v} / dε_{a}", "peak_dilation_rate",
-             "It falls as pressure grows. The text has 0.35 to 1.1."),
+        peak(maker, "peak-dilation", "Peak rate of dilation", "dε_{v} / dε_{a}",
+             "peak_dilation_rate",
+             "In the text it falls as pressure grows, from 1.1 to 0.35."),
         maker.against_pressure(
             "steady-density", "Loss of packing density to the steady state", "ρ_{i} − ρ_{ss}",
             {"to 20.5 % strain": lambda folder: results.value_at(folder, "porosity", STEADY)
@@ -77,13 +84,14 @@ def peak_strains(maker):
 
     return maker.against_pressure(
         "peak-strain", "Strains of the peaks", "axial strain",
-        {"peak friction": of("strain_at_peak_friction"), "peak dilation": of("strain_at_peak_dilation")},
-        "Both grow with the pressure. The text has the peak of friction well before that of dilation, and both "
-        "together at the highest pressure.")
+        {"peak friction": of("strain_at_peak_friction"),
+         "peak dilation": of("strain_at_peak_dilation")},
+        "In the text both grow with the pressure; friction peaks well before dilation, and with it "
+        "at the highest pressure.")
 
 
 def plane_dilation(maker):
-    """Peak dilation of spheroids, ellipses and disks, against eccentricity, beside published ranges."""
+    """Peak dilation of spheroids, ellipses, disks, over eccentricity, beside published ranges."""
     results = maker.results
 
     def measure(folder):
@@ -94,24 +102,28 @@ def plane_dilation(maker):
                            colour=COLOURS[0])
     space = []
     for k, pressure in enumerate((10, 100)):
-        space.append(results.points(f"spheroids, {pressure} MPa", {0.176: shear_of(pressure)}, measure,
+        space.append(results.points(f"spheroids, {pressure} MPa", {0.176: shear_of(pressure)},
+                                    measure,
                                     colour=COLOURS[1 + k]))
-    ranges = [charts.Curve("published, plane", [0.05, 0.2, 0.2, 0.05, 0.05], [0.8, 0.8, 1.9, 1.9, 0.8],
+    ranges = [charts.Curve("published, plane", [0.05, 0.2, 0.2, 0.05, 0.05],
+                           [0.8, 0.8, 1.9, 1.9, 0.8],
                            colour=COLOURS[7], style="dashes"),
               charts.Curve("published, space", [0.17, 0.182, 0.182, 0.17, 0.17],
                            [0.35, 0.35, 1.1, 1.1, 0.35], colour=COLOURS[4], style="dashes")]
     if not any(curve.shows() for curve in [plane, *space]):
         ranges = []
-    return maker.chart("peak-dilation-plane", "Peak rate of dilation, plane and space", "eccentricity e",
+    return maker.chart("peak-dilation-plane", "Peak rate of dilation, plane and space",
+                       "eccentricity e",
                        "dε_{v} / dε_{a}", [plane, *space, *ranges],
-                       "Frames are the ranges of the text: 0.8 to 1.9 for ellipses in the plane, 0.35 to "
-                       "1.1 in space. It gives 0 to 0.78 for Ham River sand.", x_range=(-0.02, 0.23),
+                       "Frames are the ranges of the text: 0.8 to 1.9 for ellipses in the plane, "
+                       "0.35 to 1.1 in space. It gives 0 to 0.78 for Ham River "
+                       "sand.", x_range=(-0.02, 0.23),
                        y_range=(0, None))
 
 
 COMPARED = """
-<p>The same test with other samples: spheres, a loose start, fewer particles, another contact law, other
-shapes, and other ratios of the two lateral stresses. b = 0 is the triaxial test; with
+<p>The same test with other samples: spheres, a loose start, fewer particles, another contact law,
+other shapes, and other ratios of the two lateral stresses. b = 0 is the triaxial test; with
 b = 1 one lateral stress is as high as the axial one.</p>
 """
 
@@ -125,7 +137,8 @@ def compared(maker):
         return maker.chart(key, title, "axial strain", label, curves, caption, **options)
 
     spheres = {"spheroids, 10 MPa": shear_of(10), "spheroids, 100 MPa": shear_of(100),
-               "spheres, 10 MPa": shear_of(10, "sphere"), "spheres, 100 MPa": shear_of(100, "sphere")}
+               "spheres, 10 MPa": shear_of(10, "sphere"),
+               "spheres, 100 MPa": shear_of(100, "sphere")}
     loose = {"dense, 10 MPa": shear_of(10), "dense, 50 MPa": shear_of(50),
              "loose, 10 MPa": shear_of(10, "loose"), "loose, 50 MPa": shear_of(50, "loose")}
     sizes = {"test 3, 47 MPa": "test3-shear", "test 4c, 50 MPa": shear_of(50),
@@ -134,34 +147,40 @@ def compared(maker):
               "triaxial bodies": shear_of(50, "triaxial"), "two sizes": shear_of(50, "twosize")}
     angle, volume = "friction_angle_deg", "volumetric_strain"
     return [
-        several("compared-spheres", "Spheroids and spheres", "friction angle, degrees", angle, spheres,
-                "Spheres resist less. The text says that other bodies resist more, over a longer strain."),
-        several("compared-loose", "Dense and loose samples", "friction angle, degrees", angle, loose,
-                "The ultimate angle does not depend on the initial state, in the text too."),
+        several("compared-spheres", "Spheroids and spheres", "friction angle, degrees", angle,
+                spheres,
+                "Samples are prepared alike. The text says that other bodies than spheres resist "
+                "more, over a longer strain."),
+        several("compared-loose", "Dense and loose samples", "friction angle, degrees", angle,
+                loose,
+                "In the text the ultimate angle does not depend on the initial state."),
         several("compared-loose-void", "Dense and loose: void ratio", "void ratio",
                 lambda row: row["porosity"] / (1.0 - row["porosity"]), loose,
-                "At one pressure both samples go to one void ratio; it is another at another pressure."),
+                "In the text the void ratio of the steady state depends on the pressure."),
         several("compared-size", "How many particles", "friction angle, degrees", angle, sizes,
-                "Tests 1 and 3 have 27 and 125 particles, 4c and 4e 1000. The text finds test 3 very close to 4c, and "
-                "test 1, which is ten times faster, unlike 4e."),
-        several("compared-size-volume", "How many particles: volume", "volumetric strain", volume, sizes,
+                "Tests 1 and 3 have 27 and 125 particles, 4c and 4e 1000. The text finds test 3 "
+                "very close to 4c, and test 1, which is ten times faster, unlike 4e."),
+        several("compared-size-volume", "How many particles: volume", "volumetric strain", volume,
+                sizes,
                 "The same tests' volumetric strains.", zero=True),
-        several("compared-bodies", "Other laws and bodies at 50 MPa", "friction angle, degrees", angle,
-                bodies, "Hertz's law at equal mean overlap: the text finds similar results. Triaxial "
-                "bodies and two sizes are what it names as next."),
+        several("compared-bodies", "Other laws and bodies at 50 MPa", "friction angle, degrees",
+                angle,
+                bodies, "Hertz's law at equal mean overlap: the text finds similar results. "
+                        "Triaxial bodies and two sizes are what it names as next."),
         *(several(f"compared-lode-{family}", f"Ratio b of the lateral stresses: {family}s",
                   "friction angle, degrees", angle,
                   {f"b = {b:g}": f"{family}-p030-b{round(100 * b):03d}-shear"
                    for b in (0.0, 0.25, 0.5, 1.0)},
-                  "b = (σ<sub>yy</sub> − σ<sub>xx</sub>) / (σ<sub>zz</sub> − σ<sub>xx</sub>), at 30 MPa. The "
-                  "text says that the stress-force-fabric relation holds at any b; see below.")
+                  "b = (σ<sub>yy</sub> − σ<sub>xx</sub>) / (σ<sub>zz</sub> − σ<sub>xx</sub>), at "
+                  "30 MPa. The text says that the stress-force-fabric relation holds at any b; see "
+                  "below.")
           for family in ("sphere", "spheroid")),
     ]
 
 
 CONTACTS = """
-<p>Contacts go in three <em>direction groups</em>: a contact is in the group of the axis along which its
-normal's component is the largest. The text gives no rule for its groups; this is ours.</p>
+<p>Contacts go in three <em>direction groups</em>: a contact is in the group of the axis along which
+its normal's component is the largest. The text gives no rule for its groups; this is ours.</p>
 """
 
 
@@ -170,42 +189,50 @@ def contacts(maker):
     return [
         maker.pressures("shear-coordination", "Coordination number", "coordination number",
                         "coordination_number",
-                        "It falls steadily and is constant at large strain. The text has 6 near the "
-                        "steady state and a delay at the start for large pressures."),
+                        "In the text it falls steadily, is constant and near 6 at large strain, "
+                        "and is delayed at the start for large pressures."),
         maker.pressures("shear-loss", "Rate of the loss of contacts", "dγ / dε_{a}",
                         "coordination_number",
-                        "Slope over a window of 0.02. In the text it depends on pressure within the first "
-                        "5 % alone.", map_y=lambda x, y: series.slope(x, y, WINDOW), zero=True),
-        maker.pressures("shear-scatter", "Scatter of the coordination number", "standard deviation s_{γ}",
+                        "Slope over a window of 0.02. In the text it depends on pressure within "
+                        "the first 5 % alone.", map_y=lambda x, y: series.slope(x, y, WINDOW),
+                        zero=True),
+        maker.pressures("shear-scatter", "Scatter of the coordination number",
+                        "standard deviation s_{γ}",
                         "coordination_std",
-                        "The text finds no significant change, in shear or with pressure.", y_range=(0, None)),
+                        "The text finds no significant change, in shear or with "
+                        "pressure.", y_range=(0, None)),
         maker.against_pressure(
             "steady-coordination", "Loss of contacts to the steady state", "γ_{i} − γ_{ss}",
             {"to 20.5 % strain": lambda folder: results.first(folder, "coordination_number")
-                                                - results.value_at(folder, "coordination_number", STEADY)},
-            "The text calls it nearly independent of pressure, and has initial values that differ by 2.9: "
-            "it contradicts itself.", y_range=(0, None)),
+                                                - results.value_at(folder, "coordination_number",
+                                                                   STEADY)},
+            "The text calls it nearly independent of pressure, and has initial values that differ "
+            "by 2.9: it contradicts itself.", y_range=(0, None)),
         maker.pressures("shear-force", "Mean normal force", "mean normal force, GN",
                         lambda row: 1e-9 * row["mean_normal_force"],
-                        "It rises as contacts are lost under a mean stress that is held."),
+                        "Mean over contacts: fewer contacts bear a mean stress that is held."),
         maker.against_pressure(
             "force-pressure", "Mean normal force against pressure", "f_{0}, GN",
             {"initial": lambda folder: initial_f0(results, folder),
-             "at 20.5 % strain": lambda folder: 1e-9 * results.value_at(folder, "f0", STEADY, "micro")},
-            "Mean over orientations. The text finds initial and steady values strongly correlated with "
-            "pressure.", y_range=(0, None)),
+             "at 20.5 % strain": lambda folder: 1e-9 * results.value_at(folder, "f0", STEADY,
+                                                                        "micro")},
+            "Mean over orientations. The text finds initial and steady values strongly correlated "
+            "with pressure.", y_range=(0, None)),
         groups_at(maker, 30),
         maker.pressures("groups-fraction", "Share of the direction groups", "share of the contacts",
                         "fraction_z",
-                        "Full lines: axial group; dashes: mean of the two lateral ones. In the text the axial "
-                        "share never falls below its initial value, and bias is largest after the peak.",
-                        kind="micro", dashed=lambda row: 0.5 * (row["fraction_x"] + row["fraction_y"]),
+                        "Full lines: axial group; dashes: mean of the two lateral ones. In the "
+                        "text the axial share never falls below its initial value, and bias is "
+                        "largest after the peak.",
+                        kind="micro",
+                        dashed=lambda row: 0.5 * (row["fraction_x"] + row["fraction_y"]),
                         dashed_name="lateral"),
         maker.pressures("groups-force", "Mean normal force of the direction groups",
                         "mean force / f_{0}", lambda row: row["normal_force_z"] / row["f0"],
-                        "Full lines: axial group; dashes: lateral. In the text the axial force rises "
-                        "up to the peak and the lateral one falls strongly.", kind="micro",
-                        dashed=lambda row: 0.5 * (row["normal_force_x"] + row["normal_force_y"]) / row["f0"],
+                        "Full lines: axial group; dashes: lateral. In the text the axial force "
+                        "rises up to the peak and the lateral one falls strongly.", kind="micro",
+                        dashed=lambda row: (row["normal_force_x"] + row["normal_force_y"])
+                                          / (2 * row["f0"]),
                         dashed_name="lateral", y_range=(0, None)),
     ]
 
@@ -224,7 +251,7 @@ def groups_at(maker, pressure):
                                                 "lateral, y": "y"}.items())]
     return maker.chart("groups-contacts", f"Contacts of the direction groups at {pressure} MPa",
                        "axial strain", "contacts", curves,
-                       "All three groups lose contacts. In the text the axial group loses them slowest.",
+                       "In the text all three groups lose contacts, the axial one slowest.",
                        y_range=(0, None))
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Chapter of the page on states A to D of one test: distributions as surfaces, force lines, bodies.
 
-The states are those of the first seed of test 4d: A before shear, B where yielding starts, C at the peak
-of friction, D where the volume becomes constant.
+The states are those of the first seed of test 4d: A before shear, B where yielding starts, C at the
+peak of friction, D where the volume becomes constant.
 """
 
 import math
@@ -21,7 +21,8 @@ GROUPS = {"x": "#3f7fb5", "y": "#4f9d69", "z": "#b5476a"}
 # Chosen, pixels of a picture's width; and heights of the wide ones over their widths.
 SURFACE, LINES, BODIES, HEIGHT = 270, 330, 480, 0.8
 
-# Chosen: radius of a line of the mean normal force of the first state, in mean arms of its contacts.
+# Chosen: radius of a line of the mean normal force of the first state, in mean arms of its
+# contacts.
 LINE_RADIUS = 0.07
 
 # Chosen: width of a picture of lines, in what they span.
@@ -34,10 +35,10 @@ AXES_PATCHES = 2
 ANGLES = (18, 36, 54, 72, 90)
 
 TEXT = """
-<p>Four states of test 4d (30 MPa, first seed): A before shear, B where yielding starts, C at the peak of friction,
-D where the volume becomes constant, or the end of the test. The text gives no rule for them; ours is in the run's
-summary. A surface is as far from its middle as the quantity is large in that direction. The stick is the axis of the
-load.</p>
+<p>Four states of test 4d (30 MPa, first seed): A before shear, B where yielding starts, C at the
+peak of friction, D where the volume becomes constant, or the end of the test. The text gives no
+rule for them; ours is in the run's summary. A surface is as far from its middle as the quantity is
+large in that direction. The stick is the axis of the load.</p>
 """
 
 
@@ -49,7 +50,8 @@ class Pictures:
         self.scenes = {}
 
     def gallery(self, title, columns, rows_of_point, points, caption):
-        """A figure of the pictures that rows_of_point(point) gives; the points that fail are lacking."""
+        """A figure of the pictures that rows_of_point(point) gives; the points that fail are
+        lacking."""
         pictures, lacking = [], []
         for point in points:
             try:
@@ -63,19 +65,21 @@ class Pictures:
 
 
 def around(radius, width):
-    """Two thin rings of a value that is the same in all directions: across the load, and towards the
-    viewer."""
+    """Two thin rings of a value that is the same in all directions: across the load, and towards
+    the viewer."""
     thin = 0.004 * width
     ring = f"torus {{ {radius:.5g}, {thin:.4g} pigment {{ color srgb 0.35 }} finish {{ Surface }}"
     return f"{ring} rotate 90*x }}\n{ring} rotate -32*z }}\n"
 
 
 def surfaces(pictures, key, title, quantity, caption, points=None):
-    """Rows of three: measured, second order, second and fourth. quantity(point) gives measured values
-    {place: value}, n, two models as functions of a direction, the ring's value and its words."""
+    """Rows of three: measured, second order, second and fourth. quantity(point) gives measured
+    values {place: value}, n, two models as functions of a direction, the ring's value and its
+    words."""
     def row(point):
         measured, n, second, fourth, ring, words = quantity(point)
-        meshes = [directions.spikes(measured, n), directions.smooth(second), directions.smooth(fourth)]
+        meshes = [directions.spikes(measured, n), directions.smooth(second),
+                  directions.smooth(fourth)]
         width = 2.2 * max(ring, *(mesh.reach() for mesh in meshes))
         stick = rendering.stick((0, 0, -0.5 * width), (0, 0, 0.5 * width), 0.006 * width, "#333333")
         made = []
@@ -110,7 +114,8 @@ def alt_of(title, point, kind, measured, n, model):
 def classes_of(columns, value):
     """({place: value of a row}, n) of a histogram."""
     n = directions.patches_of(columns.count)
-    places = [directions.place_of(d, n) for d in zip(*(columns.column(c) for c in ("dx", "dy", "dz")))]
+    places = [directions.place_of(d, n) for d in zip(*(columns.column(c) for c in ("dx", "dy",
+                                                                                   "dz")))]
     return dict(zip(places, columns.column(value))), n
 
 
@@ -149,21 +154,25 @@ def distributions(pictures):
     def axes(point):
         averages, _ = states.averages(point)
         even = 0.25 / math.pi
-        return *axes_of(states.table("particles", point)), *models(averages["long_axes"], even), even, "1/4π"
+        return *axes_of(states.table("particles", point)), *models(averages["long_axes"],
+                                                                   even), even, "1/4π"
 
-    of = ("Blue spikes are classes of directions, orange the second-order model, green the second and fourth "
-          "order. The three of a state have one scale; the grey rings are ")
+    of = ("Blue spikes are classes of directions, orange the second-order model, green the second "
+          "and fourth order. The three of a state have one scale; the grey rings are ")
     return [
         surfaces(pictures, "normals", "Contact normals E(n)", normals,
-                 of + "an equal distribution. The text sees a sphere, an ellipsoid, then a peanut, and finds that "
-                 "the fourth order improves the fit."),
+                 of + "an equal distribution. The text sees a sphere, an ellipsoid, then a peanut, "
+                      "and finds that the fourth order improves the fit."),
         surfaces(pictures, "normal-force", "Mean normal force over directions", normal_force,
-                 of + "the mean f<sub>0</sub>. The text finds that the fourth order changes little."),
-        surfaces(pictures, "tangential-force", "Mean tangential force over directions", tangential_force,
-                 of + "a tenth of f<sub>0</sub>. Shown is the size of the mean vector. The text finds that the "
-                 "fourth order improves the fit dramatically."),
+                 of + "the mean f<sub>0</sub>. The text finds that the fourth order changes "
+                      "little."),
+        surfaces(pictures, "tangential-force", "Mean tangential force over directions",
+                 tangential_force,
+                 of + "a tenth of f<sub>0</sub>. Shown is the size of the mean vector. The text "
+                      "finds that the fourth order improves the fit dramatically."),
         surfaces(pictures, "axes", "Long axes", axes,
-                 of + "an equal distribution. The text sees a circle become a donut across the load.",
+                 of + "an equal distribution. The text sees a circle become a donut across the "
+                      "load.",
                  points=[states.points[0], states.points[-1]]),
     ]
 
@@ -215,20 +224,22 @@ def force_lines(pictures):
         made = []
         for axis, (name, shade) in enumerate(GROUPS.items()):
             group = [c for c in contacts if axis_of(c[2]) == axis]
-            sticks = [rendering.stick(start, end, max(0.02 * width / LINES, per_force * force), shade)
+            sticks = [rendering.stick(start, end, max(0.02 * width / LINES, per_force * force),
+                                      shade)
                       for start, end, _, force in group]
             file = f"force-{point}-{name}.png"
             pictures.add(file, "".join(sticks), width, centre, LINES)
             share = 100 * len(group) / len(contacts)
-            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: {len(group)} "
-                                f"contacts, {shown(share)} % of all.", f"{point}, group {name}: {len(group)}"))
+            made.append(Picture(file, f"Lines of force of the group {name} in state {point}: "
+                                      f"{len(group)} contacts, {shown(share)} % of all.",
+                                      f"{point}, group {name}: {len(group)}"))
         return made
 
     return pictures.gallery(
         "Lines of force by direction group", 3, row, pictures.states.points,
-        "A line joins the centres of two particles that touch; its thickness is the normal force, on one scale. "
-        "Groups are the axes along which normals mostly point. The text sees the axial group, z, bear more and more, "
-        "the lateral ones less.")
+        "A line joins the centres of two particles that touch; its thickness is the normal force, "
+        "on one scale. Groups are the axes along which normals mostly point. The text sees the "
+        "axial group, z, bear more and more, the lateral ones less.")
 
 
 def ends_of(contacts):
@@ -258,7 +269,8 @@ def bodies(pictures):
 
     def width():
         """Of the widest state, with room for the bodies at its ends."""
-        return max(rendering.span(places(rows_of(p)), HEIGHT)[1] + 2 * rows_of(p)[0]["r1"] for p in points)
+        return max(rendering.span(places(rows_of(p)),
+                                  HEIGHT)[1] + 2 * rows_of(p)[0]["r1"] for p in points)
 
     def row(point):
         rows = rows_of(point)
@@ -267,14 +279,16 @@ def bodies(pictures):
         pictures.add(file, "".join(map(body, rows)), 1.05 * states.once("width of bodies", width),
                      centre, BODIES)
         across = sum(inclination(long_axis(row)) > 54 for row in rows) / len(rows)
-        return [Picture(file, f"The sample in state {point}: {shown(100 * across)} % of the long axes are more than "
-                        "54 degrees away from the load's axis.", f"{point}, {POINTS[point]}")]
+        return [Picture(file, f"The sample in state {point}: {shown(100 * across)} % of the long "
+                              "axes are more than 54 degrees away from the load's "
+                              "axis.", f"{point}, {POINTS[point]}")]
 
     legend = " ".join(f'<span class="key"><i style="background:{shade}"></i>to {angle}°</span>'
                       for shade, angle in zip(shades, ANGLES))
     return pictures.gallery(
         "The sample before and after", 2, row, points,
-        f"Colours are angles of long axes to the load: {legend}. The text sees long axes turn across the load.")
+        f"Colours are angles of long axes to the load: {legend}. The text sees long axes turn "
+        "across the load.")
 
 
 def inclination(axis):
@@ -290,8 +304,8 @@ def body(row):
     matrix += [row[c] for c in "xyz"]
     angle = inclination(columns[0])
     shade = charts.SCALE[next((k for k, most in enumerate(ANGLES) if angle <= most), -1)]
-    return (f"sphere {{ 0, 1 matrix {rendering.vector(matrix)} pigment {{ color {rendering.colour(shade)} }} "
-            "finish { Surface } }\n")
+    return (f"sphere {{ 0, 1 matrix {rendering.vector(matrix)} "
+            f"pigment {{ color {rendering.colour(shade)} }} finish {{ Surface }} }}\n")
 
 
 def chapter(pictures):

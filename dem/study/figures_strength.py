@@ -9,9 +9,10 @@ from results import shear_of
 SHARES = ("r", "n", "t", "z", "zt", "rz", "rf", "zf")
 
 TEXT = """
-<p>The stress is a mean over directions of force times branch, so it is a sum of parts that belong to the
-anisotropies and to products of them. The text takes seven: isotropic, fabric, branch, force, and the
-three products of two. Below, <em>predicted</em> is this sum from the measured anisotropies.</p>
+<p>The stress is a mean over directions of force times branch, so it is a sum of parts that belong
+to the anisotropies and to products of them. The text takes seven: isotropic, fabric, branch, force,
+and the three products of two. Below, <em>predicted</em> is this sum from the measured
+anisotropies.</p>
 """
 
 
@@ -19,16 +20,18 @@ def strength(maker):
     return [
         *(principal(maker, pressure) for pressure in (10, 30, 100)),
         maker.pressures("sff-ratio", "Shear stress ratio, predicted", "a_{s}", "a_s",
-                        "Full lines are measured, dashes predicted by seven parts. The text finds them close, "
-                        "slightly worse at large strain.", kind="micro", dashed="a_s_seven",
+                        "Full lines are measured, dashes predicted by seven parts. The text finds "
+                        "them close, slightly worse at large "
+                        "strain.", kind="micro", dashed="a_s_seven",
                         dashed_name="predicted", y_range=(0, None)),
         orders(maker),
         *(lode(maker, family) for family in ("sphere", "spheroid")),
-        *(parts(maker, pressure) for pressure in (10, 50)),
+        *(parts(maker, pressure) for pressure in (10, 50, 100)),
         maker.pressures("share-shape", "Share of the shape", "share of a_{s}, %",
                         lambda row: 100.0 * row["share_shape"] / row["a_s_seven"],
-                        "What branches bear: their own two shares and half of each product with them. "
-                        "The text has it positive, near 0 at the peak, then negative down to −12 %.",
+                        "What branches bear: their own two shares and half of each product with "
+                        "them. The text has it positive, near 0 at the peak, then negative down to "
+                        "−12 %.",
                         kind="micro", zero=True),
         branches(maker),
         axes(maker),
@@ -43,12 +46,14 @@ def principal(maker, pressure):
                                    kind="micro", stage="shear", colour=COLOURS[k - 1]))
         drawn.append(results.curve("", stem,
                                    lambda row, k=k: 1e-6 * row[f"s{k}_seven"], kind="micro",
-                                   stage="shear", colour=COLOURS[k - 1], style="dashes", band=False))
+                                   stage="shear", colour=COLOURS[k - 1], style="dashes",
+                                   band=False))
     drawn.append(in_legend("predicted", drawn))
     return maker.chart(f"sff-principal-{pressure:03d}", f"Principal stresses at {pressure} MPa",
                        "axial strain", "stress, MPa", drawn,
-                       "Full lines are measured, dashes predicted by seven parts. In the text they are close; the "
-                       "minor and intermediate ones are most off at large strain.", y_range=(0, None))
+                       "Full lines are measured, dashes predicted by seven parts. In the text they "
+                       "are close; the minor and intermediate ones are most off at large "
+                       "strain.", y_range=(0, None))
 
 
 def orders(maker):
@@ -58,11 +63,14 @@ def orders(maker):
              for k, (name, column, style) in enumerate((
                  ("measured", "a_s", "line"), ("seven parts", "a_s_seven", "dashes"),
                  ("eight parts", "a_s_eight", "dashes"), ("orders 2 and 4", "a_s_fourth", "dots"),
-                 ("without shape", "a_s_noshape", "dots"), ("group means", "a_s_independent", "dots")))]
-    return maker.chart("sff-orders", "How the prediction is made, at 30 MPa", "axial strain", "a_{s}",
+                 ("without shape", "a_s_noshape", "dots"),
+                 ("group means", "a_s_independent", "dots")))]
+    return maker.chart("sff-orders", "How the prediction is made, at 30 MPa", "axial strain",
+                       "a_{s}",
                        drawn,
-                       "The eighth part is the product of all three; fourth orders are the models' next "
-                       "terms. Without shape, branches are as those of spheres.", y_range=(0, None))
+                       "The eighth part is the product of all three; fourth orders are the models' "
+                       "next terms. Without shape, branches are as those of "
+                       "spheres.", y_range=(0, None))
 
 
 def lode(maker, family):
@@ -75,8 +83,8 @@ def lode(maker, family):
                                    colour=COLOURS[k], style="dashes", band=False))
     return maker.chart(f"sff-lode-{family}", f"Predicted in true triaxial tests: {family}s",
                        "axial strain", "a_{s}", drawn,
-                       "Full lines are measured, dashes predicted by seven parts. The text finds that the "
-                       "relation holds in true triaxial tests.", y_range=(0, None))
+                       "Full lines are measured, dashes predicted by seven parts. The text finds "
+                       "that the relation holds in true triaxial tests.", y_range=(0, None))
 
 
 def parts(maker, pressure):
@@ -86,9 +94,9 @@ def parts(maker, pressure):
              for k, x in enumerate(SHARES)]
     return maker.chart(f"shares-{pressure:03d}", f"Who bears the shear stress at {pressure} MPa",
                        "axial strain", "share of a_{s}, %", drawn,
-                       "r: fabric; n and t: normal and tangential force; z and zt: branch; rz, rf and zf: products. In "
-                       "the text force and fabric prevail; branches bear little, more with strain, and mostly against "
-                       "the load.", zero=True,
+                       "r: fabric; n and t: normal and tangential force; z and zt: branch; rz, rf "
+                       "and zf: products. In the text force and fabric prevail; branches bear "
+                       "little, more with strain, and mostly against the load.", zero=True,
                        x_range=(0.01, None))
 
 
@@ -105,13 +113,16 @@ def branches(maker):
 
 
 def axes(maker):
-    drawn = [maker.results.curve(name, shear_of(30), "axial_deg_" + part, kind="micro", stage="shear",
+    drawn = [maker.results.curve(name, shear_of(30), "axial_deg_" + part, kind="micro",
+                                 stage="shear",
                                  colour=COLOURS[k], band=False)
-             for k, (part, name) in enumerate({"fabric": "fabric", "branch": "branch", "force": "force",
+             for k, (part, name) in enumerate({"fabric": "fabric", "branch": "branch",
+                                               "force": "force",
                                                "fabric_force": "fabric-force"}.items())]
     return maker.chart("sff-axes", "Axes of the parts at 30 MPa", "axial strain",
                        "angle, degrees", drawn,
-                       "Angle between the axial principal axes of a part and of the stress. In the text the parts are coaxial.",
+                       "Angle between the axial principal axes of a part and of the stress. In the "
+                       "text the parts are coaxial.",
                        y_range=(0, None), x_range=(0.01, None))
 
 

@@ -25,7 +25,8 @@ import verdicts
 from running import StudyError
 
 # How verdicts are shown: a class of page.css, in the order of the count.
-VERDICTS = {verdicts.REPRODUCED: "yes", verdicts.NOT_REPRODUCED: "no", verdicts.DOUBTFUL: "doubtful",
+VERDICTS = {verdicts.REPRODUCED: "yes", verdicts.NOT_REPRODUCED: "no",
+            verdicts.DOUBTFUL: "doubtful",
             verdicts.REPORTED: "reported", verdicts.NOT_RUN: "missing", verdicts.FAULT: "missing"}
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -60,8 +61,9 @@ def figure_of(folder, figure):
         label = f"<span>{html.escape(picture.label)}</span>" if picture.label else ""
         images.append(f"<div>{image_of(folder, picture)}{label}</div>")
     kind = "figure wide" if figure.columns > 1 else "figure"
-    tiles = (f'<div class="tiles" style="--columns:{figure.columns}">' + "\n".join(images) + "</div>"
-             if figure.columns > 1 else "\n".join(images))
+    tiles = "\n".join(images)
+    if figure.columns > 1:
+        tiles = f'<div class="tiles" style="--columns:{figure.columns}">{tiles}</div>'
     # A chart has its title in itself.
     title = "" if len(figure.pictures) == 1 else f"<h3>{html.escape(figure.title)}</h3>\n"
     return (f'<figure class="{kind}">\n{title}{tiles}\n'
@@ -85,7 +87,7 @@ def count_of(rows):
 
 
 def value_of(text):
-    """A value of a table as HTML: 1.3e+10 with a power of ten, a minus that is as wide as a plus."""
+    """A value of a table as HTML: 1.3e+10 with a power of ten, a minus as wide as a plus."""
     text = html.escape(text or "")
     text = re.sub(r"\b(\d+(?:\.\d+)?)e\+?(-?)0*(\d+)\b", r"\1&nbsp;×&nbsp;10<sup>\2\3</sup>", text)
     return re.sub(r"(?<![\w)])-(?=[\d.])", "−", text)
@@ -93,12 +95,14 @@ def value_of(text):
 
 def rows_of(rows):
     """The table of statements; on a narrow page each row is a block."""
-    names = (("statement", "statement"), ("published", "published"), ("bar", "bar"), ("ours", "here"),
+    names = (("statement", "statement"), ("published", "published"), ("bar", "bar"),
+             ("ours", "here"),
              ("scatter", "scatter"), ("verdict", "verdict"), ("note", "note"))
     head = "".join(f'<th scope="col">{name}</th>' for name in ("section", *(n for _, n in names)))
     body = []
     for row in rows:
-        cells = [f'<th scope="row" title="{html.escape(row["id"])}">{html.escape(row["section"])}</th>']
+        cells = [f'<th scope="row" title="{html.escape(row["id"])}">'
+                 f'{html.escape(row["section"])}</th>']
         for column, name in names:
             text = value_of(row[column])
             if column == "verdict":
@@ -117,7 +121,8 @@ def missing_of(runs):
     named = {row["run"]: row["status"] for row in runs if row["status"] != "complete"}
     if not named:
         return ""
-    items = ", ".join(f"{html.escape(run)} ({html.escape(status)})" for run, status in named.items())
+    items = ", ".join(f"{html.escape(run)} "
+                      f"({html.escape(status)})" for run, status in named.items())
     return f'<p class="lacking">Runs that are not complete: {items}.</p>\n'
 
 
@@ -125,13 +130,13 @@ def preparation():
     """How samples are made, with the programme's own numbers."""
     friction, balance = stages.RELEASE_FRICTION, stages.RELEASE_BALANCE
     how = "without friction" if friction == 0.0 else f"with a friction coefficient of {friction:g}"
-    return (f"""<p>Spheres of radius {stages.RADIUS:g} m start at random in a periodic cell and are compacted, without
-friction, under {1e-6 * stages.DENSE:g} MPa. Their eccentricity then grows in small steps at constant
-volume, without friction, while the mean stress is held. The dense sample is released to the lower pressures {how},
-each time until no unbalanced force is above {100 * balance:g} % of the mean contact force. In shear the
-friction coefficient is {stages.FRICTION:g}, contacts are linear with a stiffness of {value_of(f"{stages.STIFFNESS:.3g}")} N/m
-in both directions, as published.</p>
-""")
+    return (f"""<p>Spheres of radius {stages.RADIUS:g} m start at random in a periodic cell and are
+compacted, without friction, under {1e-6 * stages.DENSE:g} MPa. Their eccentricity then grows in
+small steps at constant volume, without friction, while the mean stress is held. The dense sample is
+released to the lower pressures {how}, each time until no unbalanced force is above
+{100 * balance:g} % of the mean contact force. In shear the friction coefficient is
+{stages.FRICTION:g}, contacts are linear with a stiffness of {value_of(f"{stages.STIFFNESS:.3g}")}
+N/m in both directions, as published.</p> """)
 
 
 def text_of(out, chapters):
@@ -159,24 +164,26 @@ def text_of(out, chapters):
              '<section id="rows">\n<h2>All statements</h2>\n', ROWS, rows_of(rows), "</section>\n",
              *(chapter_of(folder, chapter) for chapter in chapters),
              f"<footer>Made {made}, {len({row['run'] for row in runs})} runs, seeds "
-             f"{html.escape(', '.join(seeds)) or 'none'}. Tables of the runs are in <code>runs</code>, each "
-             "chart's data in <code>pictures</code>.</footer>\n</body>\n</html>\n"]
+             f"{html.escape(', '.join(seeds)) or 'none'}. Tables of the runs are in "
+             "<code>runs</code>, each chart's data in "
+             "<code>pictures</code>.</footer>\n</body>\n</html>\n"]
     return "".join(parts)
 
 
 INTRODUCTION = """<h1>A published study, run again</h1>
-<p>A. Ouadfel simulated assemblies of equal ellipsoids in triaxial compression and explained their strength
-by the anisotropies of contacts and forces (<cite>Numerical Simulations of Granular Assemblies with
-Three-Dimensional Ellipsoid-Shaped Particles</cite>, 1998). Here its tests were run again, with another
-program for contacts and motion, and every statement that has a number or an order is compared.
-In what follows <em>the text</em> is that thesis. Its figures are not available, so only what it says in
-words and tables is compared.</p>
+<p>H. Ouadfel simulated assemblies of equal ellipsoids in triaxial compression and explained their
+strength by the anisotropies of contacts and forces (<cite>Numerical simulations of granular
+assemblies with three-dimensional ellipsoid-shaped particles</cite>, thesis, University of Waterloo,
+1998). Here its tests were run again, with another program for contacts and motion, and every
+statement that has a number or an order is compared. In what follows <em>the text</em> is that
+thesis. Its figures are not available, so only what it says in words and tables is compared.</p>
 """
 
-ROWS = """<p>Each row is a statement of the text, with the bar that it is held to. Values are means over the seeds,
-scatter is the standard deviation of one seed. <em>Doubtful in the text</em> are rows where the text
-contradicts itself or cannot be read. Marks: [C] it contradicts itself, [?] it does not say or is unreadable, [E] a
-number of the list of errata in <code>docs/derivations/micromechanics.md</code>.</p>
+ROWS = """<p>Each row is a statement of the text, with the bar that it is held to. Values are means
+over the seeds, scatter is the standard deviation of one seed. <em>Doubtful in the text</em> are
+rows where the text contradicts itself or cannot be read. Marks: [C] it contradicts itself, [?] it
+does not say or is unreadable, [E] a number of the list of errata in
+<code>docs/derivations/micromechanics.md</code>.</p>
 """
 
 

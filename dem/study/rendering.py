@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of bodies by POV-Ray, some at once, all in one view: z, along which is loaded, points up.
+"""Pictures of bodies by POV-Ray, some at once, all in one view: z, along which is loaded, points
+up.
 
 POV-Ray that is missing or fails is a StudyError.
 """
@@ -22,7 +23,7 @@ UP = (TOWARDS[1] * RIGHT[2] - TOWARDS[2] * RIGHT[1], TOWARDS[2] * RIGHT[0] - TOW
 
 
 def span(points, height):
-    """(centre, width) of a picture, height times as high as wide, that shows all of these points."""
+    """(centre, width) of a picture, height times as high as wide, that shows all these points."""
     across = [directions.dot(point, RIGHT) for point in points]
     along = [directions.dot(point, UP) for point in points]
     middle = [0.5 * (min(values) + max(values)) for values in (across, along)]
@@ -52,13 +53,14 @@ def mesh(surface, shade):
 
 
 def stick(start, end, radius, shade):
-    return (f"cylinder {{ {vector(start)}, {vector(end)}, {radius:.4g} pigment {{ color {colour(shade)} }} "
-            "finish { Surface } }\n")
+    return (f"cylinder {{ {vector(start)}, {vector(end)}, {radius:.4g} "
+            f"pigment {{ color {colour(shade)} }} finish {{ Surface }} }}\n")
 
 
 def scene(bodies, width, centre=(0.0, 0.0, 0.0)):
     """The text of a picture that shows this width."""
-    return (f'#include "view.inc"\n{bodies}\nView({vector(centre)}, {vector(TOWARDS)}, {width:.5g})\n')
+    return (f'#include "view.inc"\n{bodies}\n'
+            f'View({vector(centre)}, {vector(TOWARDS)}, {width:.5g})\n')
 
 
 def render(folder, scenes, jobs):
@@ -85,7 +87,8 @@ def started(folder, file, text, width, height):
     with open(os.path.join(folder, file + ".log"), "w", encoding="utf-8") as log:
         try:
             return subprocess.Popen(
-                ["povray", f"+I{file}.pov", f"+O{file}", "+FN", f"+W{width}", f"+H{height}", "+A0.2",
+                ["povray", f"+I{file}.pov", f"+O{file}", "+FN", f"+W{width}", f"+H{height}",
+                 "+A0.2",
                  "+AM1", "+R3", "+WT1", "-D", f"+L{HERE}"], cwd=folder, stdin=subprocess.DEVNULL,
                 stdout=log, stderr=subprocess.STDOUT)
         except FileNotFoundError:

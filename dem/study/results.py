@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What the study's runs left, as curves for its page.
 
-OUT/runs/STEM-sSEED is a run; the runs of one stem differ by their seed, and a curve is their mean and
-band. Pressures are in MPa here, strains are fractions, other units are those of the tables. What a
-figure asks for and is not there is kept in `lacking`, which the figure takes and tells.
+OUT/runs/STEM-sSEED is a run; the runs of one stem differ by their seed, and a curve is their mean
+and band. Pressures are in MPa here, strains are fractions, other units are those of the tables.
+What a figure asks for and is not there is kept in `lacking`, which the figure takes and tells.
 """
 
 import glob
@@ -75,7 +75,8 @@ class Results:
         for name in ("elongation", "eccentricity"):
             if micro.count and name not in micro.table.names:
                 cycles, values = series.ascending(history.column("cycle"), history.column(name))
-                micro.add(name, [series.at(cycles, values, cycle) for cycle in micro.column("cycle")])
+                micro.add(name, [series.at(cycles, values,
+                                           cycle) for cycle in micro.column("cycle")])
 
     def summary(self, folder, name):
         """A number of a run's summary.json; nan where it has none."""
@@ -92,12 +93,15 @@ class Results:
             return {}
 
     def seeds(self, stems):
-        """Folders of each seed that has all of the stems, one resuming the other: [[folder ...]]."""
-        by_seed = {}
-        for stem in stems:
+        """Folders of each seed, one run resuming the other, as far as the seed has them: [[folder
+        ...]]."""
+        chains = {}
+        for at, stem in enumerate(stems):
             for folder in self.folders(stem):
-                by_seed.setdefault(folder.rpartition("-s")[2], []).append(folder)
-        return [chain for chain in by_seed.values() if len(chain) == len(stems)]
+                chain = chains.setdefault(folder.rpartition("-s")[2], [])
+                if len(chain) == at:
+                    chain.append(folder)
+        return [chain for chain in chains.values() if chain]
 
     def lines(self, stems, x, y, kind="history", stage=None):
         """(x, y) of each seed, rows of several stems behind one another."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Columns of tables that runs leave, and their mean and band over runs that differ by their seed.
 
-What is missing in a table is nan here. Only files are read, and nothing is kept: any number of threads
-may call.
+What is missing in a table is nan here. Only files are read, and nothing is kept: any number of
+threads may call.
 """
 
 import bisect
@@ -107,8 +107,8 @@ def mean_and_band(curves):
     """(x, mean, lowest, highest) of curves (x, y) on a common grid, over those that reach so far.
 
     The grid ends with the first of the curves that go about as far as the second longest, so that a
-    mean is not of one run alone where there are more. One curve alone is given back as it is, without a
-    band.
+    mean is not of one run alone where there are more. One curve alone is given back as it is,
+    without a band.
     """
     curves = [ascending(*curve) for curve in curves]
     curves = [curve for curve in curves if any(map(math.isfinite, curve[1]))]
@@ -130,7 +130,7 @@ def mean_and_band(curves):
 
 
 def slope(x, y, window):
-    """dy/dx by least squares over what lies within window/2 of each x; nan where fewer than three do."""
+    """dy/dx by least squares over what lies within window/2 of each x; nan of fewer than three."""
     slopes = []
     first = last = 0
     for middle in x:

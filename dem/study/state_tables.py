@@ -14,7 +14,8 @@ from results import shear_of
 
 # The test: 4d, MPa.
 PRESSURE = 30
-POINTS = {"A": "before shear", "B": "start of yielding", "C": "peak friction", "D": "constant volume"}
+POINTS = {"A": "before shear", "B": "start of yielding", "C": "peak friction",
+          "D": "constant volume"}
 
 
 class Failed(Exception):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Made-up results of a study: small tables with all columns, and a program in place of tangency-dem.
+"""Made-up results of a study: small tables with all columns, and a program in place of
+tangency-dem.
 
 Values are smooth and simple; what they are does not matter, but that they are there and are drawn.
 """
@@ -41,12 +42,15 @@ def history_row(stage, x, pressure, seed):
     p = 1e6 * pressure
     return {"cycle": round(1e5 * x), "stage": stage, "axial_strain": x,
             "volumetric_strain": 0.5 * x * x / (x + 0.001 * pressure), "mean_stress": p,
-            "s_xx": p * (1 - ratio / 3), "s_yy": p * (1 - ratio / 3), "s_zz": p * (1 + 2 * ratio / 3),
+            "s_xx": p * (1 - ratio / 3), "s_yy": p * (1 - ratio / 3),
+            "s_zz": p * (1 + 2 * ratio / 3),
             "s_xy": 0, "s_yz": 0, "s_zx": 0, "friction_angle_deg": 25 * ratio,
             "coordination_number": 6 + 5 * math.exp(-10 * x), "coordination_std": 1.3,
-            "porosity": 0.2 + 0.3 * x, "contacts": 500, "mean_normal_force": F0, "mean_overlap": 0.4,
+            "porosity": 0.2 + 0.3 * x, "contacts": 500, "mean_normal_force": F0,
+            "mean_overlap": 0.4,
             "inertial_fraction": 1e-3, "elongation": 1 + x, "eccentricity": x / (2 + x),
-            "packing_density": 0.8 - 0.3 * x, "void_ratio": 0.25, "overlap_fraction": 0.02 + 0.1 * x}
+            "packing_density": 0.8 - 0.3 * x, "void_ratio": 0.25,
+            "overlap_fraction": 0.02 + 0.1 * x}
 
 
 def micro_row(stage, x, pressure, seed):

@@ -118,7 +118,8 @@ class WholePage(Made):
                               states="ABCD" if shear else "")
         made_up.write_run(cls.out, "spheroid-p050-shear", 2)  # a second seed: a band
         write_rows(cls.out, [
-            {"id": "3.3-a", "section": "5.4.1", "statement": "angles < 44 & more", "published": "39",
+            {"id": "3.3-a", "section": "5.4.1", "statement": "angles < 44 & more",
+             "published": "39",
              "bar": "a bar", "ours": "1.3e+10, -2", "scatter": "0.1", "seeds": "3",
              "verdict": verdicts.REPRODUCED, "note": "a note"},
             {"id": "3.3-b", "section": "5.4.2", "statement": "volume", "seeds": "0",
@@ -132,7 +133,8 @@ class WholePage(Made):
         self.assertEqual(self.page.faults, [])
 
     def test_every_chapter_is_there(self):
-        for key in ("samples", "rows", "growth", "release", "shear", "compared", "contacts", "states",
+        for key in ("samples", "rows", "growth", "release", "shear", "compared", "contacts",
+                    "states",
                     "anisotropies", "strength", "local"):
             self.assertIn(key, self.page.ids)
         self.assertEqual(len(self.page.ids), len(set(self.page.ids)))
@@ -152,7 +154,8 @@ class WholePage(Made):
             kind, data = data_of(image)
             if kind == "svg+xml":
                 found = set(re.findall(r"https?://[^\s\"'<>]*", data.decode()))
-                self.assertLessEqual(found, {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+                self.assertLessEqual(found, {"http://www.w3.org/2000/svg",
+                                             "http://www.w3.org/1999/xlink"})
                 self.assertNotRegex(data.decode(), r"url\((?!#)|<image|<script")
 
     def test_every_figure_is_drawn_and_has_a_caption(self):
@@ -174,7 +177,8 @@ class WholePage(Made):
         for data in charts:
             root = xml.etree.ElementTree.fromstring(data)
             words = ["".join(text.itertext()).strip() for text in root.iter(SVG + "text")]
-            self.assertGreaterEqual(sum(not re.fullmatch(r"[−\d.]*", word) for word in words), 3, words)
+            self.assertGreaterEqual(sum(not re.fullmatch(r"[−\d.]*", word) for word in words), 3,
+                                    words)
             # gnuplot gives each curve a group of its own.
             self.assertIsNotNone(root.find(f".//{SVG}g[@id='gnuplot_plot_1']"))
 
@@ -198,10 +202,12 @@ class WholePage(Made):
         with open(os.path.join(self.out, "pictures", "shear-angle.csv"), encoding="utf-8") as file:
             rows = [row for row in csv.DictReader(file) if float(row["x"]) > 0.1]
         two = [row for row in rows if row["curve"] == "50 MPa"]
+        self.assertGreater(len(two), 20)
         for row in two:
             # Seeds are made 0.01 apart in the ratio, of which the angle is 25 times.
             self.assertAlmostEqual(float(row["high"]) - float(row["low"]), 0.25, places=9)
-            self.assertAlmostEqual(float(row["y"]), 0.5 * (float(row["low"]) + float(row["high"])), 9)
+            self.assertAlmostEqual(float(row["y"]), 0.5 * (float(row["low"]) + float(row["high"])),
+                                   9)
         self.assertTrue(all(row["low"] == "" for row in rows if row["curve"] == "10 MPa"))
 
     def test_rows_show_their_verdicts_by_colour_and_word(self):
@@ -232,7 +238,8 @@ class WhatIsMissing(Made):
         page.write_page(self.out, self.tool, quick=True)
         read_page = Reader(read(self.out))
         self.assertEqual(read_page.faults, [])
-        self.assertIn("Runs that are not complete: spheroid-p070-shear-s1 (failed).", read_page.text)
+        self.assertIn("Runs that are not complete: spheroid-p070-shear-s1 "
+                      "(failed).", read_page.text)
         ratio = next(f for f in read_page.figures if "one curve for all pressures" in f["text"])
         self.assertEqual(ratio["images"], 1)
         for name in ("spheroid-p030-shear", "spheroid-p070-shear", "spheroid-p050-shear-s1"):
@@ -255,7 +262,10 @@ class WhatIsMissing(Made):
             file.write("#!/bin/sh\necho 'tangency-dem: no state' >&2\nexit 2\n")
         os.chmod(file.name, 0o755)
         page.write_page(out, file.name, quick=True)
-        self.assertIn("tangency-dem micro: tangency-dem: no state", Reader(read(out)).text)
+        figures = [figure for figure in Reader(read(out)).figures
+                   if "Not drawn; missing: tangency-dem micro: tangency-dem: no state"
+                   in figure["text"]]
+        self.assertGreaterEqual(len(figures), 4)
 
 
 class Commands(Made):

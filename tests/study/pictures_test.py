@@ -51,7 +51,8 @@ class Series(unittest.TestCase):
         self.assertTrue(math.isnan(mean[1]))
 
     def test_what_goes_back_is_left_out(self):
-        self.assertEqual(series.ascending([0, 1, 0.5, NAN, 2], [1, 2, 3, 4, 5]), ([0, 1, 2], [1, 2, 5]))
+        self.assertEqual(series.ascending([0, 1, 0.5, NAN, 2], [1, 2, 3, 4, 5]),
+                         ([0, 1, 2], [1, 2, 5]))
 
     def test_values_beyond_the_ends_are_none(self):
         for x in (-0.1, 2.1):
@@ -78,9 +79,11 @@ class Series(unittest.TestCase):
     def test_a_stage_begins_with_what_it_resumes_at_no_strain(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "history.csv")
-            made_up.write_table(file, [{"stage": stage, "axial_strain": x, "volumetric_strain": x, "porosity": y}
+            made_up.write_table(file, [{"stage": stage, "axial_strain": x, "volumetric_strain": x,
+                                        "porosity": y}
                                        for stage, x, y in (("p30", 0.7, 0.1), ("p30", 0.8, 0.2),
-                                                           ("shear", 0.1, 0.3), ("shear", 0.2, ""))])
+                                                           ("shear", 0.1, 0.3),
+                                                           ("shear", 0.2, ""))])
             table = series.Columns.of(file, "shear")
         self.assertEqual(table.column("axial_strain"), [0.0, 0.1, 0.2])
         self.assertEqual(table.column("volumetric_strain")[0], 0.0)
@@ -94,7 +97,8 @@ class Series(unittest.TestCase):
 class Runs(unittest.TestCase):
     def test_runs_of_a_stem_are_by_seed_and_of_no_longer_stem(self):
         with tempfile.TemporaryDirectory() as out:
-            for stem, seed in (("a-shear", 10), ("a-shear", 2), ("a-shear-slow", 1), ("b-a-shear", 1)):
+            for stem, seed in (("a-shear", 10), ("a-shear", 2), ("a-shear-slow", 1),
+                               ("b-a-shear", 1)):
                 made_up.write_run(out, stem, seed)
             found = results.Results(out).folders("a-shear")
             self.assertEqual([os.path.basename(f) for f in found], ["a-shear-s2", "a-shear-s10"])
@@ -115,13 +119,15 @@ class Runs(unittest.TestCase):
             self.assertTrue(math.isnan(found.value_at(folder, "porosity", 0.5)))
             self.assertEqual(found.take_lacking(), ["a-s1 beyond a strain of 0.4"])
 
-    def test_a_chain_is_of_the_seeds_that_have_all_of_it(self):
+    def test_a_chain_goes_as_far_as_its_seed_has_it(self):
         with tempfile.TemporaryDirectory() as out:
-            for stem, seed in (("a", 1), ("a", 2), ("b", 2)):
+            for stem, seed in (("a", 1), ("a", 2), ("b", 2), ("c", 1), ("c", 3)):
                 made_up.write_run(out, stem, seed)
+            chains = results.Results(out).seeds(("a", "b", "c"))
+            self.assertEqual([[os.path.basename(folder) for folder in chain] for chain in chains],
+                             [["a-s1"], ["a-s2", "b-s2"]])
             lines = results.Results(out).lines(("a", "b"), "axial_strain", "porosity")
-            self.assertEqual(len(lines), 1)
-            self.assertEqual(len(lines[0][0]), 2 * 81)
+            self.assertEqual([len(x) for x, _ in lines], [81, 2 * 81])
 
 
 class Charts(unittest.TestCase):
@@ -142,26 +148,31 @@ class Charts(unittest.TestCase):
         self.assertEqual(thin.x[thin.y.index(9.0)], 3217)
 
     def test_a_table_has_what_is_drawn(self):
-        _, rows = self.drawn(Chart("k", "T", "x", "y", [Curve("one", [0, 1], [2, NAN], [1, NAN], [3, NAN]),
+        _, rows = self.drawn(Chart("k", "T", "x", "y",
+                                   [Curve("one", [0, 1], [2, NAN], [1, NAN], [3, NAN]),
                                                         Curve("two", [0, 1], [5, 6])]))
         self.assertEqual([tuple(row.values()) for row in rows],
                          [("one", "0.0", "2.0", "1.0", "3.0"), ("one", "1.0", "", "", ""),
                           ("two", "0.0", "5.0", "", ""), ("two", "1.0", "6.0", "", "")])
 
     def test_texts_are_those_of_the_chart(self):
-        svg, _ = self.drawn(Chart("k", "It's", "strain", "stress, MPa", [Curve("red", [0, 1], [2, 3]),
-                                                                         Curve("blue", [0, 1], [3, 1])]))
+        svg, _ = self.drawn(Chart("k", "It's", "strain", "stress, MPa",
+                                  [Curve("red", [0, 1], [2, 3]),
+                                                                         Curve("blue", [0, 1],
+                                                                               [3, 1])]))
         for text in ("It's", "strain", "stress, MPa", "red", "blue"):
             self.assertIn(text, svg.replace("&apos;", "'").replace("&#39;", "'"))
 
     def test_every_style_is_drawn(self):
         for style in charts.STYLES:
-            svg, _ = self.drawn(Chart("k", "T", "x", "y", [Curve("c", [0, 1, 2], [2, 3, 1], [1, 2, 0],
+            svg, _ = self.drawn(Chart("k", "T", "x", "y",
+                                      [Curve("c", [0, 1, 2], [2, 3, 1], [1, 2, 0],
                                                                  [3, 4, 2], "#123456", style)]))
             self.assertRegex(svg, r"rgb\( *18, *52, *86\)", style)
 
     def test_axes_keep_their_names_where_numbers_are_long(self):
-        svg, _ = self.drawn(Chart("k", "T", "x", "height", [Curve("c", [0, 1], [1.23456e-5, 1.23457e-5])]))
+        svg, _ = self.drawn(Chart("k", "T", "x", "height",
+                                  [Curve("c", [0, 1], [1.23456e-5, 1.23457e-5])]))
         self.assertIn(">height<", svg)
 
     def test_values_that_hardly_differ_get_a_wide_axis(self):
@@ -201,7 +212,8 @@ class Directions(unittest.TestCase):
 
     def test_spikes_reach_as_far_as_their_values(self):
         places = directions.all_places(2)
-        mesh = directions.spikes({places[0]: 3.0, places[1]: NAN, places[2]: 0.0, places[3]: 1.0}, 2)
+        mesh = directions.spikes({places[0]: 3.0, places[1]: NAN, places[2]: 0.0, places[3]: 1.0},
+                                 2)
         self.assertAlmostEqual(mesh.reach(), 3.0, places=12)
         self.assertEqual(len(mesh.triangles), 2 * (8 + 8))
         self.assertLess(max(max(t) for t in mesh.triangles), len(mesh.points))
@@ -212,12 +224,14 @@ class Directions(unittest.TestCase):
 
         mesh = directions.smooth(value)
         for point in mesh.points:
-            self.assertAlmostEqual(math.sqrt(directions.dot(point, point)), value(directions.unit(point)),
+            self.assertAlmostEqual(math.sqrt(directions.dot(point, point)),
+                                   value(directions.unit(point)),
                                    places=12)
 
     def test_models_are_the_contractions_of_their_tensors(self):
         draw = random.Random(7)
-        symmetric = {tuple(sorted(i)): draw.gauss(0, 1) for i in itertools.product(range(3), repeat=4)}
+        symmetric = {tuple(sorted(i)): draw.gauss(0, 1) for i in itertools.product(range(3),
+                                                                                   repeat=4)}
         b = [[[[symmetric[tuple(sorted((i, j, k, m)))] for m in range(3)] for k in range(3)]
               for j in range(3)] for i in range(3)]
         a = [[draw.gauss(0, 1) for _ in range(3)] for _ in range(3)]
@@ -227,12 +241,14 @@ class Directions(unittest.TestCase):
                 vector = [sum(a[i][j] * n[j] for j in range(3)) for i in range(3)]
                 if fourth:
                     vector = [v + sum(b[i][j][k][m] * n[j] * n[k] * n[m] for j in range(3)
-                                      for k in range(3) for m in range(3)) for i, v in enumerate(vector)]
+                                      for k in range(3) for m in range(3))
+                              for i, v in enumerate(vector)]
                 normal = directions.dot(vector, n)
                 model = directions.Model(a, fourth)
                 self.assertAlmostEqual(model.factor(n), 1.0 + normal, places=12)
                 tangent = [v - normal * c for v, c in zip(vector, n)]
-                self.assertAlmostEqual(model.tangential(n), math.sqrt(directions.dot(tangent, tangent)),
+                self.assertAlmostEqual(model.tangential(n),
+                                       math.sqrt(directions.dot(tangent, tangent)),
                                        places=9)
 
 
@@ -265,7 +281,8 @@ class Bodies(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             made_up.write_table(os.path.join(folder, "p.csv"), rows)
             values, n = figures_states.axes_of(series.Columns.of(os.path.join(folder, "p.csv")))
-        self.assertAlmostEqual(sum(v * directions.area_of(p, n) for p, v in values.items()), 1.0, places=12)
+        self.assertAlmostEqual(sum(v * directions.area_of(p, n) for p, v in values.items()), 1.0,
+                               places=12)
 
 
 class ClosedForms(unittest.TestCase):
@@ -280,9 +297,17 @@ class ClosedForms(unittest.TestCase):
         self.assertAlmostEqual(1 - 2 * figures_local.area_share(a / b, beta), 0.5827, places=4)
 
     def test_both_laws_go_from_0_to_a_half_at_the_equator(self):
-        for law in (lambda t: figures_local.cumulated(0.6, t), lambda t: figures_local.area_share(1.4, t)):
+        for law in (lambda t: figures_local.cumulated(0.6, t),
+                    lambda t: figures_local.area_share(1.4, t)):
             self.assertAlmostEqual(law(0.0), 0.0, places=12)
             self.assertAlmostEqual(law(math.pi / 2), 0.5, places=12)
+
+    def test_the_largest_deviation(self):
+        angles = [math.degrees(figures_local.deviation_of(1 / 0.7, math.radians(0.01 * k)))
+                  for k in range(9001)]
+        self.assertAlmostEqual(max(angles), 20.016, places=3)
+        self.assertAlmostEqual(0.01 * angles.index(max(angles)), 34.99, places=1)
+        self.assertAlmostEqual(angles[0] + angles[-1], 0.0, places=5)
 
     def test_anisotropy_by_arc_length(self):
         for ratio, wanted in ((1.1, 0.0478), (1 / 0.7, 0.18524), (2.0, 0.38987), (10.0, 1.4518)):
