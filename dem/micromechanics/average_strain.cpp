@@ -10,14 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "require_length.hpp"
+
 namespace tangency::micromechanics {
 namespace {
-
-void require_length(const char* name, std::size_t length, std::size_t wanted, const char* of) {
-  if (length != wanted)
-    throw std::invalid_argument(std::string(name) + ": " + std::to_string(length) +
-                                " entries, and there are " + std::to_string(wanted) + " " + of);
-}
 
 const Vec3& of_body(std::span<const Vec3> vectors, std::int64_t body) {
   return vectors[static_cast<std::size_t>(body)];
@@ -49,7 +45,7 @@ Vec3 by_rotation(const ContactMotion& motion, const PeriodicCentres& centres, st
   return of_body(motion.spin, a).cross(arm) - of_body(motion.spin, b).cross(of_b);
 }
 
-/// How often a contact is seen the other way round than its edge.
+/// 1 of a contact that is given as its edge is, -1 of one that is given the other way round.
 double sense_of(const MeshEdge& edge, const PeriodicPairs& pairs, std::size_t pair) {
   return edge.bodies == pairs.bodies[pair] && edge.image == pairs.image[pair] ? 1.0 : -1.0;
 }

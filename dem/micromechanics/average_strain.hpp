@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The average strain of a periodic packing, as a sum over neighbours, and what each mechanism
-/// gives to it [Ouadfel1998, section 8.8].
+/// gives to it [Ouadfel1998, section 8.8; KruytRothenburg1996; Bagi1996].
 ///
 /// With the difference D of the velocities, or displacements, of the two centres of each edge of a
 /// net (strain_mesh.hpp)

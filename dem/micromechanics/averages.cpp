@@ -12,6 +12,8 @@
 #include <tangency/dem/micromechanics/distributions.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
 
+#include "contact_sides.hpp"
+
 namespace tangency::micromechanics {
 namespace {
 
@@ -134,21 +136,25 @@ void average_in_plane(Averages& found, const ContactArrays& contacts, const Clas
 
 /// Contact vectors in body axes, of the bodies that have an axis that tells how they lie.
 std::vector<Vec3> local_contact_vectors(const ContactArrays& contacts, const BodyArrays& bodies) {
-  const std::vector<Vec3> all = contact_vectors(contacts, bodies.orientation);
+  std::vector<bool> asked;
+  asked.reserve(bodies.semi_axes.size());
+  for (const Vec3& semi_axes : bodies.semi_axes)
+    asked.push_back(telling_axis(semi_axes, contacts.dimensions).has_value());
   std::vector<Vec3> found;
-  for (std::size_t side = 0; side < all.size(); ++side) {
-    const std::int64_t body = contacts.bodies[side / 2][side % 2];
-    if (telling_axis(bodies.semi_axes[static_cast<std::size_t>(body)], contacts.dimensions))
-      found.push_back(all[side]);
-  }
+  for (const Side& side : sides_of(contacts, asked))
+    found.push_back(local_vector(contacts, bodies, side));
   return found;
 }
 
 std::vector<Vec3> long_axes_of(const BodyArrays& bodies, int dimensions) {
   std::vector<Vec3> found;
-  for (std::size_t i = 0; i < bodies.semi_axes.size(); ++i)
-    if (const auto axis = telling_axis(bodies.semi_axes[i], dimensions))
-      found.push_back(bodies.orientation[i].toRotationMatrix().col(*axis).normalized());
+  for (std::size_t i = 0; i < bodies.semi_axes.size(); ++i) {
+    if (dimensions == 2) {
+      if (const auto body = plane_body(bodies, i)) found.push_back(body->axis);
+    } else if (const auto axis = telling_axis(bodies.semi_axes[i])) {
+      found.push_back(axis_in_space(bodies, i, static_cast<std::size_t>(*axis)));
+    }
+  }
   return found;
 }
 
@@ -163,12 +169,20 @@ std::optional<int> common_axis(const BodyArrays& bodies, int dimensions) {
   return common;
 }
 
-void require_as_many(const ContactArrays& contacts, const BodyArrays& bodies) {
-  const auto wanted = static_cast<std::size_t>(contacts.particles);
-  for (const auto size : {bodies.orientation.size(), bodies.semi_axes.size()})
-    if (size != wanted)
-      throw std::invalid_argument("bodies: " + std::to_string(size) + " of them: as many as " +
-                                  std::to_string(wanted) + " particles");
+/// SecondOrderState and PlaneState have the same members; empty where a tensor is.
+template <class State>
+std::optional<State> state_of(const Averages& averages) {
+  if (!averages.normals || !averages.force_normal || !averages.branch_normal) return std::nullopt;
+  State state;
+  state.contact_density = averages.contact_density;
+  state.force = averages.force_normal->mean;
+  state.branch = averages.branch_normal->mean;
+  state.r = averages.normals->second;
+  state.n = averages.force_normal->second;
+  state.t = averages.force_tangential->second;
+  state.z = averages.branch_normal->second;
+  state.zt = averages.branch_tangential->second;
+  return state;
 }
 
 }  // namespace
@@ -181,7 +195,7 @@ SpherePartition Classes::partition() const {
 std::optional<int> telling_axis(const Vec3& semi_axes, int dimensions) {
   const double a = semi_axes[0], b = semi_axes[1];
   if (dimensions == 2) {
-    if (std::abs(a - b) <= kEqualAxes * std::max(a, b)) return std::nullopt;
+    if (are_equal_axes(a, b)) return std::nullopt;
     return a > b ? 0 : 1;
   }
   if (shape_of(semi_axes) == Shape::sphere) return std::nullopt;
@@ -219,7 +233,7 @@ Averages averages_of(const ContactArrays& contacts, const BodyArrays& bodies,
   if (!contacts.arm.empty())
     found.contact_vectors = of_directions(contact_vectors(contacts), dimensions);
   if (bodies.orientation.empty() && bodies.semi_axes.empty()) return found;
-  require_as_many(contacts, bodies);
+  require_sound(bodies, contacts.particles, dimensions);
   found.body_axis = common_axis(bodies, dimensions);
   found.long_axes = of_directions(long_axes_of(bodies, dimensions), dimensions);
   if (!contacts.arm.empty() && !contacts.bodies.empty())
@@ -228,33 +242,11 @@ Averages averages_of(const ContactArrays& contacts, const BodyArrays& bodies,
 }
 
 std::optional<SecondOrderState> second_order_state(const Averages& averages, int dimensions) {
-  if (dimensions != 3 || !averages.normals || !averages.force_normal || !averages.branch_normal)
-    return std::nullopt;
-  SecondOrderState state;
-  state.contact_density = averages.contact_density;
-  state.force = averages.force_normal->mean;
-  state.branch = averages.branch_normal->mean;
-  state.r = averages.normals->second;
-  state.n = averages.force_normal->second;
-  state.t = averages.force_tangential->second;
-  state.z = averages.branch_normal->second;
-  state.zt = averages.branch_tangential->second;
-  return state;
+  return dimensions == 3 ? state_of<SecondOrderState>(averages) : std::nullopt;
 }
 
 std::optional<PlaneState> plane_state(const Averages& averages, int dimensions) {
-  if (dimensions != 2 || !averages.normals || !averages.force_normal || !averages.branch_normal)
-    return std::nullopt;
-  PlaneState state;
-  state.contact_density = averages.contact_density;
-  state.force = averages.force_normal->mean;
-  state.branch = averages.branch_normal->mean;
-  state.r = averages.normals->second;
-  state.n = averages.force_normal->second;
-  state.t = averages.force_tangential->second;
-  state.z = averages.branch_normal->second;
-  state.zt = averages.branch_tangential->second;
-  return state;
+  return dimensions == 2 ? state_of<PlaneState>(averages) : std::nullopt;
 }
 
 }  // namespace tangency::micromechanics

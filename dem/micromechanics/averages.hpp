@@ -11,11 +11,9 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 
-#include <tangency/dem/micromechanics/body_arrays.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
@@ -45,10 +43,9 @@ struct Classes {
 };
 
 /// The body axis that tells how a body lies: of revolution, that axis; of three different axes the
-/// longest. Empty of spheres, and of disks in the plane.
+/// longest. In the plane, where body axis 2 is that of z, the longer one of the other two. Empty of
+/// spheres, and of disks in the plane.
 std::optional<int> telling_axis(const Vec3& semi_axes, int dimensions = 3);
-
-inline constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
 
 struct TensorEstimate {
   double mean = kNotDefined, mean_error = kNotDefined;  ///< what the tensor is relative to
@@ -87,8 +84,7 @@ struct Averages {
 };
 
 /// @param bodies  may be empty: then what needs them is
-/// @throws std::invalid_argument  as require_sound() and SpherePartition do; for bodies that are
-///                                not as many as contacts.particles
+/// @throws std::invalid_argument  as require_sound() and SpherePartition do
 ///
 /// (1) each tensor is that of fabric_of, plane_fabric_of or fit_orientations
 /// (2) renumbering the bodies changes nothing but rounding

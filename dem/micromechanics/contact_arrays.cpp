@@ -3,20 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "require_length.hpp"
 
 namespace tangency::micromechanics {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-void require_length(const char* name, std::size_t length, std::size_t contacts) {
-  if (length != contacts)
-    refuse(std::string(name) + ": " + std::to_string(length) + " entries, and there are " +
-           std::to_string(contacts) + " normals");
-}
 
 void require_finite(const char* name, std::span<const Vec3> vectors) {
   for (std::size_t c = 0; c < vectors.size(); ++c)
@@ -28,6 +23,10 @@ void require_bodies(const ContactArrays& contacts) {
   if (contacts.bodies.empty() && contacts.size() > 0) refuse("bodies: needed, and empty");
 }
 
+void require_arm(const ContactArrays& contacts) {
+  if (contacts.arm.empty() && contacts.size() > 0) refuse("arm: needed, and empty");
+}
+
 }  // namespace
 
 void require_sound(const ContactArrays& contacts) {
@@ -36,10 +35,10 @@ void require_sound(const ContactArrays& contacts) {
     refuse("dimensions = " + std::to_string(contacts.dimensions) + ": must be 2 or 3");
   if (!(contacts.volume > 0.0) || !std::isfinite(contacts.volume))
     refuse("volume = " + std::to_string(contacts.volume) + ": must be > 0 and finite");
-  require_length("branch", contacts.branch.size(), count);
-  require_length("force", contacts.force.size(), count);
-  if (!contacts.arm.empty()) require_length("arm", contacts.arm.size(), count);
-  if (!contacts.bodies.empty()) require_length("bodies", contacts.bodies.size(), count);
+  require_length("branch", contacts.branch.size(), count, "normals");
+  require_length("force", contacts.force.size(), count, "normals");
+  if (!contacts.arm.empty()) require_length("arm", contacts.arm.size(), count, "normals");
+  if (!contacts.bodies.empty()) require_length("bodies", contacts.bodies.size(), count, "normals");
   require_finite("normal", contacts.normal);
   require_finite("branch", contacts.branch);
   require_finite("force", contacts.force);
@@ -59,6 +58,31 @@ void require_sound(const ContactArrays& contacts) {
                std::to_string(contacts.particles) + " particles");
 }
 
+void require_sound(const BodyArrays& bodies, std::int64_t particles, int dimensions) {
+  const auto count = static_cast<std::size_t>(particles);
+  require_length("orientation", bodies.orientation.size(), count, "particles");
+  require_length("semi_axes", bodies.semi_axes.size(), count, "particles");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string place = "[" + std::to_string(i) + "]";
+    const Quaternion& q = bodies.orientation[i];
+    if (!(std::abs(q.norm() - 1.0) <= kUnitTolerance))
+      refuse("orientation" + place + ": length " + std::to_string(q.norm()) + ": must be 1");
+    if (dimensions == 2 &&
+        !(std::abs((q.normalized() * Vec3(Vec3::UnitZ()))[2]) >= 1.0 - kUprightTolerance))
+      refuse("orientation" + place + ": body axis 2 must be that of z in the plane");
+    for (const double r : bodies.semi_axes[i])
+      if (!(r > 0.0) || !std::isfinite(r))
+        refuse("semi_axes" + place + ": " + std::to_string(r) + ": must be finite and > 0");
+  }
+}
+
+void require_sound(const ContactArrays& contacts, const BodyArrays& bodies) {
+  require_sound(contacts);
+  require_sound(bodies, contacts.particles, contacts.dimensions);
+  require_bodies(contacts);
+  require_arm(contacts);
+}
+
 Mat3 stress_of(const ContactArrays& contacts) {
   require_sound(contacts);
   Mat3 sum = Mat3::Zero();
@@ -69,7 +93,7 @@ Mat3 stress_of(const ContactArrays& contacts) {
 
 double stress_asymmetry(const Mat3& stress, int dimensions) {
   const double mean = stress.trace() / dimensions;
-  if (mean == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (mean == 0.0) return kNotDefined;
   return (stress - stress.transpose()).norm() / std::abs(mean);
 }
 
@@ -100,31 +124,28 @@ Coordination coordination_of(const ContactArrays& contacts) {
     fourth += share * off * off * off * off;
   }
   found.deviation = std::sqrt(second);
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  found.skewness = second > 0.0 ? third / (second * found.deviation) : none;
-  found.excess_kurtosis = second > 0.0 ? fourth / (second * second) - 3.0 : none;
+  found.skewness = second > 0.0 ? third / (second * found.deviation) : kNotDefined;
+  found.excess_kurtosis = second > 0.0 ? fourth / (second * second) - 3.0 : kNotDefined;
   return found;
 }
 
 std::vector<Vec3> contact_vectors(const ContactArrays& contacts,
                                   std::span<const Quaternion> orientation) {
   require_sound(contacts);
-  if (contacts.arm.empty() && contacts.size() > 0) refuse("arm: needed, and empty");
+  require_arm(contacts);
   if (!orientation.empty()) {
     require_bodies(contacts);
-    if (static_cast<std::int64_t>(orientation.size()) != contacts.particles)
-      refuse("orientation: " + std::to_string(orientation.size()) + " entries, and there are " +
-             std::to_string(contacts.particles) + " particles");
+    require_length("orientation", orientation.size(), static_cast<std::size_t>(contacts.particles),
+                   "particles");
   }
   std::vector<Vec3> vectors;
   vectors.reserve(2 * contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-      const Vec3 lever = side == 0 ? contacts.arm[c] : Vec3(contacts.arm[c] - contacts.branch[c]);
-      Vec3 unit = lever.normalized();
+    for (const bool of_b : {false, true}) {
+      Vec3 unit = contacts.lever(c, of_b).normalized();
       if (!orientation.empty()) {
-        const auto body = static_cast<std::size_t>(contacts.bodies[c][side]);
-        unit = orientation[body].conjugate() * unit;
+        const auto body = static_cast<std::size_t>(contacts.bodies[c][of_b ? 1 : 0]);
+        unit = orientation[body].normalized().conjugate() * unit;
       }
       vectors.push_back(unit);
     }

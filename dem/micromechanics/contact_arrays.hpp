@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The contacts of a packing as plain arrays, anybody's: what micromechanics is computed from.
+/// The contacts and bodies of a packing as plain arrays, anybody's: what micromechanics is computed
+/// from.
 ///
 /// Signs: a contact of particles a and b has the unit normal that points out of a, the branch from
 /// the centre of a to that of b (of the image in contact), and the force of a on b. Compression is
@@ -10,14 +11,15 @@
 /// Units are any consistent set. In the plane (dimensions = 2) all vectors have z = 0, and stresses
 /// are those of the unit thickness, with `volume` an area.
 ///
-/// Errors: arrays of different lengths, normals that are not unit vectors and numbers that are not
-/// finite are std::invalid_argument, which names the array and the contact. Functions read what
-/// they are given and keep nothing: any number of threads may call them.
+/// Errors: arrays of different lengths, normals and orientations that are not units and numbers
+/// that are not finite are std::invalid_argument, which names the array and the place. Functions
+/// read what they are given and keep nothing: any number of threads may call them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -39,13 +41,40 @@ struct ContactArrays {
   int dimensions = 3;          ///< 2 or 3
 
   std::size_t size() const { return normal.size(); }
+  /// From the centre of a to the contact point, or from that of b. Needs `arm`.
+  Vec3 lever(std::size_t contact, bool of_b) const {
+    return of_b ? Vec3(arm[contact] - branch[contact]) : arm[contact];
+  }
+};
+
+/// A body a particle, as ContactArrays::bodies numbers them; views as there.
+struct BodyArrays {
+  /// Unit to kUnitTolerance, body to space. In the plane body axis 2 is that of z, or its opposite,
+  /// to kUprightTolerance.
+  std::span<const Quaternion> orientation;
+  std::span<const Vec3> semi_axes;  ///< finite and > 0, length
 };
 
 /// Chosen: tables of six digits pass.
 inline constexpr double kUnitTolerance = 1e-5;
+/// Of 1 less the cosine of the angle to z. Chosen: tables of six digits pass.
+inline constexpr double kUprightTolerance = 1e-6;
+
+/// What a number is that data do not define.
+inline constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
+
+/// With its standard deviation. Contacts of one particle and the two sides of a contact may depend
+/// on each other: deviations account for both. NaN where there are too few data to tell.
+struct Estimate {
+  double value = 0.0, error = 0.0;
+};
 
 /// @throws std::invalid_argument where an array is not what ContactArrays says
 void require_sound(const ContactArrays& contacts);
+/// @throws std::invalid_argument where an array is not what BodyArrays says, for as many particles
+void require_sound(const BodyArrays& bodies, std::int64_t particles, int dimensions);
+/// @throws std::invalid_argument  as both; without `arm` or `bodies`
+void require_sound(const ContactArrays& contacts, const BodyArrays& bodies);
 
 /// (1/V) times the sum of force (x) branch, as it comes: not made symmetric. Compression positive,
 /// force/area; 0 without contacts [Ouadfel1998, eq. 2.6].

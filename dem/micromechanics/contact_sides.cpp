@@ -11,26 +11,40 @@
 
 namespace tangency::micromechanics {
 
-Vec3 axis_in_space(const BodyArrays& bodies, std::size_t body, std::size_t axis) {
-  return bodies.orientation[body] * Vec3(Vec3::Unit(static_cast<Eigen::Index>(axis)));
+void require_dimensions(const ContactArrays& contacts, int dimensions, const char* function) {
+  if (contacts.dimensions != dimensions)
+    throw std::invalid_argument("dimensions = " + std::to_string(contacts.dimensions) + ": " +
+                                function + " takes contacts " +
+                                (dimensions == 2 ? "in the plane" : "in space"));
 }
 
-std::vector<Side> sides_of(const ContactArrays& contacts, const BodyArrays& bodies, Shape shape) {
-  std::vector<char> asked;
-  asked.reserve(bodies.semi_axes.size());
-  for (const Vec3& r : bodies.semi_axes) asked.push_back(shape_of(r) == shape ? 1 : 0);
+Vec3 axis_in_space(const BodyArrays& bodies, std::size_t body, std::size_t axis) {
+  return bodies.orientation[body].normalized() * Vec3(Vec3::Unit(static_cast<Eigen::Index>(axis)));
+}
+
+std::vector<Side> sides_of(const ContactArrays& contacts, const std::vector<bool>& asked) {
   std::vector<Side> sides;
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-      const auto body = static_cast<std::size_t>(contacts.bodies[c][end]);
-      if (asked[body] != 0) sides.push_back({c, body, end == 1});
+    for (const bool of_b : {false, true}) {
+      const auto body = static_cast<std::size_t>(contacts.bodies[c][of_b ? 1 : 0]);
+      if (asked[body]) sides.push_back({c, body, of_b});
     }
   return sides;
 }
 
+std::vector<Side> sides_of(const ContactArrays& contacts, const BodyArrays& bodies, Shape shape) {
+  std::vector<bool> asked;
+  asked.reserve(bodies.semi_axes.size());
+  for (const Vec3& r : bodies.semi_axes) asked.push_back(shape_of(r) == shape);
+  return sides_of(contacts, asked);
+}
+
 Vec3 contact_vector(const ContactArrays& contacts, const Side& side) {
-  const Vec3& arm = contacts.arm[side.contact];
-  return (side.of_b ? Vec3(arm - contacts.branch[side.contact]) : arm).normalized();
+  return contacts.lever(side.contact, side.of_b).normalized();
+}
+
+Vec3 local_vector(const ContactArrays& contacts, const BodyArrays& bodies, const Side& side) {
+  return bodies.orientation[side.body].normalized().conjugate() * contact_vector(contacts, side);
 }
 
 bool rotates(Shape shape) { return shape == Shape::prolate || shape == Shape::oblate; }
@@ -48,42 +62,23 @@ std::vector<Turned> turned_of(const ContactArrays& contacts, const BodyArrays& b
   return found;
 }
 
-namespace {
-
-/// Empty of a circle.
 std::optional<PlaneBody> plane_body(const BodyArrays& bodies, std::size_t body) {
-  constexpr double kUpright = 1e-6;  // chosen: text files of six digits pass
-  std::size_t up = 3;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (std::abs(axis_in_space(bodies, body, axis)[2]) > 1.0 - kUpright) up = axis;
-  if (up == 3)
-    throw std::invalid_argument("orientation[" + std::to_string(body) +
-                                "]: a body axis must be that of z in the plane");
   const Vec3& r = bodies.semi_axes[body];
-  std::size_t major = (up + 1) % 3, minor = (up + 2) % 3;
-  const auto semi_axis = [&r](std::size_t axis) { return r[static_cast<Eigen::Index>(axis)]; };
-  if (semi_axis(major) < semi_axis(minor)) std::swap(major, minor);
-  static_cast<void>(shape_of(r));  // semi-axes that are not sound are refused
-  if (semi_axis(major) - semi_axis(minor) <= kEqualAxes * semi_axis(major)) return std::nullopt;
-  Vec3 axis = axis_in_space(bodies, body, major);
+  const double one = r[0], other = r[1];
+  if (are_equal_axes(one, other)) return std::nullopt;
+  Vec3 axis = axis_in_space(bodies, body, one > other ? 0 : 1);
   axis[2] = 0.0;
-  return PlaneBody{{semi_axis(major), semi_axis(minor)}, axis.normalized()};
+  return PlaneBody{{std::max(one, other), std::min(one, other)}, axis.normalized()};
 }
 
-}  // namespace
-
 PlaneSides plane_sides(const ContactArrays& contacts, const BodyArrays& bodies) {
-  require_sound(contacts, bodies);
-  if (contacts.dimensions != 2)
-    throw std::invalid_argument("dimensions = 3: normal_rotation_of takes contacts in space");
   PlaneSides found;
-  for (std::size_t body = 0; body < bodies.semi_axes.size(); ++body)
+  std::vector<bool> asked;
+  for (std::size_t body = 0; body < bodies.semi_axes.size(); ++body) {
     found.of_body.push_back(plane_body(bodies, body));
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-      const auto body = static_cast<std::size_t>(contacts.bodies[c][end]);
-      if (found.of_body[body]) found.sides.push_back({c, body, end == 1});
-    }
+    asked.push_back(found.of_body.back().has_value());
+  }
+  found.sides = sides_of(contacts, asked);
   return found;
 }
 
@@ -125,7 +120,7 @@ std::vector<double> ClusteredErrors::deviations() {
   std::vector<double> by_body(components_, 0.0);
   for (std::size_t at = 0; at < of_body_.size(); ++at)
     by_body[at % components_] += of_body_[at] * of_body_[at];
-  std::vector<double> found(components_, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> found(components_, kNotDefined);
   if (contacts_ < 2) return found;
   const auto count = static_cast<double>(contacts_);
   for (std::size_t m = 0; m < components_; ++m) {

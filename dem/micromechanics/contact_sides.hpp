@@ -9,35 +9,40 @@
 #include <span>
 #include <vector>
 
-#include <tangency/dem/micromechanics/body_arrays.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::micromechanics {
 
-/// Of one side of a contact whose body is of the shape asked for.
+/// @throws std::invalid_argument unless contacts have the dimensions that the function takes
+void require_dimensions(const ContactArrays& contacts, int dimensions, const char* function);
+
 struct Side {
   std::size_t contact = 0, body = 0;
   bool of_b = false;
 };
-/// In the order of contacts, of a first.
+/// Of the bodies that are asked for, one flag a body. In the order of contacts, of a first.
+std::vector<Side> sides_of(const ContactArrays& contacts, const std::vector<bool>& asked);
+/// Of bodies of one shape.
 std::vector<Side> sides_of(const ContactArrays& contacts, const BodyArrays& bodies, Shape shape);
 
 /// Unit vector from the body's centre to the contact, in space.
 Vec3 contact_vector(const ContactArrays& contacts, const Side& side);
+/// The same in body axes.
+Vec3 local_vector(const ContactArrays& contacts, const BodyArrays& bodies, const Side& side);
 
-/// A side by what the relation needs.
+/// What tells how the normal of a side lies to its body.
 struct Turned {
-  Vec3 normal, axis;
-  double cosine = 0.0;
+  Vec3 normal, axis;    ///< of the contact; of symmetry, in space
+  double cosine = 0.0;  ///< of the angle between them
 };
 /// @param sides  of bodies of revolution
 std::vector<Turned> turned_of(const ContactArrays& contacts, const BodyArrays& bodies,
                               std::span<const Side> sides);
-/// A body axis, 0 to 2.
+/// A body axis, 0 to 2: a unit vector.
 Vec3 axis_in_space(const BodyArrays& bodies, std::size_t body, std::size_t axis);
-/// Has an axis of symmetry.
+/// Has it an axis of symmetry?
 bool rotates(Shape shape);
 
 /// An ellipse in the plane: its semi-axes, and the direction of the long one.
@@ -45,11 +50,13 @@ struct PlaneBody {
   Spheroid ellipse;
   Vec3 axis = Vec3::Zero();
 };
+/// Empty of a circle.
+std::optional<PlaneBody> plane_body(const BodyArrays& bodies, std::size_t body);
 struct PlaneSides {
   std::vector<std::optional<PlaneBody>> of_body;
   std::vector<Side> sides;  ///< of bodies that are no circles
 };
-/// Of sound contacts in the plane, else std::invalid_argument.
+/// Of sound contacts and bodies in the plane.
 PlaneSides plane_sides(const ContactArrays& contacts, const BodyArrays& bodies);
 
 /// The deviation of a sum of influences, one a side: those of one body may depend on each other,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -17,9 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double p2(double cosine) { return 1.5 * cosine * cosine - 0.5; }
+double p2(double cosine) { return legendre2(cosine * cosine); }
 
 /// The share of contact vectors that are longer, from the share within beta of one end.
 template <typename Distribution>
@@ -104,7 +101,6 @@ double area_law_a1(const Spheroid& s) {
   require_sound(s);
   // At the height t along the axis, in semi-axes, cos^2 beta = t^2/(w + kappa t^2); the area is
   // that of zone().
-  constexpr double kSeries = 0.3;  // chosen: the closed form loses 1/kappa of rounding
   const double ratio = s.across / s.along, w = ratio * ratio, kappa = kappa_of(ratio);
   const double area = half_zone(ratio);
   if (std::abs(kappa) < kSeries) {
@@ -114,14 +110,14 @@ double area_law_a1(const Spheroid& s) {
       coefficient = -kappa / w * coefficient + root;
       return coefficient / (2 * n + 3);
     });
-    return 7.5 * (sum / (w * area) - 1.0 / 3.0);
+    return kScalarFactor2 * (sum / (w * area) - 1.0 / 3.0);
   }
   // The integral of sqrt(1 - kappa t^2)/(w + kappa t^2).
   const double eccentricity = std::sqrt(std::abs(kappa));
   const double angle = kappa > 0.0 ? std::acos(w) : std::acosh(w);
   const double turned = 2.0 * area - ratio;  // the integral of 1/sqrt(1 - kappa t^2)
   const double rest = std::sqrt((1.0 + w) / w) * angle / eccentricity - turned;
-  return 7.5 * ((1.0 - w * rest / area) / kappa - 1.0 / 3.0);
+  return kScalarFactor2 * ((1.0 - w * rest / area) / kappa - 1.0 / 3.0);
 }
 
 namespace {
@@ -151,8 +147,7 @@ std::vector<Place> places_of(const ContactArrays& contacts, const BodyArrays& bo
   places.reserve(sides.size());
   for (const Side& side : sides) {
     const auto symmetry = symmetry_of(bodies.semi_axes[side.body]);
-    const Vec3 axis =
-        bodies.orientation[side.body] * Vec3(Vec3::Unit(static_cast<Eigen::Index>(symmetry->axis)));
+    const Vec3 axis = axis_in_space(bodies, side.body, symmetry->axis);
     const double cosine = std::abs(axis.dot(contact_vector(contacts, side)));
     places.push_back({symmetry->spheroid, std::min(cosine, 1.0), axis});
   }
@@ -173,9 +168,8 @@ Estimate correlation(std::span<const Side> sides, std::span<const double> x,
     yy += (y[s] - y_mean) * (y[s] - y_mean);
     xy += (x[s] - x_mean) * (y[s] - y_mean);
   }
-  constexpr double kRounding = 1e-28;  // chosen: the square of 50 units of rounding
-  if (!(xx > kRounding * count) || !(yy > kRounding * count * (1.0 + y_mean * y_mean)))
-    return {kNone, kNone};
+  const double none = kRoundedVariance * count;
+  if (!(xx > none) || !(yy > none * (1.0 + y_mean * y_mean))) return {kNotDefined, kNotDefined};
   const double size = std::sqrt(xx * yy);
   ClusteredErrors errors(bodies, 1);
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -245,7 +239,8 @@ void count_pairs(std::span<const Side> sides, std::span<const std::size_t> class
   const auto all = static_cast<double>(found.contacts);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double share = counts[i] / all;
-    found.pairs[i] = {share, found.contacts < 2 ? kNone : std::sqrt(share * (1.0 - share) / all)};
+    found.pairs[i] = {share,
+                      found.contacts < 2 ? kNotDefined : std::sqrt(share * (1.0 - share) / all)};
   }
 }
 
@@ -254,13 +249,14 @@ void count_pairs(std::span<const Side> sides, std::span<const std::size_t> class
 std::optional<ContactStatistics> contact_statistics_of(const ContactArrays& contacts,
                                                        const BodyArrays& bodies, Shape shape) {
   require_sound(contacts, bodies);
+  require_dimensions(contacts, 3, "contact_statistics_of");
   if (shape == Shape::sphere) return std::nullopt;
   const std::vector<Side> sides = sides_of(contacts, bodies, shape);
   if (sides.empty()) return std::nullopt;
   std::vector<Vec3> local;
   std::vector<std::size_t> classes;
   for (const Side& side : sides) {
-    local.push_back(bodies.orientation[side.body].conjugate() * contact_vector(contacts, side));
+    local.push_back(local_vector(contacts, bodies, side));
     classes.push_back(*length_class(bodies.semi_axes[side.body], local.back()));
   }
   ContactStatistics found;
@@ -279,7 +275,8 @@ std::optional<ContactStatistics> contact_statistics_of(const ContactArrays& cont
 std::vector<double> measured_distribution(const ContactArrays& contacts, const BodyArrays& bodies,
                                           Shape shape, std::span<const double> beta) {
   require_sound(contacts, bodies);
-  if (shape != Shape::prolate && shape != Shape::oblate) return {};
+  require_dimensions(contacts, 3, "measured_distribution");
+  if (!rotates(shape)) return {};
   const std::vector<Side> sides = sides_of(contacts, bodies, shape);
   if (sides.empty()) return {};
   std::vector<double> angles;

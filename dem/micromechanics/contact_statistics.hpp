@@ -7,7 +7,7 @@
 /// The model, of spheroids: contact vectors have the density per solid angle S(beta) = (1/4 pi)
 /// (1 + a1 P2(cos beta)), beta from the axis of symmetry. a1 is a^cv along that axis, a principal
 /// value and no modulus; it is from -1 to 2, else the density is negative somewhere. Signs, units
-/// and errors are those of body_arrays.hpp and spheroid.hpp. Nothing is kept between calls: any
+/// and errors are those of contact_arrays.hpp and spheroid.hpp. Nothing is kept between calls: any
 /// number of threads may call.
 #pragma once
 
@@ -17,7 +17,6 @@
 #include <span>
 #include <vector>
 
-#include <tangency/dem/micromechanics/body_arrays.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
@@ -89,15 +88,16 @@ struct SpheroidStatistics {
 
 /// Measured, of all contact sides of bodies of one shape.
 struct ContactStatistics {
-  std::size_t sides = 0;     ///< of bodies of that shape
-  std::size_t contacts = 0;  ///< between two of them
-  OrientationFit local;      ///< a^cv, b^cv in body axes: long, then short where semi-axes are so
+  std::size_t sides = 0;                       ///< of bodies of that shape
+  std::size_t contacts = 0;                    ///< between two of them
+  OrientationFit local;                        ///< a^cv, b^cv in body axes
   std::array<Estimate, 3> length{};            ///< shares of sides
   std::array<Estimate, 6> pairs{};             ///< shares of `contacts`; NaN without
   std::optional<SpheroidStatistics> spheroid;  ///< empty of triaxial bodies
 };
 /// Empty of spheres, which have no body axes, and without a side.
-/// @param shape  of the bodies that count; a packing of several is asked once for each
+/// @param contacts  in space, else std::invalid_argument
+/// @param shape     of the bodies that count; a packing of several is asked once for each
 ///
 /// (4) exchanging a and b, the order of contacts, turning the packing, units, and the numbers of
 ///     bodies change nothing but rounding
@@ -105,7 +105,8 @@ std::optional<ContactStatistics> contact_statistics_of(const ContactArrays& cont
                                                        const BodyArrays& bodies, Shape shape);
 
 /// The measured G at angles: half the share of sides whose axis is within beta, up to pi/2.
-/// @param shape  prolate or oblate, else empty
+/// @param contacts  in space, else std::invalid_argument
+/// @param shape     prolate or oblate, else empty
 std::vector<double> measured_distribution(const ContactArrays& contacts, const BodyArrays& bodies,
                                           Shape shape, std::span<const double> beta);
 

@@ -92,9 +92,14 @@ void move(Moved& moved, double by, std::uint64_t seed) {
 }
 
 /// The centres of the cell and those around it, up to a distance from its faces.
+/// @throws NoMesh where they are more than kMostCells, which Qhull's and our indices have room for
 std::vector<Corner> corners_around(const Moved& moved, double margin) {
   const Vec3 pad = margin * moved.heights().cwiseInverse();
   const Mat3 inverse = moved.edges.inverse();
+  const double images = (1.0 + 2.0 * pad.head(moved.dimensions).array()).prod();
+  if (!(images * static_cast<double>(moved.position.size()) <= kMostCells))
+    throw NoMesh("the cell is too thin for its Delaunay simplices: more than " +
+                 std::to_string(kMostCells) + " images of centres are around it");
   std::vector<Corner> corners;
   for (std::size_t n = 0; n < moved.position.size(); ++n) {
     const Vec3 at = inverse * moved.position[n];

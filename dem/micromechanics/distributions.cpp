@@ -2,26 +2,23 @@
 #include <tangency/dem/micromechanics/distributions.hpp>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "require_length.hpp"
+
 namespace tangency::micromechanics {
 namespace {
 
 void require_length(std::size_t length, std::size_t contacts) {
-  if (length != contacts)
-    throw std::invalid_argument("values: " + std::to_string(length) + " entries, and there are " +
-                                std::to_string(contacts) + " contacts");
+  micromechanics::require_length("values", length, contacts, "contacts");
 }
 
 /// numerator / denominator, NaN where the denominator is 0 but for rounding of values of that size.
 double share(double numerator, double denominator, double size) {
-  constexpr double kRounding = 1e-28;  // chosen: the square of 50 units of rounding
-  if (!(denominator > kRounding * size)) return std::numeric_limits<double>::quiet_NaN();
-  return numerator / denominator;
+  return denominator > kRoundedVariance * size ? numerator / denominator : kNotDefined;
 }
 
 }  // namespace
@@ -125,21 +122,21 @@ GroupSums group_sums(const DirectionGroups& groups, const ContactArrays& contact
   require_sound(contacts);
   require_length(contacts.size(), groups.contacts());
   const SpherePartition& partition = groups.partition();
-  std::vector<Mat3> products(partition.size(), Mat3::Zero());
+  GroupSums sums;
+  sums.products.assign(partition.size(), Mat3::Zero());
   std::vector<Vec3> levers(partition.size(), Vec3::Zero());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Vec3 of_a = contacts.arm.empty() ? Vec3(0.5 * contacts.branch[c]) : contacts.arm[c];
     const Vec3 of_b = of_a - contacts.branch[c];
     const std::size_t a = groups.group(c), b = partition.opposite(a);
-    products[a] += contacts.force[c] * of_a.transpose();
-    products[b] -= contacts.force[c] * of_b.transpose();
+    sums.products[a] += contacts.force[c] * of_a.transpose();
+    sums.products[b] -= contacts.force[c] * of_b.transpose();
     levers[a] += of_a;
     levers[b] += of_b;
   }
   const std::vector<Vec3> forces = groups.means(contacts.force);
-  GroupSums sums;
   for (std::size_t g = 0; g < partition.size(); ++g) {
-    sums.exact += products[g];
+    sums.exact += sums.products[g];
     sums.independent += forces[g] * levers[g].transpose();  // M_g mean(f) mean(l)
   }
   sums.exact /= contacts.volume;

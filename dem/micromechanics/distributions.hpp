@@ -71,6 +71,9 @@ class DirectionGroups {
   std::size_t empty_ = 0;
 };
 
+/// Variances below this share of a mean square are rounding. Chosen: the square of 50 units of it.
+inline constexpr double kRoundedVariance = 1e-28;
+
 /// v . n, and v less that along n, of each contact.
 std::vector<double> normal_components(std::span<const Vec3> normals, std::span<const Vec3> v);
 std::vector<Vec3> tangential_components(std::span<const Vec3> normals, std::span<const Vec3> v);
@@ -83,6 +86,9 @@ struct GroupSums {
   /// With the means of f and of l of each group multiplied in place: the stress if forces did not
   /// depend on the vectors within groups. How near it is to the other tests that.
   Mat3 independent = Mat3::Zero();
+  /// The sum of f (x) l over the sides of each class, l from the centre of the side's body: M_g
+  /// times its mean. Together volume times `exact`.
+  std::vector<Mat3> products;
 };
 /// @param groups  of the normals of `contacts`
 /// With half the branch on both sides where `arm` is empty, else with the contact vectors of each

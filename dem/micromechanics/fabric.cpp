@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -17,9 +16,7 @@ namespace {
 
 constexpr std::size_t kSecond = 5, kFourth = 9;  // free components of the orders
 
-/// What a projection is to be multiplied by: the inverse of the mean square of a harmonic whose
-/// tensor has modulus 1, by order, of a scalar and of a tangential vector.
-constexpr double kScalarFactor2 = 15.0 / 2.0, kScalarFactor4 = 315.0 / 8.0;
+/// As kScalarFactor2, of a tangential vector.
 constexpr double kTangentialFactor2 = 5.0, kTangentialFactor4 = 63.0 / 2.0;
 
 std::size_t size_of(int order) {
@@ -288,8 +285,8 @@ Fabric fabric_of(const ContactArrays& contacts, const SpherePartition& partition
   found.contacts = contacts.size();
   found.empty_classes = groups.empty_classes();
   found.normals = fit_orientations(contacts.normal);
-  found.normals_unexplained = found.normals ? unexplained_variance(groups, found.normals->model)
-                                            : std::numeric_limits<double>::quiet_NaN();
+  found.normals_unexplained =
+      found.normals ? unexplained_variance(groups, found.normals->model) : kNotDefined;
   found.force = fit_vectors(groups, contacts.force, estimator, order);
   found.branch = fit_vectors(groups, contacts.branch, estimator, order);
   found.branch_length = fit_scalars(groups, lengths(contacts.branch), estimator, order);

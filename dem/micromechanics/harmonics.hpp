@@ -76,6 +76,19 @@ Mat3 harmonic_part(const Mat3& t);
 /// (2) leaves a traceless tensor as it is, and has itself no trace
 SymmetricTensor4 harmonic_part(const SymmetricTensor4& t);
 
+/// What a mean of harmonics <n...n> is multiplied by to be the coefficients of a density or of a
+/// scalar: 1 over the mean square of a harmonic whose tensor has modulus 1, by order.
+inline constexpr double kScalarFactor2 = 15.0 / 2.0, kScalarFactor4 = 315.0 / 8.0;
+
+/// Legendre's polynomials of orders 2 and 4 of a cosine, by its square and its fourth power: their
+/// means are those of the means of these.
+///
+/// (3) harmonic_part(nn):uu is (2/3) P2(n . u), and harmonic_part(nnnn)::uuuu (8/35) P4(n . u)
+constexpr double legendre2(double square) { return 1.5 * square - 0.5; }
+constexpr double legendre4(double square, double fourth) {
+  return (35.0 * fourth - 30.0 * square + 3.0) / 8.0;
+}
+
 /// sqrt(a_ij a_ij), the size of an anisotropy [Ouadfel1998, section 5.4.8.1]: sqrt(3/2) times the
 /// axial principal value's size where it is axisymmetric.
 double modulus(const Mat3& a);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -17,14 +16,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
 double chi_squared_tail(double chi_squared, std::int64_t degrees) {
   if (degrees < 1)
     throw std::invalid_argument("degrees = " + std::to_string(degrees) + ": must be at least 1");
-  if (!(chi_squared > 0.0)) return std::isnan(chi_squared) ? kNone : 1.0;
+  if (!(chi_squared > 0.0)) return std::isnan(chi_squared) ? kNotDefined : 1.0;
   constexpr double kBeyond = 1e20;  // derived: above any whole number of degrees
   if (chi_squared > kBeyond) return 0.0;
   // Q(degrees/2, half) as its finite sum: of half^j e^-half/j!, j whole or half a number.
@@ -67,7 +64,7 @@ Contingency contingency_of(std::span<const std::int64_t> counts, std::size_t col
   const auto all = static_cast<double>(found.count);
   const std::int64_t more_rows = filled(of_row) - 1, more_columns = filled(of_column) - 1;
   found.degrees = found.count > 0 ? more_rows * more_columns : 0;
-  found.p_value = found.cramers_v = kNone;
+  found.p_value = found.cramers_v = kNotDefined;
   if (found.degrees == 0) return found;
   found.least_expected = all;
   for (std::size_t at = 0; at < counts.size(); ++at) {
@@ -121,6 +118,7 @@ std::optional<Contingency> normal_independence(const ContactArrays& contacts,
                                                int local_classes,
                                                const SpherePartition& partition) {
   require_sound(contacts, bodies);
+  require_dimensions(contacts, 3, "normal_independence");
   require_classes("local_classes", local_classes);
   if (!rotates(shape)) return std::nullopt;
   const std::vector<Side> sides = sides_of(contacts, bodies, shape);
@@ -140,6 +138,8 @@ std::optional<Contingency> plane_normal_independence(const ContactArrays& contac
                                                      int axis_classes) {
   require_classes("local_classes", local_classes);
   require_classes("axis_classes", axis_classes);
+  require_sound(contacts, bodies);
+  require_dimensions(contacts, 2, "plane_normal_independence");
   const PlaneSides plane = plane_sides(contacts, bodies);
   if (plane.sides.empty()) return std::nullopt;
   // Angles of lines: from 0 to pi.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Does where a body is touched depend on how it lies? Pearson's chi-squared of contact sides by
-/// the class of the local normal and by that of the body's axis [Ouadfel1998, section 7.4].
+/// Does where a body is touched depend on how it lies? Pearson's chi-squared [Pearson1900] of
+/// contact sides by the class of the local normal and by that of the body's axis [Ouadfel1998,
+/// section 7.4].
 ///
 /// Only dependence of gamma is looked for. In space the turn of the normal about the body's axis
 /// counts too: normal_rotation.hpp compares component by component. gamma is as in
@@ -19,7 +20,8 @@
 
 namespace tangency::micromechanics {
 
-/// The share of chi-squared's distribution above a value.
+/// The share of chi-squared's distribution above a value [AbramowitzStegun1964, eq. 26.4.4,
+/// 26.4.5].
 /// @param degrees  at least 1
 ///
 /// (1) equals the incomplete gamma function
@@ -36,7 +38,7 @@ struct Contingency {
   double least_expected = 0.0;  ///< of the cells of rows and columns that are not empty
   /// With how many counts, spread alike, the least expected would be 5.
   std::int64_t count_needed = 0;
-  double cramers_v = 0.0;  ///< 0 of none, 1 of full dependence
+  double cramers_v = 0.0;  ///< [Cramer1946, chapter 21]: 0 of none, 1 of full dependence
 };
 /// @param counts  row by row, none negative; std::invalid_argument otherwise
 Contingency contingency_of(std::span<const std::int64_t> counts, std::size_t columns);
@@ -46,11 +48,12 @@ Contingency contingency_of(std::span<const std::int64_t> counts, std::size_t col
 /// their neighbours apart, which makes chi-squared smaller.
 /// @param local_classes  at least 2
 /// @param partition      of axes: near_uniform(1) has 12 pairs of classes
-/// Empty as normal_rotation_of.
+/// Contacts must be in space, bodies of `shape`: errors and emptiness are normal_rotation_of's.
 std::optional<Contingency> normal_independence(
     const ContactArrays& contacts, const BodyArrays& bodies, Shape shape, int local_classes = 6,
     const SpherePartition& partition = SpherePartition::near_uniform(1));
-/// The same in the plane: gamma from 0 to pi in classes of equal numbers, axes in equal arcs.
+/// The same in the plane, errors as plane_normal_rotation_of's: gamma from 0 to pi in classes of
+/// equal numbers, axes in equal arcs.
 std::optional<Contingency> plane_normal_independence(const ContactArrays& contacts,
                                                      const BodyArrays& bodies,
                                                      int local_classes = 8, int axis_classes = 12);

@@ -5,19 +5,15 @@
 #include <span>
 #include <vector>
 
-#include <tangency/dem/micromechanics/rotation_models.hpp>
-
 #include "contact_sides.hpp"
 
 namespace tangency::micromechanics {
 namespace {
 
-constexpr double kScalarFactor2 = 15.0 / 2.0, kScalarFactor4 = 315.0 / 8.0;  // of fabric.hpp
-
-double p2(double cosine) { return 1.5 * cosine * cosine - 0.5; }
+double p2(double cosine) { return legendre2(cosine * cosine); }
 double p4(double cosine) {
   const double square = cosine * cosine;
-  return (35.0 * square * square - 30.0 * square + 3.0) / 8.0;
+  return legendre4(square, square * square);
 }
 
 /// a and b of one direction: means of these are the anisotropies.
@@ -33,6 +29,25 @@ struct Harmonics {
 Harmonics harmonics_of(const Vec3& n) {
   return {kScalarFactor2 * harmonic_part(Mat3(n * n.transpose())),
           kScalarFactor4 * harmonic_part(SymmetricTensor4::power(n))};
+}
+
+/// The model's factors with the a1 of these sides, the mean over them.
+RotationFactors calculated_factors(const ContactArrays& contacts, const BodyArrays& bodies,
+                                   std::span<const Side> sides, std::span<const Turned> turned) {
+  const auto count = static_cast<double>(sides.size());
+  double a1 = 0.0;
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    a1 += 5.0 * p2(turned[s].axis.dot(contact_vector(contacts, sides[s]))) / count;
+  RotationFactors mean, factors;
+  Vec3 last = Vec3::Zero();  // most bodies have one size
+  for (const Side& side : sides) {
+    const Vec3& semi_axes = bodies.semi_axes[side.body];
+    if (semi_axes != last) factors = space_rotation(symmetry_of(semi_axes)->spheroid).factors(a1);
+    last = semi_axes;
+    mean.second += factors.second / count;
+    mean.fourth += factors.fourth / count;
+  }
+  return mean;
 }
 
 /// Deviations of what is left of both tensors, from the scatter of normals about what the axes say.
@@ -71,6 +86,7 @@ void set_errors(NormalRotation& found, std::span<const Side> sides, std::span<co
 std::optional<NormalRotation> normal_rotation_of(const ContactArrays& contacts,
                                                  const BodyArrays& bodies, Shape shape) {
   require_sound(contacts, bodies);
+  require_dimensions(contacts, 3, "normal_rotation_of");
   if (!rotates(shape)) return std::nullopt;
   const std::vector<Side> sides = sides_of(contacts, bodies, shape);
   if (sides.empty()) return std::nullopt;
@@ -95,6 +111,7 @@ std::optional<NormalRotation> normal_rotation_of(const ContactArrays& contacts,
   found.sides = sides.size();
   found.second = mean_of(sides, second, bodies.semi_axes.size());
   found.fourth = mean_of(sides, fourth, bodies.semi_axes.size());
+  found.calculated = calculated_factors(contacts, bodies, sides, turned);
   found.axes_of_bodies = of_bodies.second / static_cast<double>(alike);
   found.fourth_axes_of_bodies = 1.0 / static_cast<double>(alike) * of_bodies.fourth;
   found.axes_of_sides = axes.second;
@@ -132,8 +149,8 @@ void set_errors(PlaneNormalRotation& found, const ContactArrays& contacts,
   for (const Side& side : plane.sides) {
     const Vec3 &n = contacts.normal[side.contact], &u = plane.of_body[side.body]->axis;
     const Mat3 off = (2.0 * plane_harmonic(n) - found.normals) -
-                     (cosine_twice(n, u) - found.factor.value) * found.axes_of_sides -
-                     found.factor.value * (2.0 * plane_harmonic(u) - found.axes_of_sides);
+                     (cosine_twice(n, u) - found.mean_cosine.value) * found.axes_of_sides -
+                     found.mean_cosine.value * (2.0 * plane_harmonic(u) - found.axes_of_sides);
     errors.add(side, std::array{off(0, 0) / count, off(0, 1) / count});
   }
   const std::vector<double> deviation = errors.deviations();
@@ -145,6 +162,8 @@ void set_errors(PlaneNormalRotation& found, const ContactArrays& contacts,
 
 std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays& contacts,
                                                             const BodyArrays& bodies) {
+  require_sound(contacts, bodies);
+  require_dimensions(contacts, 2, "plane_normal_rotation_of");
   const PlaneSides plane = plane_sides(contacts, bodies);
   if (plane.sides.empty()) return std::nullopt;
   const auto count = static_cast<double>(plane.sides.size());
@@ -161,7 +180,7 @@ std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays&
     found.arc_law_a_l += arc_law_anisotropy(body.ellipse) / count;
   }
   found.a_l = mean_of(plane.sides, local, plane.of_body.size());
-  found.factor = mean_of(plane.sides, turned, plane.of_body.size());
+  found.mean_cosine = mean_of(plane.sides, turned, plane.of_body.size());
   for (const Side& side : plane.sides)
     found.calculated -=
         plane_rotation(plane.of_body[side.body]->ellipse).factor(found.a_l.value) / count;
@@ -172,7 +191,7 @@ std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays&
     alike += 1.0;
   }
   found.axes_of_bodies /= alike;
-  found.rotated = found.factor.value * found.axes_of_sides;
+  found.rotated = found.mean_cosine.value * found.axes_of_sides;
   found.other = found.normals - found.rotated;
   set_errors(found, contacts, plane);
   return found;

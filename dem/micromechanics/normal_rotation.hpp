@@ -12,7 +12,7 @@
 #include <optional>
 
 #include <tangency/dem/micromechanics/contact_statistics.hpp>
-#include <tangency/dem/micromechanics/sphere_partition.hpp>
+#include <tangency/dem/micromechanics/rotation_models.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::micromechanics {
@@ -21,6 +21,8 @@ namespace tangency::micromechanics {
 struct NormalRotation {
   std::size_t sides = 0;
   Estimate second, fourth;  ///< <P2(cos gamma)>, <P4(cos gamma)>
+  /// The same of the model, c1 + a1 c2 and d1 + a1 d2 with the measured a1: means over the sides.
+  RotationFactors calculated;
   /// a^E, b^E: over bodies of that shape, and over sides. They are alike where coordination does
   /// not depend on orientation; the relation is exact with that over sides.
   Mat3 axes_of_bodies = Mat3::Zero(), axes_of_sides = Mat3::Zero();
@@ -35,6 +37,7 @@ struct NormalRotation {
 };
 /// Empty of spheres and triaxial bodies, to whose normals the relation does not apply, and without
 /// a side.
+/// @param contacts  in space, else std::invalid_argument
 ///
 /// (1) rotated + other is the anisotropy of the sides' normals
 std::optional<NormalRotation> normal_rotation_of(const ContactArrays& contacts,
@@ -44,15 +47,14 @@ std::optional<NormalRotation> normal_rotation_of(const ContactArrays& contacts,
 struct PlaneNormalRotation {
   std::size_t sides = 0;
   Estimate a_l;              ///< 2 <cos 2 beta>
-  Estimate factor;           ///< <cos 2 gamma>: minus the published ratio
+  Estimate mean_cosine;      ///< <cos 2 gamma>: minus the published ratio, PlaneRotation::factor
   double arc_law_a_l = 0.0;  ///< mean over sides of arc_law_anisotropy
   double calculated = 0.0;   ///< mean over sides of -(c1 + a_l c2), with the measured a_l
   Mat3 axes_of_bodies = Mat3::Zero(), axes_of_sides = Mat3::Zero();
   Mat3 normals = Mat3::Zero();
   Mat3 rotated = Mat3::Zero(), other = Mat3::Zero(), other_error = Mat3::Zero();
 };
-/// @param contacts  dimensions = 2; one body axis of each body must be that of z to 1e-6, else
-///                  std::invalid_argument
+/// @param contacts  in the plane, else std::invalid_argument
 std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays& contacts,
                                                             const BodyArrays& bodies);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -128,7 +127,7 @@ Mat3 plane_stress(const PlaneState& state) {
 
 double plane_shear_ratio(const Mat3& stress) {
   const double mean = 0.5 * (stress(0, 0) + stress(1, 1));
-  if (mean == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (mean == 0.0) return kNotDefined;
   return amplitude(stress) / mean;
 }
 

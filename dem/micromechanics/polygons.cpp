@@ -13,12 +13,18 @@
 
 #include <tangency/dem/micromechanics/strain_mesh.hpp>
 
+#include "require_length.hpp"
+
 namespace tangency::micromechanics {
 namespace {
 
 /// How far areas of polygons may be off that of the cell, relatively: rounding of a million. Where
 /// edges wind around the cell twice they are off by the whole of it.
 constexpr double kSameArea = 1e-9;
+
+/// How near the ends of a way there and back have to be to be one place, in lengths of a cell.
+/// Chosen: other images are a cell away, and rounding is far below it.
+constexpr double kOnePlace = 1e-6;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -217,7 +223,7 @@ bool ContactNet::drop_bridges() {
     if (!is_used_[c] || polygon_of_[2 * c] != polygon_of_[2 * c + 1]) continue;
     // Of one image of the polygon, not of two: the way there and back begins and ends in one place.
     const Vec3 apart = from_centre_[2 * c] + along(2 * c) - from_centre_[2 * c + 1];
-    if (apart.norm() > 1e-6 * std::sqrt(centres_.volume())) continue;
+    if (apart.norm() > kOnePlace * std::sqrt(centres_.volume())) continue;
     is_used_[c] = false;
     any = true;
   }
@@ -245,9 +251,7 @@ StrainMesh polygon_mesh(const PeriodicCentres& centres, const PeriodicPairs& con
   if (centres.dimensions != 2)
     throw std::invalid_argument("dimensions = " + std::to_string(centres.dimensions) +
                                 ": polygons are of the plane");
-  if (!arm.empty() && arm.size() != contacts.size())
-    throw std::invalid_argument("arm: " + std::to_string(arm.size()) + " entries, and there are " +
-                                std::to_string(contacts.size()) + " pairs");
+  if (!arm.empty()) require_length("arm", arm.size(), contacts.size(), "pairs");
   ContactNet net(centres, contacts, arm);
   do {
     net.keep_what_spans();

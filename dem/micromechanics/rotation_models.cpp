@@ -6,19 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include <tangency/dem/micromechanics/harmonics.hpp>
+
 #include "spheroid_integrals.hpp"
 
 namespace tangency::micromechanics {
 namespace {
 
 using std::numbers::pi;
-
-/// Chosen: closed forms in powers of 1/x, which lose up to 1/x^3 of rounding, take over from series
-/// in powers of x here.
-constexpr double kSeries = 0.3;
-
-double p2(double square) { return 1.5 * square - 0.5; }
-double p4(double square, double fourth) { return (35.0 * fourth - 30.0 * square + 3.0) / 8.0; }
 
 /// Means over all beta of cos^2 gamma and cos^4 gamma, and of each times cos^2 beta.
 struct Moments {
@@ -136,7 +131,7 @@ SpaceRotation space_rotation(const Spheroid& s) {
   // The part with a1: P2(cos beta) = (3 cos^2 beta - 1)/2 times.
   const double square = 1.5 * mean.square_weighted - 0.5 * mean.square;
   const double fourth = 1.5 * mean.fourth_weighted - 0.5 * mean.fourth;
-  return {p2(mean.square), 1.5 * square, p4(mean.square, mean.fourth),
+  return {legendre2(mean.square), 1.5 * square, legendre4(mean.square, mean.fourth),
           (35.0 * fourth - 30.0 * square) / 8.0};
 }
 
@@ -164,7 +159,7 @@ RotationFactors rotation_by_area(const Spheroid& s) {
     fourth = (1.0 / ratio - 3.0 * square) / kappa;
   }
   const double mean_square = w * square / area;
-  return {p2(mean_square), p4(mean_square, w * w * fourth / area)};
+  return {legendre2(mean_square), legendre4(mean_square, w * w * fourth / area)};
 }
 
 }  // namespace tangency::micromechanics

@@ -17,8 +17,6 @@ using std::numbers::pi;
 
 bool sound(double semi_axis) { return semi_axis > 0.0 && std::isfinite(semi_axis); }
 
-bool alike(double a, double b) { return std::abs(a - b) <= kEqualAxes * std::max(a, b); }
-
 }  // namespace
 
 void require_sound(const Spheroid& s) {
@@ -27,14 +25,18 @@ void require_sound(const Spheroid& s) {
                                 std::to_string(s.across) + ": must be finite and > 0");
 }
 
+bool are_equal_axes(double one, double other) {
+  return std::abs(one - other) <= kEqualAxes * std::max(one, other);
+}
+
 Shape shape_of(const Vec3& semi_axes) {
   for (const double r : {semi_axes[0], semi_axes[1], semi_axes[2]})
     if (!sound(r))
       throw std::invalid_argument("semi_axes: " + std::to_string(r) + ": must be finite and > 0");
   std::array<double, 3> r{semi_axes[0], semi_axes[1], semi_axes[2]};
   std::ranges::sort(r);
-  if (alike(r[0], r[2])) return Shape::sphere;
-  const bool short_pair = alike(r[0], r[1]), long_pair = alike(r[1], r[2]);
+  if (are_equal_axes(r[0], r[2])) return Shape::sphere;
+  const bool short_pair = are_equal_axes(r[0], r[1]), long_pair = are_equal_axes(r[1], r[2]);
   if (short_pair && (!long_pair || r[2] - r[1] >= r[1] - r[0])) return Shape::prolate;
   return long_pair ? Shape::oblate : Shape::triaxial;
 }

@@ -30,6 +30,8 @@ enum class Shape { sphere, prolate, oblate, triaxial };
 
 /// Chosen: semi-axes within this relative distance count as equal; growth and text files round.
 inline constexpr double kEqualAxes = 1e-9;
+bool are_equal_axes(double one, double other);
+
 Shape shape_of(const Vec3& semi_axes);
 
 /// A body of revolution: its spheroid, and which of its body axes is that of symmetry.

@@ -10,13 +10,12 @@
 #include <string>
 #include <utility>
 
+#include "require_length.hpp"
+
 namespace tangency::micromechanics {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-/// Images are numbers that can be added and turned round without overflow.
-constexpr std::int32_t kMostImages = 1 << 28;
 
 /// A pair as it is looked for: the smaller index first; of one particle the image that is positive
 /// in lexicographic order.
@@ -49,6 +48,14 @@ std::vector<std::pair<Key, std::size_t>> index_of(const PeriodicPairs& pairs) {
   return keys;
 }
 
+void require_image(const std::string& name, const PeriodicImage& image, int dimensions) {
+  for (const std::int32_t k : image)
+    if (std::abs(std::int64_t{k}) > kMostImages)
+      refuse(name + " = " + std::to_string(k) + ": more than " + std::to_string(kMostImages) +
+             " cells away");
+  if (dimensions == 2 && image[2] != 0) refuse(name + ": none moves along z in the plane");
+}
+
 void require_pair(const PeriodicPairs& pairs, const PeriodicCentres& centres, std::size_t c) {
   const std::string place = "[" + std::to_string(c) + "]";
   const auto& bodies = pairs.bodies[c];
@@ -57,17 +64,24 @@ void require_pair(const PeriodicPairs& pairs, const PeriodicCentres& centres, st
     if (body < 0 || static_cast<std::size_t>(body) >= centres.position.size())
       refuse("bodies" + place + " = " + std::to_string(body) + ", and there are " +
              std::to_string(centres.position.size()) + " centres");
-  for (const std::int32_t k : image)
-    if (std::abs(std::int64_t{k}) > kMostImages)
-      refuse("image" + place + " = " + std::to_string(k) + ": more than " +
-             std::to_string(kMostImages) + " cells away");
-  if (centres.dimensions == 2 && image[2] != 0)
-    refuse("image" + place + ": none moves along z in the plane");
+  require_image("image" + place, image, centres.dimensions);
   if (bodies[0] == bodies[1] && image == PeriodicImage{})
     refuse("bodies" + place + ": particle " + std::to_string(bodies[0]) + " with itself");
 }
 
-/// n times the outward areas of the faces opposite each corner, corners in positive order.
+/// Images from centres into the cell are to be small.
+void require_near(const PeriodicCentres& centres) {
+  Mat3 edges = Mat3::Identity();
+  for (int k = 0; k < centres.dimensions; ++k) edges.col(k) = centres.edges.col(k);
+  const Mat3 inverse = edges.inverse();
+  for (std::size_t i = 0; i < centres.position.size(); ++i)
+    for (int k = 0; k < centres.dimensions; ++k)
+      if (!(std::abs(inverse.row(k).dot(centres.position[i])) <= kMostCells))
+        refuse("position[" + std::to_string(i) + "]: more than " + std::to_string(kMostCells) +
+               " cells from the origin along axis " + std::to_string(k) + " of the cell");
+}
+
+/// The outward areas of the faces opposite each corner, corners in positive order.
 std::array<Vec3, 4> outward_areas(const std::array<Vec3, 4>& x, int dimensions) {
   std::array<Vec3, 4> area{};
   if (dimensions == 2) {
@@ -132,18 +146,17 @@ void require_sound(const PeriodicCentres& centres) {
     refuse("dimensions = " + std::to_string(dimensions) + ": must be 2 or 3");
   for (int k = 0; k < dimensions; ++k)
     if (!centres.edges.col(k).allFinite() || (dimensions == 2 && centres.edges(2, k) != 0.0))
-      refuse("edges: column " + std::to_string(k) + " must be finite, and in the plane there");
+      refuse("edges: column " + std::to_string(k) + " must be finite, and have z = 0 in the plane");
   if (!(centres.volume() > 0.0)) refuse("edges: the cell must have a volume > 0");
   for (std::size_t i = 0; i < centres.position.size(); ++i)
     if (!centres.position[i].allFinite() || (dimensions == 2 && centres.position[i][2] != 0.0))
       refuse("position[" + std::to_string(i) + "]: must be finite, and have z = 0 in the plane");
+  require_near(centres);
 }
 
 void require_sound(const PeriodicPairs& pairs, const PeriodicCentres& centres) {
   require_sound(centres);
-  if (pairs.image.size() != pairs.size())
-    refuse("image: " + std::to_string(pairs.image.size()) + " entries, and there are " +
-           std::to_string(pairs.size()) + " pairs");
+  require_length("image", pairs.image.size(), pairs.size(), "pairs");
   for (std::size_t c = 0; c < pairs.size(); ++c) require_pair(pairs, centres, c);
   const auto keys = index_of(pairs);
   const auto twice = std::adjacent_find(
@@ -159,11 +172,15 @@ StrainMesh simplex_mesh(const PeriodicCentres& centres,
   const auto corners = static_cast<std::size_t>(centres.dimensions) + 1;
   std::vector<std::pair<Key, Vec3>> parts;
   std::vector<bool> is_corner(centres.position.size(), false);
-  for (const PeriodicSimplex& simplex : simplices) {
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    const PeriodicSimplex& simplex = simplices[i];
     for (std::size_t k = 0; k < corners; ++k) {
       const std::int64_t body = simplex.bodies[k];
+      const std::string place = "simplices[" + std::to_string(i) + "]";
+      require_image(place + ".image[" + std::to_string(k) + "]", simplex.image[k],
+                    centres.dimensions);
       if (body < 0 || static_cast<std::size_t>(body) >= is_corner.size())
-        refuse("simplices: particle " + std::to_string(body) + ", and there are " +
+        refuse(place + ": particle " + std::to_string(body) + ", and there are " +
                std::to_string(is_corner.size()) + " centres");
       is_corner[static_cast<std::size_t>(body)] = true;
     }

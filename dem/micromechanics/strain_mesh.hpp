@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Nets that join the centres of a periodic packing and cover its cell: what average strain is
-/// summed over [Ouadfel1998, section 8.8].
+/// summed over [Ouadfel1998, section 8.8]: polygons between contacts in the plane
+/// [KruytRothenburg1996], tetrahedra between centres in space [Bagi1996].
 ///
 /// A net's cells are the polygons between contacts in the plane, the triangles between centres, or
 /// their tetrahedra in space. Each edge goes from the centre of particle k to that of an image of
 /// particle l, and has a vector, its area, with which the velocity gradient of the cell is exactly
 /// (1/V) times the sum of difference (x) area (average_strain.hpp).
 ///
-/// Centres need not lie inside the cell: an image is the number of edges of the cell, along each
-/// axis, by which a centre is moved from where it is given. Units are any consistent set. In the
-/// plane all centres have z = 0, images do not move along z, the third edge of the cell is not
-/// read, areas of edges are lengths, and `volume` is an area. Cells are periodic along every axis
-/// of their dimensions: walls have no net.
+/// Centres need not lie inside the cell, but at most kMostCells cells from the origin: an image is
+/// the number of edges of the cell, along each axis, by which a centre is moved from where it is
+/// given, at most kMostImages. Units are any consistent set. In the plane all centres have z = 0,
+/// images do not move along z, the third edge of the cell is not read, areas of edges are lengths,
+/// and `volume` is an area. Cells are periodic along every axis of their dimensions: walls have no
+/// net.
 ///
 /// Errors: input that is not what is said here is std::invalid_argument, which names the array and
 /// the place; centres or contacts that have no net are NoMesh. Functions keep nothing: any number
@@ -33,6 +35,10 @@ namespace tangency::micromechanics {
 
 /// By how many edges a centre is moved, along each axis.
 using PeriodicImage = std::array<std::int32_t, 3>;
+
+/// Chosen: images of pairs can be added and turned round without overflow; and centres are so near
+/// the origin that the image of any neighbours is one of these.
+inline constexpr std::int32_t kMostImages = 1 << 28, kMostCells = 1 << 26;
 
 /// There is no net of these centres or contacts; what() is one line that says why.
 class NoMesh : public std::runtime_error {
@@ -92,17 +98,20 @@ struct PeriodicSimplex {
   std::array<PeriodicImage, 4> image{};
 };
 
-/// The Delaunay triangles or tetrahedra of the centres, each once. Where more than n + 1 centres
-/// lie on a sphere, as in lattices, these are those of centres and a cell that are moved by at most
-/// a thousandth of the mean distance, all images of a centre alike: some then have no volume.
-/// Centres may be few, and the cell thin or sheared.
-/// @throws NoMesh where two centres lie in one place
+/// The Delaunay triangles or tetrahedra of the centres, each once, by Qhull [Barber1996]. Where
+/// more than n + 1 centres lie on a sphere, as in lattices, these are those of centres and a cell
+/// that are moved by at most a thousandth of the mean distance, all images of a centre alike: some
+/// then have no volume. Centres may be few, and the cell thin or sheared. Centres in one place are
+/// moved apart like those on a sphere: simplices between them have next to no volume.
+/// @throws NoMesh without a centre, where the cell is so thin that more images than kMostCells are
+///                around it, and where no such move gives simplices that fill the cell
 ///
 /// (2) together they fill the cell once, and each face is that of two of them
 /// (3) no centre lies inside the sphere of another's corners, where no more than n + 1 lie on one
 std::vector<PeriodicSimplex> delaunay_simplices(const PeriodicCentres& centres);
 
 /// The net of these triangles or tetrahedra, or of any that have property (2).
+/// @throws std::invalid_argument for particles that are none, and images beyond kMostImages
 StrainMesh simplex_mesh(const PeriodicCentres& centres, std::span<const PeriodicSimplex> simplices);
 
 /// The net of the polygons between contacts in the plane, none of which a contact divides. What

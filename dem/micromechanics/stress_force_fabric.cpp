@@ -146,7 +146,7 @@ Mat3 stress_of_models(double contact_density, const ScalarHarmonics& density,
 
 double shear_stress_ratio(const Mat3& stress) {
   const double mean = stress.trace() / 3.0;
-  if (mean == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (mean == 0.0) return kNotDefined;
   return std::sqrt(1.5) * harmonic_part(stress).norm() / mean;
 }
 

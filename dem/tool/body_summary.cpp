@@ -2,10 +2,7 @@
 #include <tangency/dem/tool/body_summary.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 
-#include <tangency/dem/micromechanics/rotation_models.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
 
 namespace tangency::dem {
@@ -21,22 +18,6 @@ std::optional<mm::Shape> common_shape(const mm::BodyArrays& bodies) {
       std::all_of(bodies.semi_axes.begin(), bodies.semi_axes.end(),
                   [&](const Vec3& semi_axes) { return mm::shape_of(semi_axes) == shape; });
   return is_common && shape != mm::Shape::sphere ? std::optional(shape) : std::nullopt;
-}
-
-/// Over contact sides, of bodies of revolution.
-double calculated_factor(const mm::ContactArrays& contacts, const mm::BodyArrays& bodies,
-                         double a1) {
-  double sum = 0.0, factor = 0.0;
-  Vec3 last = Vec3::Zero();  // most bodies have one size
-  for (const auto& pair : contacts.bodies)
-    for (const std::int64_t body : pair) {
-      const Vec3& semi_axes = bodies.semi_axes[static_cast<std::size_t>(body)];
-      if (semi_axes != last)
-        factor = mm::space_rotation(mm::symmetry_of(semi_axes).value().spheroid).factors(a1).second;
-      last = semi_axes;
-      sum += factor;
-    }
-  return sum / (2.0 * static_cast<double>(contacts.size()));
 }
 
 }  // namespace
@@ -55,9 +36,7 @@ BodySummary body_summary(const mm::ContactArrays& contacts, const mm::BodyArrays
   found.contacts = mm::contact_statistics_of(contacts, bodies, *shape);
   found.rotation = mm::normal_rotation_of(contacts, bodies, *shape);
   found.independence = mm::normal_independence(contacts, bodies, *shape);
-  if (found.contacts && found.contacts->spheroid)
-    found.calculated_factor =
-        calculated_factor(contacts, bodies, found.contacts->spheroid->a1.value);
+  if (found.rotation) found.calculated_factor = found.rotation->calculated.second;
   return found;
 }
 

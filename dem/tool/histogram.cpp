@@ -50,14 +50,7 @@ class Means {
         length_(groups.means(mm::lengths(packing.contacts.branch))),
         force_tangential_(groups.means(tangential(packing.contacts.force))),
         branch_tangential_(groups.means(tangential(packing.contacts.branch))),
-        products_(groups.partition().size(), Mat3::Zero()) {
-    const PackingContacts& contacts = packing.contacts;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const std::size_t a = groups.group(c), b = groups.partition().opposite(a);
-      products_[a] += contacts.force[c] * contacts.arm[c].transpose();
-      products_[b] -= contacts.force[c] * (contacts.arm[c] - contacts.branch[c]).transpose();
-    }
-  }
+        products_(mm::group_sums(groups, packing.arrays()).products) {}
 
   void add_to(Row& row, std::size_t g) const {
     const auto sides = static_cast<double>(groups_.sides(g));

@@ -218,7 +218,7 @@ Json contact_statistics_of(const BodySummary& bodies) {
     all["r_other_error"] = json(turn->other_error);
   }
   if (const auto& turn = bodies.in_plane) {
-    put("P2", turn->factor);
+    put("P2", turn->mean_cosine);
     put("a_L", turn->a_l);
     all["a_L_by_arc"] = json(turn->arc_law_a_l);
     all["r_rot"] = json(turn->rotated);

@@ -34,12 +34,12 @@ void count_rattlers(MicroSummary& summary, const Packing& packing) {
         2.0 * static_cast<double>(between) / static_cast<double>(others);
 }
 
-void measure_vector_angles(MicroSummary& summary, const PackingContacts& contacts) {
+void measure_vector_angles(MicroSummary& summary, const mm::ContactArrays& contacts) {
   double sum = 0.0, largest = 0.0;
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (const double angle :
-         {angle_deg(contacts.arm[c], contacts.normal[c]),
-          angle_deg(contacts.branch[c] - contacts.arm[c], contacts.normal[c])}) {
+    for (const bool of_b : {false, true}) {
+      const Vec3 outward = of_b ? Vec3(-contacts.normal[c]) : contacts.normal[c];
+      const double angle = angle_deg(contacts.lever(c, of_b), outward);
       sum += angle;
       largest = std::max(largest, angle);
     }
@@ -138,7 +138,7 @@ MicroSummary micro_summary(const Packing& packing, const mm::Classes& classes) {
   for (const double force : packing.contacts.normal_force) sum += force;
   summary.bodies = body_summary(arrays, bodies_of(packing));
   summary.mean_normal_force = sum / static_cast<double>(arrays.size());
-  measure_vector_angles(summary, packing.contacts);
+  measure_vector_angles(summary, arrays);
   return summary;
 }
 
@@ -232,7 +232,9 @@ Named<double> body_numbers(const BodySummary& bodies) {
         has_model ? seen->spheroid->calculated_pairs[k] : kNotDefined);
   const auto& in_space = bodies.rotation;
   const auto& in_plane = bodies.in_plane;
-  add("P2", in_space ? in_space->second.value : in_plane ? in_plane->factor.value : kNotDefined);
+  add("P2", in_space   ? in_space->second.value
+            : in_plane ? in_plane->mean_cosine.value
+                       : kNotDefined);
   add("P4", in_space ? in_space->fourth.value : kNotDefined);
   add("P2_model", bodies.calculated_factor);
   add("a_axial_r_rot", in_space   ? in_space->rotated(2, 2)

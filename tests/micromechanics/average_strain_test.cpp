@@ -124,6 +124,53 @@ TEST(StrainParts, AddUpToTheGradientOfTheCell) {
   }
 }
 
+/// The one part that is not 0 and what it is, of a square lattice whose contacts move in one way.
+struct OnePart {
+  const char* of;
+  Mat3 rate = Mat3::Zero();
+  double spin = 0.0;
+  bool slides = false;
+  Mat3 StrainParts::*part = nullptr;
+  Mat3 value = Mat3::Zero();
+};
+
+TEST(StrainParts, OfASquareLatticeAreKnown) {
+  const Centres centres = lattice(3, 2);
+  const Links links = pairs_at(centres, 1.0);
+  const StrainMesh mesh = polygon_mesh(centres.view(), links.view());
+  Mat3 opening = Mat3::Zero(), shear = Mat3::Zero(), turn = Mat3::Zero();
+  opening(0, 0) = 0.3;
+  opening(1, 1) = -0.2;
+  shear(0, 1) = 0.4;
+  turn(0, 1) = -0.5;
+  turn(1, 0) = 0.5;
+  const std::vector<OnePart> cases{{"opening", opening, 0.0, false, &StrainParts::normal, opening},
+                                   {"shear", shear, 0.0, false, &StrainParts::elastic, shear},
+                                   {"sliding", shear, 0.0, true, &StrainParts::sliding, shear},
+                                   {"turning", turn, 0.5, false, &StrainParts::rotation, turn}};
+  for (const OnePart& each : cases) {
+    Motions motions;
+    motions.rate = each.rate;
+    motions.velocity.assign(centres.position.size(), Vec3::Zero());
+    motions.spin.assign(centres.position.size(), Vec3(0.0, 0.0, each.spin));
+    for (std::size_t c = 0; c < links.bodies.size(); ++c) {
+      const Vec3 branch = centres.view().branch(links.bodies[c], links.image[c]);
+      motions.normal.push_back(branch);  // of length 1
+      motions.arm.push_back(0.5 * branch);
+      // All that moves slides: across the contact alone.
+      motions.sliding.push_back(each.slides ? Vec3(each.rate * branch) : Vec3(Vec3::Zero()));
+    }
+    const StrainParts parts = strain_parts(mesh, centres.view(), motions.of(links));
+    for (Mat3 StrainParts::*part :
+         {&StrainParts::normal, &StrainParts::elastic, &StrainParts::sliding,
+          &StrainParts::rotation, &StrainParts::apart}) {
+      const Mat3 wanted = part == each.part ? each.value : Mat3(Mat3::Zero());
+      EXPECT_LT((parts.*part - wanted).norm(), kExact) << each.of;
+    }
+    EXPECT_EQ(parts.edges_in_contact, links.bodies.size());
+  }
+}
+
 TEST(StrainParts, AreTheSameWithBodiesExchanged) {
   Random random(45);
   const Net net = net_of_simplices(random, 3, 40);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include <tangency/dem/micromechanics/plane.hpp>
 
 #include "fields.hpp"
+#include "planted_bodies.hpp"
 
 namespace {
 
@@ -76,6 +78,44 @@ void expect_equal(const Averages::Tensor& tensor, const Model& model, const Harm
   EXPECT_EQ(tensor->unexplained4, unexplained);
 }
 
+/// Of directions: what is left unexplained is not asked for.
+void expect_equal(const Averages::Tensor& tensor, const OrientationFit& fit) {
+  ASSERT_TRUE(tensor && tensor->fourth && tensor->fourth_error);
+  EXPECT_EQ(tensor->mean, fit.model.mean);
+  EXPECT_LT((tensor->second - fit.model.second).norm(), 1e-13);
+  EXPECT_LT((tensor->second_error - fit.error.second).norm(), 1e-13);
+  EXPECT_LT(distance(*tensor->fourth, fit.model.fourth), 1e-12);
+  EXPECT_LT(distance(*tensor->fourth_error, fit.error.fourth), 1e-12);
+}
+
+void expect_near(const Averages::Tensor& tensor, const PlaneScalarFit& fit) {
+  ASSERT_TRUE(tensor);
+  EXPECT_EQ(tensor->mean, fit.mean);
+  EXPECT_LT((tensor->second - fit.second).norm(), 1e-13);
+  EXPECT_LT((tensor->second_error - fit.second_error).norm(), 1e-13);
+}
+
+/// Contact vectors in the axes of their bodies, by matrices.
+std::vector<Vec3> local_vectors(const Packing& packing, const Bodies& bodies) {
+  std::vector<Vec3> found;
+  for (std::size_t c = 0; c < packing.bodies.size(); ++c) {
+    const auto [a, b] = packing.bodies[c];
+    const Vec3 of_a = packing.arm[c], of_b = packing.arm[c] - packing.branch[c];
+    const auto axes = [&](std::int64_t body) {
+      return bodies.orientation[static_cast<std::size_t>(body)].toRotationMatrix();
+    };
+    found.push_back(axes(a).transpose() * of_a / of_a.norm());
+    found.push_back(axes(b).transpose() * of_b / of_b.norm());
+  }
+  return found;
+}
+
+std::vector<Vec3> axes_of(const Bodies& bodies, int axis) {
+  std::vector<Vec3> found;
+  for (const Quaternion& q : bodies.orientation) found.push_back(q.toRotationMatrix().col(axis));
+  return found;
+}
+
 void expect_equal(const Averages::Tensor& tensor, const PlaneScalarFit& fit) {
   ASSERT_TRUE(tensor);
   EXPECT_EQ(tensor->mean, fit.mean);
@@ -108,8 +148,9 @@ TEST(Averages, InSpaceAreThoseOfTheFitsAlone) {
       expect_equal(found.branch_tangential, zt.model, zt.error, zt.unexplained);
       const ScalarFit& length = *fabric.branch_length;
       expect_equal(found.branch_length, length.model, length.error, length.unexplained);
-      ASSERT_TRUE(found.contact_vectors);
-      EXPECT_EQ(found.contact_vectors->second, vectors.model.second);
+      expect_equal(found.contact_vectors, vectors);
+      expect_equal(found.long_axes, *fit_orientations(axes_of(bodies, 0)));
+      expect_equal(found.local_contacts, *fit_orientations(local_vectors(packing, bodies)));
       EXPECT_EQ(found.force_asymmetry, ft.asymmetry);
       EXPECT_EQ(found.branch_asymmetry, zt.asymmetry);
     }
@@ -150,11 +191,19 @@ TEST(Averages, InThePlaneAreThoseOfTheFitsAlone) {
   expect_equal(found.branch_normal, fabric.branch->normal);
   expect_equal(found.branch_tangential, fabric.branch->tangential);
   EXPECT_EQ(found.classes, 32u);
-  ASSERT_TRUE(found.long_axes && found.local_contacts && found.branch_length);
-  std::vector<Vec3> axes;
-  for (const Quaternion& q : bodies.orientation) axes.push_back(q * Vec3::UnitX());
-  EXPECT_LT((found.long_axes->second - fit_plane_orientations(axes)->second).norm(), 1e-12);
+  ASSERT_TRUE(found.branch_length);
+  expect_near(found.long_axes, *fit_plane_orientations(axes_of(bodies, 0)));
+  expect_near(found.local_contacts, *fit_plane_orientations(local_vectors(packing, bodies)));
+  expect_near(found.contact_vectors, *fit_plane_orientations(contact_vectors(packing.arrays())));
   EXPECT_EQ(found.body_axis, 0);
+  // Long along the other axis, half of them upside down.
+  for (Vec3& r : bodies.semi_axes) r = {1.5, 2.0, 1.5};
+  for (std::size_t i = 0; i < bodies.orientation.size(); i += 2)
+    bodies.orientation[i] = bodies.orientation[i] * Quaternion(0.0, 1.0, 0.0, 0.0);
+  const Averages across = averages_of(packing.arrays(), bodies.arrays());
+  expect_near(across.long_axes, *fit_plane_orientations(axes_of(bodies, 1)));
+  expect_near(across.local_contacts, *fit_plane_orientations(local_vectors(packing, bodies)));
+  EXPECT_EQ(across.body_axis, 1);
   const auto state = plane_state(found, 2);
   ASSERT_TRUE(state);
   EXPECT_EQ(plane_stress(*state), plane_stress(*plane_state(fabric)));
@@ -273,11 +322,53 @@ TEST(Averages, ClassesAreAsManyAsTheirNumberSays) {
   EXPECT_EQ((Classes{Classes::Kind::polar, 18}.arcs()), 36);
 }
 
-TEST(Averages, BodiesThatAreNotAsManyAsParticlesAreRefused) {
+TEST(Averages, BodiesThatAreNotWhatTheySayAreRefusedByNameAndPlace) {
   Random random(78);
   const Packing packing = draw(random, random_planted(random, false), 20, 0.3);
-  const Bodies bodies = random_bodies(random, 19, {3.0, 2.0, 2.0});
-  EXPECT_THROW(averages_of(packing.arrays(), bodies.arrays()), std::invalid_argument);
+  const Bodies good = random_bodies(random, 20, {3.0, 2.0, 2.0});
+  const auto message = [](const Packing& of, const Bodies& bodies) {
+    return refusal([&] { averages_of(of.arrays(), bodies.arrays()); });
+  };
+  EXPECT_EQ(message(packing, good), "");
+  EXPECT_EQ(message(packing, random_bodies(random, 19, {3.0, 2.0, 2.0})),
+            "orientation: 19 entries, and there are 20 particles");
+  Bodies bad = good;
+  bad.semi_axes.pop_back();
+  EXPECT_EQ(message(packing, bad), "semi_axes: 19 entries, and there are 20 particles");
+  bad = good;
+  bad.orientation[3].coeffs() *= 0.5;
+  EXPECT_EQ(message(packing, bad), "orientation[3]: length 0.500000: must be 1");
+  bad.orientation[3].coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(message(packing, bad).substr(0, 14), "orientation[3]");
+  bad = good;
+  bad.semi_axes[7][1] = 0.0;
+  EXPECT_EQ(message(packing, bad), "semi_axes[7]: 0.000000: must be finite and > 0");
+  bad.semi_axes[7][1] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(message(packing, bad), "semi_axes[7]: inf: must be finite and > 0");
+
+  // In the plane the third body axis stands upright, or upside down, and no other.
+  const Packing plane = plane_packing(random, 20);
+  Bodies flat{std::vector<Quaternion>(20, Quaternion(0.0, 1.0, 0.0, 0.0)),
+              std::vector<Vec3>(20, {2.0, 1.0, 1.0})};
+  EXPECT_EQ(message(plane, flat), "");
+  const double half = std::sqrt(0.5);
+  for (const Quaternion& lying :
+       {Quaternion(half, half, 0.0, 0.0), Quaternion(half, 0.0, half, 0.0)}) {
+    flat.orientation[4] = lying;
+    EXPECT_EQ(message(plane, flat), "orientation[4]: body axis 2 must be that of z in the plane");
+  }
+}
+
+// A table of six digits is a packing too: what it rounds off changes nothing by more.
+TEST(Averages, OrientationsNeedBeUnitsToSixDigitsAlone) {
+  Random random(79);
+  const Packing packing = draw(random, random_planted(random, true), 300, 0.3);
+  Bodies bodies = random_bodies(random, packing.particles, {3.0, 2.0, 2.0});
+  const Averages before = averages_of(packing.arrays(), bodies.arrays());
+  for (Quaternion& q : bodies.orientation) q.coeffs() *= 1.0 + 0.9 * kUnitTolerance;
+  const Averages after = averages_of(packing.arrays(), bodies.arrays());
+  EXPECT_LT((before.long_axes->second - after.long_axes->second).norm(), 1e-12);
+  EXPECT_LT((before.local_contacts->second - after.local_contacts->second).norm(), 1e-12);
 }
 
 // dem/micromechanics/distributions.hpp (3)

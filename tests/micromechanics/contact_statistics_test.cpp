@@ -316,6 +316,13 @@ TEST(ContactStatistics, WhatIsNotDefinedIsEmpty) {
   for (Vec3& r : sample.semi_axes) r = Vec3::Ones();
   EXPECT_FALSE(of(Shape::sphere));
   EXPECT_FALSE(of(Shape::prolate));
+  const BodyPacking plane = draw_plane(random, kProlate, 0.3, everywhere(0.5), 30, 3);
+  EXPECT_EQ(
+      refusal([&] { contact_statistics_of(plane.contacts(), plane.bodies(), Shape::prolate); }),
+      "dimensions = 2: contact_statistics_of takes contacts in space");
+  EXPECT_EQ(
+      refusal([&] { measured_distribution(plane.contacts(), plane.bodies(), Shape::prolate, {}); }),
+      "dimensions = 2: measured_distribution takes contacts in space");
   sample.semi_axes.pop_back();
   EXPECT_THROW(of(Shape::prolate), std::invalid_argument);
   sample.semi_axes.push_back(Vec3::Ones());

@@ -118,6 +118,25 @@ TEST(GroupSums, IndependentSumTellsWhetherForcesDependOnBranchesWithinGroups) {
   EXPECT_NEAR(off(), -1.0 / 13.0, 0.01);
 }
 
+TEST(GroupSums, ProductsAreThoseOfTheSidesOfEachClass) {
+  Random random(63);
+  const Packing packing = draw(random, random_planted(random, true), 200, 0.3);
+  const DirectionGroups groups(SpherePartition::near_uniform(2), packing.normal);
+  const std::vector<Mat3> found = group_sums(groups, packing.arrays()).products;
+  ASSERT_EQ(found.size(), groups.partition().size());
+  for (std::size_t g = 0; g < found.size(); ++g) {
+    Mat3 sum = Mat3::Zero();
+    for (std::size_t c = 0; c < packing.normal.size(); ++c) {
+      const Vec3 of_b = packing.arm[c] - packing.branch[c];
+      if (groups.partition().class_of(packing.normal[c]) == g)
+        sum += packing.force[c] * packing.arm[c].transpose();
+      if (groups.partition().class_of(-packing.normal[c]) == g)
+        sum += -packing.force[c] * of_b.transpose();
+    }
+    EXPECT_LT((found[g] - sum).norm(), 1e-12);
+  }
+}
+
 // One class holds one contact and its opposite the other side: both sums are the contact's product.
 TEST(GroupSums, OfOneContactIsItsForceTimesItsBranch) {
   Random random(56);

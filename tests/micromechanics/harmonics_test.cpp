@@ -191,4 +191,17 @@ TEST(Harmonics, RotatedTensorsHaveTheSameValuesInRotatedDirections) {
   }
 }
 
+// dem/micromechanics/harmonics.hpp (3)
+TEST(Legendre, PolynomialsAreHarmonicPartsOfPowersOfADirection) {
+  Random random(49);
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 n = random_direction(random), u = random_direction(random);
+    const double square = n.dot(u) * n.dot(u);
+    EXPECT_NEAR(u.dot(harmonic_part(Mat3(n * n.transpose())) * u), 2.0 / 3.0 * legendre2(square),
+                1e-14);
+    EXPECT_NEAR(harmonic_part(SymmetricTensor4::power(n)).along(u),
+                8.0 / 35.0 * legendre4(square, square * square), 1e-14);
+  }
+}
+
 }  // namespace

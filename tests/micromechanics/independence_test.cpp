@@ -92,9 +92,12 @@ TEST(Independence, ProbabilitiesOfIndependentSamplesAreEven) {
     space.push_back(found->p_value);
     const BodyPacking flat = draw_plane(random, {1.0, 0.7}, 0.4, everywhere(0.5), 1800, 1);
     const auto in_plane = plane_normal_independence(flat.contacts(), flat.bodies());
+    ASSERT_TRUE(in_plane);
     EXPECT_EQ(in_plane->degrees, 77);
     plane.push_back(in_plane->p_value);
   }
+  for (const auto* sample : {&space, &plane})
+    for (const double p : *sample) ASSERT_TRUE(p >= 0.0 && p <= 1.0) << p;
   // Beyond 1.63 one sample in a hundred is of an even distribution.
   EXPECT_LT(unevenness(space), 1.63);
   EXPECT_LT(unevenness(plane), 1.63);
@@ -125,7 +128,17 @@ TEST(Independence, SaysHowManySidesItNeedsAndIsEmptyWithoutAnAxis) {
   EXPECT_FALSE(normal_independence(few.contacts(), few.bodies(), Shape::oblate));
   EXPECT_THROW(normal_independence(few.contacts(), few.bodies(), Shape::prolate, 1),
                std::invalid_argument);
-  EXPECT_THROW(plane_normal_independence(few.contacts(), few.bodies()), std::invalid_argument);
+}
+
+TEST(Independence, TakesContactsOfItsDimensionsAloneAndSaysSo) {
+  Random random(144);
+  const ScalarHarmonics axes{0.25 / pi, Mat3::Zero(), {}};
+  const BodyPacking space = draw_among_spheres(random, {1.0, 0.7}, axes, everywhere(0.5), 10, 1);
+  const BodyPacking plane = draw_plane(random, {1.0, 0.7}, 0.4, everywhere(0.5), 10, 1);
+  EXPECT_EQ(refusal([&] { normal_independence(plane.contacts(), plane.bodies(), Shape::prolate); }),
+            "dimensions = 2: normal_independence takes contacts in space");
+  EXPECT_EQ(refusal([&] { plane_normal_independence(space.contacts(), space.bodies()); }),
+            "dimensions = 3: plane_normal_independence takes contacts in the plane");
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include <tangency/dem/micromechanics/body_arrays.hpp>
+#include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
 #include <tangency/dem/micromechanics/spheroid.hpp>
 #include <tangency/geometry/vectors.hpp>
@@ -18,6 +20,17 @@ namespace tangency::testing {
 
 /// By adaptive quadrature, to 1e-13 of its value or 1e-15.
 double integral(const std::function<double(double)>& f, double from, double to);
+
+/// What std::invalid_argument says that a call throws; empty where it throws none.
+template <typename Call>
+std::string refusal(Call call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
 
 /// A packing with its bodies.
 struct BodyPacking {

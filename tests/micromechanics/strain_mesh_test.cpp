@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -332,8 +333,49 @@ TEST(StrainMesh, InputThatIsNotWhatItSaysIsRefusedByNameAndPlace) {
   off = plane;
   off.edges.col(1) = off.edges.col(0);
   EXPECT_EQ(message(off, good), "edges: the cell must have a volume > 0");
+  off = plane;
+  off.edges(2, 1) = 0.1;
+  EXPECT_EQ(message(off, good), "edges: column 1 must be finite, and have z = 0 in the plane");
   EXPECT_EQ(message(lattice(3, 3), good), "dimensions = 3: polygons are of the plane");
   EXPECT_THROW(delaunay_simplices({}), NoMesh);
+}
+
+TEST(StrainMesh, ImagesBeyondTheMostAreRefused) {
+  Random random(37);
+  const auto message = [](auto call) {
+    try {
+      call();
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Centres centres = random_centres(random, 5, random_cell(random, 3), 3);
+  const Vec3 near = centres.position[2];
+  const Mat3 edges = centres.edges;
+  const auto simplices = [&] { return delaunay_simplices(centres.view()); };
+  const std::string place = "position[2]: more than 67108864 cells from the origin along axis ";
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double by : {1.001 * kMostCells, -1.001 * kMostCells, 1e10, -1e300}) {
+      centres.position[2] = near + by * edges.col(axis);
+      EXPECT_EQ(message(simplices).substr(0, place.size()), place) << by;
+    }
+  centres.position[2] = near + 0.99 * kMostCells * edges.col(1);
+  EXPECT_EQ(message(simplices), "");
+  centres.position[2] = near;
+
+  std::vector<PeriodicSimplex> some = simplices();
+  some[3].image[2][1] = kMostImages + 1;
+  EXPECT_EQ(message([&] { simplex_mesh(centres.view(), some); }),
+            "simplices[3].image[2] = 268435457: more than 268435456 cells away");
+  some[3].image[2][1] = std::numeric_limits<std::int32_t>::min();
+  EXPECT_EQ(message([&] { simplex_mesh(centres.view(), some); }),
+            "simplices[3].image[2] = -2147483648: more than 268435456 cells away");
+
+  const Centres thin{{Vec3::Zero()}, Vec3(1.0, 1e-20, 1.0).asDiagonal(), 3};
+  EXPECT_EQ(message([&] { delaunay_simplices(thin.view()); }),
+            "the cell is too thin for its Delaunay simplices: more than 67108864 images of centres "
+            "are around it");
 }
 
 }  // namespace
