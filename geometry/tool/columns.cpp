@@ -9,9 +9,6 @@
 namespace tangency::tool {
 namespace {
 
-constexpr std::array<std::string_view, 6> kBodyFields{"x", "y", "z", "r1", "r2", "r3"};
-constexpr std::array<std::string_view, 4> kOrientationFields{"qw", "qx", "qy", "qz"};
-
 constexpr std::array<std::string_view, 4> kEllipseFields{"x", "y", "r1", "r2"};
 constexpr std::array<std::string_view, 2> kDirectionFields{"ux", "uy"};
 constexpr std::string_view kDirectionRule =
@@ -25,48 +22,6 @@ tables::Error lacking(const tables::Header& header, std::string_view who,
   for (const std::string& name : missing) what += (&name == &missing.front() ? "" : ", ") + name;
   return tables::Error(
       {.file = header.file(), .line = header.line(), .value = what, .rule = std::string(rule)});
-}
-
-BodyColumns::BodyColumns(const tables::Header& header, std::string_view body) {
-  const std::string prefix = std::string(body) + '.', who = "body " + std::string(body);
-  std::vector<std::string> missing;
-  place_and_axes_ = find_columns(header, prefix, kBodyFields, missing);
-  if (!missing.empty()) {
-    throw lacking(header, who, missing, "a body has the columns x, y, z, r1, r2 and r3");
-  }
-  const auto orientation = find_columns(header, prefix, kOrientationFields, missing);
-  if (missing.empty()) {
-    orientation_ = orientation;
-  } else if (missing.size() < kOrientationFields.size()) {
-    throw lacking(header, who, missing,
-                  "the orientation columns qw, qx, qy and qz come all four or not at all");
-  }
-}
-
-Ellipsoid BodyColumns::read(const tables::RowCursor& row) const {
-  std::array<double, 6> p{};
-  std::transform(place_and_axes_.begin(), place_and_axes_.end(), p.begin(),
-                 [&](tables::Column column) { return row.number(column); });
-  std::array<double, 4> q{1, 0, 0, 0};
-  if (orientation_) {
-    std::transform(orientation_->begin(), orientation_->end(), q.begin(),
-                   [&](tables::Column column) { return row.number(column); });
-  }
-  try {
-    return Ellipsoid(Vec3(p[0], p[1], p[2]), Vec3(p[3], p[4], p[5]),
-                     Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-  } catch (const InvalidEllipsoid& invalid) {
-    const EllipsoidFault& fault = invalid.fault();
-    const auto place =
-        std::find(kBodyFields.begin(), kBodyFields.end(), std::string_view(fault.field));
-    const auto turn = std::find(kOrientationFields.begin(), kOrientationFields.end(),
-                                std::string_view(fault.field));
-    const tables::Column column =
-        place != kBodyFields.end()
-            ? place_and_axes_[static_cast<std::size_t>(place - kBodyFields.begin())]
-            : orientation_.value()[static_cast<std::size_t>(turn - kOrientationFields.begin())];
-    throw row.error(column, fault.rule);
-  }
 }
 
 EllipseColumns::EllipseColumns(const tables::Header& header, std::string_view body) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The columns that a subcommand reads: those of ellipsoids and of ellipses, each behind the name
-/// of its body, and any others by their names.
+/// The columns that a subcommand reads: those of ellipses, each behind the name of its body, and any
+/// others by their names. body_columns.hpp has those of ellipsoids.
 #pragma once
 
 #include <array>
@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <tangency/geometry/ellipse.hpp>
-#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::tool {
@@ -38,22 +37,6 @@ std::array<tables::Column, N> find_columns(const tables::Header& header, std::st
 /// "pairs.csv:1: body a without a.r1, a.r2: rule"
 tables::Error lacking(const tables::Header& header, std::string_view who,
                       const std::vector<std::string>& missing, std::string_view rule);
-
-/// An ellipsoid: x y z r1 r2 r3 and, all four or none, qw qx qy qz.
-class BodyColumns {
- public:
-  /// @param body  "a" or "b"
-  /// @throws tables::Error  naming the columns that the header lacks
-  BodyColumns(const tables::Header& header, std::string_view body);
-
-  /// The body of a row; the identity where the file has no orientation.
-  /// @throws tables::Error  naming the cell that Ellipsoid or parse_number() refuses
-  Ellipsoid read(const tables::RowCursor& row) const;
-
- private:
-  std::array<tables::Column, 6> place_and_axes_{};
-  std::optional<std::array<tables::Column, 4>> orientation_;
-};
 
 /// An ellipse: x y r1 r2 and the direction of its first axis, as ux uy or as angle.
 class EllipseColumns {
