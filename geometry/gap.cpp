@@ -229,22 +229,6 @@ struct ExactMatrices {
   }
 };
 
-/// The gap of bodies that are off by `off` altogether, with the sign of the true ones' relation.
-Gap widened(Gap gap, double off, const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
-  struct {
-    double gap, low, high;
-    bool global;
-  } proof;
-  const double error = (gap.gap_error + off) * (1.0 + 0x1p-50);
-  proof = {gap.gap, gap.gap - error, gap.gap + error, gap.status == GapStatus::ok};
-  const double distance =
-      2.0 * (b.ellipsoid().centre() - a.ellipsoid().centre()).cwiseAbs().maxCoeff() + off;
-  detail::settle_sign(proof, gap.tier, ExactMatrices{a, b}, distance);
-  gap.gap = proof.gap;
-  gap.gap_error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
-  return gap;
-}
-
 /// Is the pair that is solved the one that was asked about? Scaling changes a d that underflows and
 /// the thinnest axes.
 bool as_asked(const Pair& pair) {
@@ -293,7 +277,10 @@ Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept {
   const Gap gap = signed_gap(a.ellipsoid(), b.ellipsoid());
   const double off = a.rounding() + b.rounding();
   if (off == 0.0 || !std::isfinite(gap.gap)) return gap;
-  return in_default_environment([&] { return widened(gap, off, a, b); });
+  return in_default_environment([&] {
+    const Vec3 d = b.ellipsoid().centre() - a.ellipsoid().centre();
+    return detail::widened(gap, off, ExactMatrices{a, b}, 2.0 * d.cwiseAbs().maxCoeff() + off);
+  });
 }
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,

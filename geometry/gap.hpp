@@ -61,8 +61,8 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
-/// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with the sign of
-/// the true bodies' relation, and their roundings in gap_error, which `ok` bounds no longer.
+/// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with the sign
+/// of the true bodies' relation, and their roundings in gap_error, which `ok` bounds no longer.
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago

@@ -75,7 +75,8 @@ RationalMatrix<3> definite(const Mat3& m, const EntryNames& names, const char* f
 }
 
 mpq_class rational_level(double level) {
-  if (!std::isfinite(level) || !(level > 0.0)) refuse("level", level, "a level must be finite and > 0");
+  if (!std::isfinite(level) || !(level > 0.0))
+    refuse("level", level, "a level must be finite and > 0");
   return to_rational(level);
 }
 
@@ -90,9 +91,9 @@ Ellipsoid nearest_ellipsoid(const exact::NearestSolid<3>& s, const char* field) 
   const Vec3 axes(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2]);
   if (!axes.allFinite()) refuse(field, axes.maxCoeff(), kInRange);
   if (!std::isfinite(s.relative)) refuse(field, axes.minCoeff(), kInRange);
-  return Ellipsoid(Vec3(s.centre[0], s.centre[1], s.centre[2]), axes,
-                   Quaternion(s.orientation[0], s.orientation[1], s.orientation[2],
-                              s.orientation[3]));
+  return Ellipsoid(
+      Vec3(s.centre[0], s.centre[1], s.centre[2]), axes,
+      Quaternion(s.orientation[0], s.orientation[1], s.orientation[2], s.orientation[3]));
 }
 
 std::shared_ptr<const RationalSolid<3>> shared(RationalSolid<3> solid) {

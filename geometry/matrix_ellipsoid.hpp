@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A solid ellipsoid as its owner has it: by a shape or covariance matrix, by the inverse of one, by
-/// three axis vectors, or by the coefficients of a quadric.
+/// A solid ellipsoid as its owner has it: by a shape or covariance matrix, by the inverse of one,
+/// by three axis vectors, or by the coefficients of a quadric.
 ///
 /// Frame and units as for Ellipsoid. The solid is determined by the doubles as they are given, and
 /// every yes/no question about it is answered for exactly that solid: relation() of relation.hpp.

@@ -133,10 +133,9 @@ double nearest(const mpf_class& x) {
 
 /// The quaternion of a rotation, of unit length: the row of the largest component first.
 std::array<double, 4> orientation_of(const WideMatrix<3>& r) {
-  const std::array<mpf_class, 4> squares{1 + r[0][0] + r[1][1] + r[2][2],
-                                         1 + r[0][0] - r[1][1] - r[2][2],
-                                         1 - r[0][0] + r[1][1] - r[2][2],
-                                         1 - r[0][0] - r[1][1] + r[2][2]};
+  const std::array<mpf_class, 4> squares{
+      1 + r[0][0] + r[1][1] + r[2][2], 1 + r[0][0] - r[1][1] - r[2][2],
+      1 - r[0][0] + r[1][1] - r[2][2], 1 - r[0][0] - r[1][1] + r[2][2]};
   const auto largest = static_cast<std::size_t>(
       std::distance(squares.begin(), std::max_element(squares.begin(), squares.end())));
   const std::array<mpf_class, 3> turns{r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]};
@@ -200,9 +199,7 @@ WideMatrix<N> wide_rotation(const NearestSolid<N>& solid, long bits) {
 }
 
 /// Upwards, a sum of a few squares' root included.
-double rounded_up(const mpf_class& x) {
-  return double_above(mpq_class(x)) * (1.0 + 0x1p-40);
-}
+double rounded_up(const mpf_class& x) { return double_above(mpq_class(x)) * (1.0 + 0x1p-40); }
 
 /// How far the solid of doubles is from the true one: with U = V diag(a), E = R diag(b),
 /// h(n) = |U'n| differs from |E'n| by at most |U - E|, and by |E^-1 U - 1| times |E'n|.
@@ -220,8 +217,8 @@ void measure(const RationalSolid<N>& solid, const Eigen<N>& found,
       turned /= mpf_class(nearest_one.semi_axes[i]);
       if (i == k) turned -= 1;
       relative += turned * turned;
-      const mpf_class apart = found.vectors[i][k] * semi_axes[k] -
-                              r[i][k] * mpf_class(nearest_one.semi_axes[k]);
+      const mpf_class apart =
+          found.vectors[i][k] * semi_axes[k] - r[i][k] * mpf_class(nearest_one.semi_axes[k]);
       absolute += apart * apart;
     }
     const mpf_class off(mpq_class(solid.centre[i] - to_rational(nearest_one.centre[i])),
@@ -229,7 +226,8 @@ void measure(const RationalSolid<N>& solid, const Eigen<N>& found,
     shift += off * off;
   }
   const mpf_class distance = sqrt(shift);
-  const double least = *std::min_element(nearest_one.semi_axes.begin(), nearest_one.semi_axes.end());
+  const double least =
+      *std::min_element(nearest_one.semi_axes.begin(), nearest_one.semi_axes.end());
   nearest_one.relative = rounded_up(mpf_class(sqrt(relative) + distance / mpf_class(least)));
   nearest_one.absolute = rounded_up(mpf_class(sqrt(absolute) + distance));
   // An exact body, an axis parallel one say, costs nothing.

@@ -3,7 +3,8 @@
 /// A solid { x : (x - c)' M^-1 (x - c) <= 1 } with a rational centre c and shape matrix M, in space
 /// or in the plane: what bodies given by matrices mean exactly. Internal (GMP).
 ///
-/// (1) form / denominator of integer_form() is the discriminant matrix of (x - c)' M^-1 (x - c) - 1,
+/// (1) form / denominator of integer_form() is the discriminant matrix of (x - c)' M^-1 (x - c) -
+/// 1,
 ///     negative inside, -1 at the centre.
 /// (2) With E the solid of nearest_solid() about its own centre, (1 - relative) E lies in the true
 ///     solid and that in (1 + relative) E; no support function is off by more than `absolute`, the

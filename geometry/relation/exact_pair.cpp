@@ -121,8 +121,7 @@ ExactPair::ExactPair(const SolidForm<4>& a, const SolidForm<4>& b) {
     const IntegerPolynomial p = pencil_determinant(b.form, a.form, size);
     std::vector<mpz_class> c(p.coefficients().begin(), p.coefficients().end());
     for (std::size_t k = 0; k < c.size(); ++k) {
-      for (std::size_t i = 0; i + 1 < c.size(); ++i)
-        c[k] *= i < k ? b.denominator : a.denominator;
+      for (std::size_t i = 0; i + 1 < c.size(); ++i) c[k] *= i < k ? b.denominator : a.denominator;
     }
     return without_powers_of_two(std::move(c));
   };

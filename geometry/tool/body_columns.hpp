@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The columns of an ellipsoid, in whichever form its owner has it. A form is known by its columns;
-/// a body has one.
+/// The columns of ellipsoids and ellipses, in whichever form their owner has them.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
+#include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tool/columns.hpp>
 
 namespace tangency::tool {
 
@@ -21,44 +17,48 @@ enum class MixedTerms {
   half,  ///< 2D xy and so on stand in the equation
   full,  ///< D xy does
 };
-
 /// "half" or "full".
 MixedTerms mixed_terms_named(std::string_view name);
 
-/// For a help text: the forms and their columns.
+/// For help texts: the forms and their columns, of body a.
 extern const char* const kBodyColumnsHelp;
+extern const char* const kEllipseColumnsHelp;
 
+/// An ellipsoid: by semi-axes and, if so wanted, a quaternion; by a shape or precision matrix; by
+/// axis vectors; or by a quadric.
 class BodyColumns {
  public:
-  /// @param body  "a" or "b", which stands before the names of its columns with a point; or
-  ///              nothing, for a table of bodies
-  /// @throws tables::Error  naming the columns that the header lacks, or that belong to two forms
+  /// @param body  "a" or "b", or nothing: as FormColumns
+  /// @throws tables::Error  as FormColumns
   BodyColumns(const tables::Header& header, std::string_view body,
               MixedTerms mixed_terms = MixedTerms::half);
 
   /// Are the bodies those of semi-axes and a quaternion, without a matrix?
-  bool has_axes() const noexcept { return form_ == Form::axes; }
+  bool has_axes() const noexcept { return columns_.form() == 0; }
 
-  /// The body of a row; the identity where the file has no orientation.
+  /// The body of a row; not turned where the file has no orientation.
   /// @throws tables::Error  naming the cell, or the matrix, that is refused
   MatrixEllipsoid read(const tables::RowCursor& row) const;
 
  private:
-  enum class Form : std::size_t { axes, shape, precision, vectors, quadric };
+  MatrixEllipsoid body_of(const tables::RowCursor& row) const;
 
-  std::vector<double> numbers(const tables::RowCursor& row) const;
-  double level(const tables::RowCursor& row) const;
-  MatrixEllipsoid body_of(const std::vector<double>& numbers, const tables::RowCursor& row) const;
-  tables::Error refused(const tables::RowCursor& row, const EllipsoidFault& fault) const;
-  void find_level(const tables::Header& header);
-  std::optional<tables::Column> column_of(std::string_view field) const;
-
-  std::string file_, who_, prefix_;
-  Form form_ = Form::axes;
+  FormColumns columns_;
   MixedTerms mixed_terms_;
-  std::vector<std::string_view> fields_;  ///< of the form, in the order of columns_
-  std::vector<tables::Column> columns_;
-  std::optional<tables::Column> level_, confidence_;
+};
+
+/// An ellipse: by semi-axes and the direction of the first, a vector or an angle; by a shape or
+/// precision matrix; or by a conic.
+class EllipseColumns {
+ public:
+  EllipseColumns(const tables::Header& header, std::string_view body);
+
+  MatrixEllipse read(const tables::RowCursor& row) const;
+
+ private:
+  MatrixEllipse body_of(const tables::RowCursor& row) const;
+
+  FormColumns columns_;
 };
 
 }  // namespace tangency::tool

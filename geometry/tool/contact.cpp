@@ -165,9 +165,7 @@ tables::RowOutcome write_answer(const Answer& answer, tables::RowText& out) {
   return answer.has_numbers ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
 }
 
-std::string_view status_of(const Gap& gap) {
-  return gap.status == GapStatus::ok ? "ok" : "local";
-}
+std::string_view status_of(const Gap& gap) { return gap.status == GapStatus::ok ? "ok" : "local"; }
 
 Answer by_common_normal(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
   const Gap gap = signed_gap(a, b);
@@ -260,10 +258,10 @@ void add_contact(tables::Program& program) {
   add_row_stream_options(command, options->rows);
   command.footer(std::string(kBodyColumnsHelp) + kHelp);
   command.runs([options] {
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = bind_method(options->method,
-                                                   mixed_terms_named(options->mixed_terms))};
+    const tables::RowTask task{
+        .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+        .verdict_column = "status",
+        .bind = bind_method(options->method, mixed_terms_named(options->mixed_terms))};
     return tables::run_row_stream(task, options->rows);
   });
 }
