@@ -36,6 +36,17 @@ struct Exact {
   }
 };
 
+/// What the exact relation tells of bodies given by matrices.
+struct ExactMatrices {
+  const MatrixEllipse& a;
+  const MatrixEllipse& b;
+
+  Relation relation() const { return tangency::relation(a, b).relation; }
+  bool overlaps(GapTier&) const {
+    return relation() != Relation::separate && relation() != Relation::external_touch;
+  }
+};
+
 Solved solve(const PlanePair& pair) {
   Solved solved;
   Vec2 normal(std::numeric_limits<double>::quiet_NaN(), 0.0);
@@ -82,6 +93,16 @@ PlaneGap signed_gap(const Ellipse& a, const Ellipse& b) noexcept {
   return in_default_environment([&] {
     const PlanePair pair({a, b});
     return finished(solve(pair), pair);
+  });
+}
+
+PlaneGap signed_gap(const MatrixEllipse& a, const MatrixEllipse& b) noexcept {
+  const PlaneGap gap = signed_gap(a.ellipse(), b.ellipse());
+  const double off = a.rounding() + b.rounding();
+  if (off == 0.0 || !std::isfinite(gap.gap)) return gap;
+  return in_default_environment([&] {
+    const Vec2 d = b.ellipse().centre() - a.ellipse().centre();
+    return detail::widened(gap, off, ExactMatrices{a, b}, 2.0 * d.cwiseAbs().maxCoeff() + off);
   });
 }
 

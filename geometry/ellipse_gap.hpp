@@ -17,6 +17,7 @@
 
 #include <tangency/geometry/ellipse.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/matrix_ellipse.hpp>
 
 namespace tangency {
 
@@ -46,6 +47,10 @@ struct PlaneGap {
 ///
 /// @return infinite where the true gap is beyond the range of doubles
 PlaneGap signed_gap(const Ellipse& a, const Ellipse& b) noexcept;
+
+/// Of ellipses given by matrices: the answer of MatrixEllipse::ellipse() of each, with the sign of
+/// the true bodies' relation, and their roundings in gap_error.
+PlaneGap signed_gap(const MatrixEllipse& a, const MatrixEllipse& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 PlaneGap signed_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;

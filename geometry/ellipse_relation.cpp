@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_relation.hpp>
 
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 
@@ -35,6 +36,16 @@ EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
   const detail::MeetingAnswer found =
       in_default_environment([&] { return detail::ellipse_meeting(a, b); });
   return {found.answer.relation, found.answer.inner, crossings(found.answer.meeting), found.tier};
+}
+
+EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcept {
+  if (a.exact() == nullptr && b.exact() == nullptr) return relation(a.ellipse(), b.ellipse());
+  const auto form_of = [](const MatrixEllipse& body) {
+    return body.exact() != nullptr ? exact::integer_form(*body.exact()).form
+                                   : exact::conic_form(body.ellipse());
+  };
+  const exact::ConicAnswer found = exact::conic_relation(form_of(a), form_of(b));
+  return {found.relation, found.inner, crossings(found.meeting), Tier::exact};
 }
 
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept {

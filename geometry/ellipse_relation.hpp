@@ -17,6 +17,7 @@
 #include <optional>
 
 #include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency {
@@ -32,6 +33,9 @@ struct EllipseRelation {
 
 /// The exact tier allocates; the filter does not.
 EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept;
+
+/// Of ellipses given by matrices: exact for the numbers as they were given. Allocates.
+EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcept;
 
 /// Do the interiors meet?
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept;

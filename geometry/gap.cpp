@@ -216,6 +216,19 @@ Gap finished(Solved solved, const Pair& pair) {
   return detail::finished_gap<Gap>(solved, Exact{pair.asked}, pair, distance);
 }
 
+/// What the exact relation tells of bodies given by matrices.
+struct ExactMatrices {
+  const MatrixEllipsoid& a;
+  const MatrixEllipsoid& b;
+
+  Relation relation() const { return tangency::relation(a, b).relation; }
+  bool overlaps(GapTier& tier) const {
+    const RelationAnswer answer = tangency::relation(a, b);
+    if (answer.tier == Tier::exact) tier = GapTier::exact;
+    return answer.relation != Relation::separate && answer.relation != Relation::external_touch;
+  }
+};
+
 /// Is the pair that is solved the one that was asked about? Scaling changes a d that underflows and
 /// the thinnest axes.
 bool as_asked(const Pair& pair) {
@@ -257,6 +270,16 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] {
     const Pair pair({a, b});
     return finished(solve(pair), pair);
+  });
+}
+
+Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept {
+  const Gap gap = signed_gap(a.ellipsoid(), b.ellipsoid());
+  const double off = a.rounding() + b.rounding();
+  if (off == 0.0 || !std::isfinite(gap.gap)) return gap;
+  return in_default_environment([&] {
+    const Vec3 d = b.ellipsoid().centre() - a.ellipsoid().centre();
+    return detail::widened(gap, off, ExactMatrices{a, b}, 2.0 * d.cwiseAbs().maxCoeff() + off);
   });
 }
 

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
 namespace tangency {
@@ -59,6 +60,10 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
+
+/// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with the sign
+/// of the true bodies' relation, and their roundings in gap_error, which `ok` bounds no longer.
+Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
 /// and stays with the stationary answer it leads to. `ok` where that is known to be global, and

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/relation.hpp>
 
+#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation/exact_pair.hpp>
@@ -87,9 +89,7 @@ RelationAnswer exact_containment(const ExactPair& pair) {
 }
 
 /// @param interiors_meet  is that known?
-[[gnu::noinline]] RelationAnswer exact_relation(const Ellipsoid& a, const Ellipsoid& b,
-                                                bool interiors_meet) {
-  const ExactPair pair(a, b);
+[[gnu::noinline]] RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet) {
   if (interiors_meet) return exact_containment(pair);
   const Position position = pair.position();
   if (position == Position::apart) return exactly(Relation::separate);
@@ -100,7 +100,49 @@ RelationAnswer exact_containment(const ExactPair& pair) {
 RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
   const Found found = filter_relation(a, b);
   if (found.relation) return {*found.relation, Inner::none, Tier::filter};
-  return exact_relation(a, b, found.interiors_meet);
+  return exact_relation(ExactPair(a, b), found.interiors_meet);
+}
+
+exact::EllipsoidForm form_of(const MatrixEllipsoid& body) {
+  return body.exact() != nullptr ? exact::integer_form(*body.exact())
+                                 : exact::ellipsoid_form(body.ellipsoid());
+}
+
+/// The solid by doubles, so much smaller or larger that the true one has it, or lies, inside.
+struct Margins {
+  Ellipsoid inner, outer;
+
+  explicit Margins(const MatrixEllipsoid& body)
+      : inner(scaled(body.ellipsoid(), 1.0 - margin(body))),
+        outer(scaled(body.ellipsoid(), 1.0 + margin(body))) {}
+
+ private:
+  /// The share itself, the rounding of 1 + it and that of the products.
+  static double margin(const MatrixEllipsoid& body) {
+    return body.relative_rounding() + (body.exact() != nullptr ? 0x1p-50 : 0.0);
+  }
+  static Ellipsoid scaled(const Ellipsoid& e, double factor) {
+    return Ellipsoid(e.centre(), factor * e.semi_axes(), e.orientation());
+  }
+};
+
+/// What is so for all bodies between the margins.
+std::optional<Relation> relation_within(const Margins& a, const Margins& b) {
+  if (filter_overlap(a.outer, b.outer) == Filtered::apart) return Relation::separate;
+  const std::optional<Relation> of_larger_a = filter_relation(a.outer, b.inner).relation;
+  if (of_larger_a == Relation::a_in_b) return of_larger_a;
+  const std::optional<Relation> of_larger_b = filter_relation(a.inner, b.outer).relation;
+  if (of_larger_b == Relation::b_in_a) return of_larger_b;
+  // Then the smaller b sticks out of the larger a, and the smaller a out of the larger b.
+  const bool both = of_larger_a == Relation::overlap && of_larger_b == Relation::overlap;
+  if (both && filter_overlap(a.inner, b.inner) == Filtered::interiors_meet)
+    return Relation::overlap;
+  return std::nullopt;
+}
+
+/// Beyond it a margin tells nothing, and axes that are near the ends of the range would leave it.
+bool has_margin(const MatrixEllipsoid& body) {
+  return body.relative_rounding() < 0x1p-10 && body.ellipsoid().moderate();
 }
 
 }  // namespace
@@ -143,6 +185,17 @@ std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) n
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] { return found_relation(a, b); });
+}
+
+RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept {
+  if (a.exact() == nullptr && b.exact() == nullptr) return relation(a.ellipsoid(), b.ellipsoid());
+  return in_default_environment([&] {
+    if (has_margin(a) && has_margin(b)) {
+      if (const auto known = relation_within(Margins(a), Margins(b)))
+        return RelationAnswer{*known, Inner::none, Tier::filter};
+    }
+    return exact_relation(ExactPair(form_of(a), form_of(b)), false);
+  });
 }
 
 }  // namespace tangency

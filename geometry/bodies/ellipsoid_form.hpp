@@ -18,10 +18,7 @@
 
 namespace tangency::exact {
 
-struct EllipsoidForm {
-  IntegerForm<4> form;
-  mpz_class denominator;  ///< > 0
-};
+using EllipsoidForm = SolidForm<4>;
 
 /// |q|^2 R: rows and columns of equal length, not symmetric.
 struct ScaledRotation {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <tangency/geometry/bodies/exact_quadric_type.hpp>
@@ -13,6 +14,15 @@ namespace {
 
 using LinearForm = std::array<std::array<IntegerPolynomial, 4>, 4>;
 using Indices = std::vector<std::size_t>;
+
+/// A + f B
+LinearForm linear_form(const IntegerForm<4>& a, const IntegerForm<4>& b) {
+  LinearForm form;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) form[i][j] = IntegerPolynomial({a[i][j], b[i][j]});
+  }
+  return form;
+}
 
 Indices without(const Indices& indices, std::size_t position) {
   Indices rest = indices;
@@ -129,13 +139,17 @@ std::vector<mpq_class> samples(std::vector<Root>& roots) {
 }  // namespace
 
 PencilInvariants pencil_invariants(const IntegerForm<4>& a, const IntegerForm<4>& b) {
-  LinearForm form;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) form[i][j] = IntegerPolynomial({a[i][j], b[i][j]});
-  }
+  const LinearForm form = linear_form(a, b);
   return {invariant(form, 3, 1), invariant(form, 3, 2), invariant(form, 3, 3),
           invariant(form, 4, 1), invariant(form, 4, 2), invariant(form, 4, 3),
           invariant(form, 4, 4)};
+}
+
+IntegerPolynomial pencil_determinant(const IntegerForm<4>& a, const IntegerForm<4>& b,
+                                     std::size_t size) {
+  Indices all(size);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return minor(linear_form(a, b), all, all);
 }
 
 std::vector<PencilMember> pencil_members(const IntegerForm<4>& a, const IntegerForm<4>& b) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <tangency/geometry/numbers/integer_forms.hpp>
@@ -17,6 +18,10 @@ namespace tangency::exact {
 /// 3 4.
 using PencilInvariants = std::array<IntegerPolynomial, 7>;
 PencilInvariants pencil_invariants(const IntegerForm<4>& a, const IntegerForm<4>& b);
+
+/// det(A + f B) of the leading blocks of a size, 3 or 4.
+IntegerPolynomial pencil_determinant(const IntegerForm<4>& a, const IntegerForm<4>& b,
+                                     std::size_t size);
 
 /// As pencil_members() of pencil.hpp.
 std::vector<PencilMember> pencil_members(const IntegerForm<4>& a, const IntegerForm<4>& b);

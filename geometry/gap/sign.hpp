@@ -44,6 +44,23 @@ void settle_sign(Proof& proof, GapTier& tier, const Exact& exact, double distanc
   }
 }
 
+/// The gap of bodies that are off by `off` altogether, with the sign of the true ones' relation: a
+/// gap changes no faster than support functions do.
+/// @param exact, distance  of the true bodies, as for settle_sign()
+template <class AnyGap, class Exact>
+AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance) {
+  struct {
+    double gap, low, high;
+    bool global;
+  } proof{};
+  const double error = (gap.gap_error + off) * (1.0 + 0x1p-50);
+  proof = {gap.gap, gap.gap - error, gap.gap + error, gap.status == GapStatus::ok};
+  settle_sign(proof, gap.tier, exact, distance);
+  gap.gap = proof.gap;
+  gap.gap_error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
+  return gap;
+}
+
 /// value 2^exponent; the sign is that of the number before it was scaled, whatever underflows.
 inline double scaled_gap(double value, int exponent) {
   if (exponent == 0) return value;

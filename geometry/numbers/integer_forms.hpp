@@ -52,6 +52,13 @@ void strip_powers_of_two(std::span<mpz_class> values);
 template <std::size_t N>
 using IntegerForm = std::array<std::array<mpz_class, N>, N>;
 
+/// The form of a solid over a denominator, negative inside and -1 at its centre.
+template <std::size_t N>
+struct SolidForm {
+  IntegerForm<N> form;
+  mpz_class denominator;  ///< > 0
+};
+
 /// Numbers of positive, negative and zero eigenvalues.
 struct Inertia {
   int positive = 0;

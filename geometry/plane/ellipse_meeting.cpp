@@ -122,8 +122,30 @@ ConicAnswer with_multiple_root(const Forms& q, const IntegerPolynomial& cubic) {
 
 }  // namespace
 
+// With x = 2^unit X the form in X becomes one in x by powers of two on either side.
+IntegerForm<3> conic_form(const Ellipse& e) {
+  const std::array<double, 4> lengths{e.centre()[0], e.centre()[1], e.semi_axes()[0],
+                                      e.semi_axes()[1]};
+  const int unit = common_exponent(lengths);
+  IntegerForm<3> form = form_of(e, to_integers(e.centre(), unit), unit);
+  const auto shift = static_cast<mp_bitcnt_t>(std::abs(unit));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto lines =
+          static_cast<mp_bitcnt_t>(unit > 0 ? (i == 2) + (j == 2) : (i != 2) + (j != 2));
+      form[i][j] <<= shift * lines;
+    }
+  }
+  return form;
+}
+
 ConicAnswer conic_relation(const Ellipse& a, const Ellipse& b) {
   const Forms q = forms_of(a, b);
+  return conic_relation(q.a, q.b);
+}
+
+ConicAnswer conic_relation(const IntegerForm<3>& a, const IntegerForm<3>& b) {
+  const Forms q{a, b};
   const IntegerPolynomial cubic = characteristic_cubic(q);
   const int discriminant = discriminant_sign(cubic);
   if (discriminant < 0) return {Relation::overlap, Inner::none, Meeting::two_simple};

@@ -19,6 +19,7 @@
 #include <optional>
 
 #include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency::exact {
@@ -44,6 +45,10 @@ struct ConicAnswer {
 
 /// The exact relation and meeting.
 ConicAnswer conic_relation(const Ellipse& a, const Ellipse& b);
+/// Of forms that are negative inside, in the same coordinates.
+ConicAnswer conic_relation(const IntegerForm<3>& a, const IntegerForm<3>& b);
+/// In the coordinates themselves.
+IntegerForm<3> conic_form(const Ellipse& e);
 
 }  // namespace tangency::exact
 

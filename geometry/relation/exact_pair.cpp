@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/bodies/pencil_form.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/largest_root.hpp>
 
@@ -112,6 +113,20 @@ ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b) {
   const mpz_class d2 = trace_of_product(bb.adjugate, ba.shape);
   quartic_ = without_powers_of_two({-d0, n0 - d1 - d0, n1 - d2 - d1, n2 - d3 - d2, -d3});
   shapes_ = without_powers_of_two({d0, d1, d2, d3});
+}
+
+// With forms a and b times the denominators da and db, det(l a + b) in l da/db is what is asked.
+ExactPair::ExactPair(const SolidForm<4>& a, const SolidForm<4>& b) {
+  const auto weighted = [&](std::size_t size) {
+    const IntegerPolynomial p = pencil_determinant(b.form, a.form, size);
+    std::vector<mpz_class> c(p.coefficients().begin(), p.coefficients().end());
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      for (std::size_t i = 0; i + 1 < c.size(); ++i) c[k] *= i < k ? b.denominator : a.denominator;
+    }
+    return without_powers_of_two(std::move(c));
+  };
+  quartic_ = weighted(4);
+  shapes_ = weighted(3);
 }
 
 ExactPair::ExactPair(IntegerPolynomial quartic, IntegerPolynomial shapes)

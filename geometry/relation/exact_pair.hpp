@@ -15,6 +15,7 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 
 namespace tangency::exact {
@@ -27,6 +28,9 @@ enum class Containment { none, touching, interior };
 class ExactPair {
  public:
   ExactPair(const Ellipsoid& a, const Ellipsoid& b);
+  /// Of solids by their forms, in the same coordinates; the denominators take part, so that equal
+  /// solids are seen.
+  ExactPair(const SolidForm<4>& a, const SolidForm<4>& b);
 
   /// Identity (3).
   Position position() const;

@@ -105,11 +105,7 @@ void add_classify(tables::Program& program) {
   };
   const auto options = std::make_shared<Options>();
   tables::Command& command = program.subcommand("classify", "Exact types of quadrics");
-  command
-      .option("--mixed-terms", options->mixed_terms,
-              "What D, E, F, G, H and J are of the factors of their terms: half (default), or full")
-      .one_of({"half", "full"})
-      .type_name("half|full");
+  add_mixed_terms_option(command, options->mixed_terms);
   add_row_stream_options(command, *options);
   command.footer(kHelp);
   command.runs([options] {

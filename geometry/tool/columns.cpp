@@ -2,20 +2,33 @@
 #include <tangency/geometry/tool/columns.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-#include <vector>
+#include <stdexcept>
+
+#include <tangency/geometry/matrix_ellipsoid.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::tool {
 namespace {
 
-constexpr std::array<std::string_view, 6> kBodyFields{"x", "y", "z", "r1", "r2", "r3"};
-constexpr std::array<std::string_view, 4> kOrientationFields{"qw", "qx", "qy", "qz"};
+std::string listed(const std::vector<std::string_view>& fields) {
+  std::string text;
+  for (const std::string_view field : fields) {
+    const bool first = &field == &fields.front(), last = &field == &fields.back();
+    text += (first ? "" : last ? " and " : ", ") + std::string(field);
+  }
+  return text;
+}
 
-constexpr std::array<std::string_view, 4> kEllipseFields{"x", "y", "r1", "r2"};
-constexpr std::array<std::string_view, 2> kDirectionFields{"ux", "uy"};
-constexpr std::string_view kDirectionRule =
-    "the direction of the first axis is given by both ux and uy, or by angle, not by both";
+std::vector<std::string_view> joined(const std::vector<std::string_view>& a,
+                                     const std::vector<std::string_view>& b) {
+  std::vector<std::string_view> result = a;
+  result.insert(result.end(), b.begin(), b.end());
+  return result;
+}
+
+std::vector<std::string_view> all_of(const BodyForm& form) {
+  return joined(joined(form.place, form.own), form.optional);
+}
 
 }  // namespace
 
@@ -27,96 +40,104 @@ tables::Error lacking(const tables::Header& header, std::string_view who,
       {.file = header.file(), .line = header.line(), .value = what, .rule = std::string(rule)});
 }
 
-BodyColumns::BodyColumns(const tables::Header& header, std::string_view body) {
-  const std::string prefix = std::string(body) + '.', who = "body " + std::string(body);
+FormColumns::FormColumns(const tables::Header& header, std::string_view body,
+                         std::span<const BodyForm> forms, std::string_view rule)
+    : file_(header.file()),
+      who_(body.empty() ? std::string("the body") : "body " + std::string(body)),
+      prefix_(body.empty() ? std::string() : std::string(body) + '.') {
+  find_form(header, forms, rule);
+  const BodyForm& form = forms[form_];
+  const auto find_all = [&](const std::vector<std::string_view>& fields,
+                            std::vector<std::string>& missing) {
+    std::vector<tables::Column> found;
+    for (const std::string_view field : fields)
+      found.push_back(find_columns(header, prefix_, std::array{field}, missing)[0]);
+    return found;
+  };
   std::vector<std::string> missing;
-  place_and_axes_ = find_columns(header, prefix, kBodyFields, missing);
-  if (!missing.empty()) {
-    throw lacking(header, who, missing, "a body has the columns x, y, z, r1, r2 and r3");
-  }
-  const auto orientation = find_columns(header, prefix, kOrientationFields, missing);
+  fields_ = joined(form.place, form.own);
+  columns_ = find_all(fields_, missing);
+  if (!missing.empty())
+    throw lacking(
+        header, who_, missing,
+        "a body given by " + std::string(form.name) + " has the columns " + listed(fields_));
+  const std::vector<tables::Column> optional = find_all(form.optional, missing);
   if (missing.empty()) {
-    orientation_ = orientation;
-  } else if (missing.size() < kOrientationFields.size()) {
-    throw lacking(header, who, missing,
-                  "the orientation columns qw, qx, qy and qz come all four or not at all");
+    fields_ = joined(fields_, form.optional);
+    columns_.insert(columns_.end(), optional.begin(), optional.end());
+  } else if (missing.size() < form.optional.size()) {
+    throw lacking(header, who_, missing,
+                  "the columns " + listed(form.optional) + " come all or not at all");
   }
+  find_level(header, form.has_level);
 }
 
-Ellipsoid BodyColumns::read(const tables::RowCursor& row) const {
-  std::array<double, 6> p{};
-  std::transform(place_and_axes_.begin(), place_and_axes_.end(), p.begin(),
-                 [&](tables::Column column) { return row.number(column); });
-  std::array<double, 4> q{1, 0, 0, 0};
-  if (orientation_) {
-    std::transform(orientation_->begin(), orientation_->end(), q.begin(),
-                   [&](tables::Column column) { return row.number(column); });
-  }
-  try {
-    return Ellipsoid(Vec3(p[0], p[1], p[2]), Vec3(p[3], p[4], p[5]),
-                     Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-  } catch (const InvalidEllipsoid& invalid) {
-    const EllipsoidFault& fault = invalid.fault();
-    const auto place =
-        std::find(kBodyFields.begin(), kBodyFields.end(), std::string_view(fault.field));
-    const auto turn = std::find(kOrientationFields.begin(), kOrientationFields.end(),
-                                std::string_view(fault.field));
-    const tables::Column column =
-        place != kBodyFields.end()
-            ? place_and_axes_[static_cast<std::size_t>(place - kBodyFields.begin())]
-            : orientation_.value()[static_cast<std::size_t>(turn - kOrientationFields.begin())];
-    throw row.error(column, fault.rule);
-  }
-}
-
-EllipseColumns::EllipseColumns(const tables::Header& header, std::string_view body) {
-  const std::string prefix = std::string(body) + '.', who = "body " + std::string(body);
-  std::vector<std::string> missing;
-  place_and_axes_ = find_columns(header, prefix, kEllipseFields, missing);
-  if (!missing.empty()) {
-    throw lacking(header, who, missing, "an ellipse has the columns x, y, r1 and r2");
-  }
-  const auto direction = find_columns(header, prefix, kDirectionFields, missing);
-  const auto angle = header.find(prefix + "angle");
-  if (angle && missing.size() < kDirectionFields.size()) {
-    throw tables::Error({.file = header.file(),
-                         .line = header.line(),
-                         .value = who + " with " + header.name(*angle) + " and ux or uy",
-                         .rule = std::string(kDirectionRule)});
-  }
-  if (angle) {
-    direction_ = *angle;
-  } else if (missing.empty()) {
-    direction_ = direction;
-  } else {
-    throw lacking(header, who, missing, kDirectionRule);
-  }
-}
-
-tables::Column EllipseColumns::column_of(std::string_view field) const {
-  const auto place = std::ranges::find(kEllipseFields, field);
-  if (place != kEllipseFields.end()) {
-    return place_and_axes_[static_cast<std::size_t>(place - kEllipseFields.begin())];
-  }
-  if (const auto* angle = std::get_if<tables::Column>(&direction_)) return *angle;
-  return std::get<Direction>(direction_)[field == kDirectionFields[0] ? 0 : 1];
-}
-
-Ellipse EllipseColumns::read(const tables::RowCursor& row) const {
-  std::array<double, 4> p{};
-  std::ranges::transform(place_and_axes_, p.begin(),
-                         [&](tables::Column column) { return row.number(column); });
-  const Vec2 centre(p[0], p[1]), semi_axes(p[2], p[3]);
-  try {
-    if (const auto* angle = std::get_if<tables::Column>(&direction_)) {
-      return Ellipse::at_angle(centre, semi_axes, row.number(*angle));
+void FormColumns::find_form(const tables::Header& header, std::span<const BodyForm> forms,
+                            std::string_view rule) {
+  const auto has = [&](std::string_view field) {
+    return header.find(prefix_ + std::string(field)).has_value();
+  };
+  const auto known = std::ranges::find_if(
+      forms, [&](const BodyForm& form) { return std::ranges::any_of(form.own, has); });
+  if (known == forms.end()) return;
+  form_ = static_cast<std::size_t>(known - forms.begin());
+  const std::vector<std::string_view> fields = all_of(*known);
+  for (const BodyForm& other : forms) {
+    for (const std::string_view field : all_of(other)) {
+      if (std::ranges::find(fields, field) != fields.end() || !has(field)) continue;
+      const std::string_view own = *std::ranges::find_if(known->own, has);
+      throw tables::Error({.file = file_,
+                           .line = header.line(),
+                           .value = who_ + " with " + prefix_ + std::string(own) + " and " +
+                                    prefix_ + std::string(field),
+                           .rule = std::string(rule)});
     }
-    const auto& [ux, uy] = std::get<Direction>(direction_);
-    const double x = row.number(ux);
-    return Ellipse(centre, semi_axes, Vec2(x, row.number(uy)));
-  } catch (const InvalidEllipse& invalid) {
-    throw row.error(column_of(invalid.fault().field), invalid.fault().rule);
   }
+}
+
+void FormColumns::find_level(const tables::Header& header, bool has_level) {
+  level_ = header.find(prefix_ + "level");
+  confidence_ = header.find(prefix_ + "confidence");
+  const auto refuse = [&](tables::Column column, std::string_view rule) {
+    throw tables::Error({.file = file_,
+                         .line = header.line(),
+                         .value = who_ + " with " + header.name(column),
+                         .rule = std::string(rule)});
+  };
+  if (!has_level && (level_ || confidence_))
+    refuse(level_ ? *level_ : *confidence_, "a level goes with a shape or precision matrix");
+  if (level_ && confidence_) refuse(*confidence_, "a body has a level or a confidence, not both");
+}
+
+std::vector<double> FormColumns::numbers(const tables::RowCursor& row) const {
+  std::vector<double> result(columns_.size());
+  std::ranges::transform(columns_, result.begin(),
+                         [&](tables::Column column) { return row.number(column); });
+  return result;
+}
+
+double FormColumns::level(const tables::RowCursor& row, int dimensions) const {
+  if (level_) return row.number(*level_);
+  if (!confidence_) return 1.0;
+  const double confidence = row.number(*confidence_);
+  try {
+    return level_of_confidence(confidence, dimensions);
+  } catch (const std::invalid_argument& refused) {
+    throw row.error(*confidence_, refused.what());
+  }
+}
+
+tables::Error FormColumns::refused(const tables::RowCursor& row, std::string_view field,
+                                   double value, std::string_view rule) const {
+  const auto place = std::ranges::find(fields_, field);
+  if (place != fields_.end())
+    return row.error(columns_[static_cast<std::size_t>(place - fields_.begin())], rule);
+  if (field == "level" && level_) return row.error(*level_, rule);
+  return tables::Error({.file = file_,
+                        .line = row.line(),
+                        .column = prefix_ + std::string(field),
+                        .value = tables::to_text(value),
+                        .rule = std::string(rule)});
 }
 
 }  // namespace tangency::tool

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The columns that a subcommand reads: those of ellipsoids and of ellipses, each behind the name
-/// of its body, and any others by their names.
+/// The columns that a subcommand reads, by their names; and those of a body that may be given in
+/// one of several forms, each known by its columns. body_columns.hpp has the forms.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include <tangency/geometry/ellipse.hpp>
-#include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::tool {
@@ -39,39 +37,45 @@ std::array<tables::Column, N> find_columns(const tables::Header& header, std::st
 tables::Error lacking(const tables::Header& header, std::string_view who,
                       const std::vector<std::string>& missing, std::string_view rule);
 
-/// An ellipsoid: x y z r1 r2 r3 and, all four or none, qw qx qy qz.
-class BodyColumns {
- public:
-  /// @param body  "a" or "b"
-  /// @throws tables::Error  naming the columns that the header lacks
-  BodyColumns(const tables::Header& header, std::string_view body);
-
-  /// The body of a row; the identity where the file has no orientation.
-  /// @throws tables::Error  naming the cell that Ellipsoid or parse_number() refuses
-  Ellipsoid read(const tables::RowCursor& row) const;
-
- private:
-  std::array<tables::Column, 6> place_and_axes_{};
-  std::optional<std::array<tables::Column, 4>> orientation_;
+/// One way to give a body.
+struct BodyForm {
+  std::string_view name;                   ///< in messages: "a shape matrix"
+  std::vector<std::string_view> place;     ///< columns that other forms have too
+  std::vector<std::string_view> own;       ///< columns by which it is known
+  std::vector<std::string_view> optional;  ///< all or none of them
+  bool has_level = false;                  ///< may level or confidence stand beside it?
 };
 
-/// An ellipse: x y r1 r2 and the direction of its first axis, as ux uy or as angle.
-class EllipseColumns {
+/// The columns of one body, whose form is found from the header.
+class FormColumns {
  public:
-  /// @param body  "a" or "b"
-  /// @throws tables::Error  naming the columns that the header lacks, or has too many of
-  EllipseColumns(const tables::Header& header, std::string_view body);
+  /// @param body   "a" or "b", which stands before the names of its columns with a point; or
+  ///               nothing, for a table of bodies
+  /// @param forms  must outlive this; the first is asked for where none is there
+  /// @param rule   what is allowed, where two forms are there
+  /// @throws tables::Error  naming the columns that the header lacks, or that belong to two forms
+  FormColumns(const tables::Header& header, std::string_view body, std::span<const BodyForm> forms,
+              std::string_view rule);
 
-  /// @throws tables::Error  naming the cell that Ellipse or parse_number() refuses
-  Ellipse read(const tables::RowCursor& row) const;
+  std::size_t form() const noexcept { return form_; }
+  /// The cells of a row: place, own, and the optional ones where they are there.
+  std::vector<double> numbers(const tables::RowCursor& row) const;
+  /// Of the columns level or confidence; 1 without them.
+  double level(const tables::RowCursor& row, int dimensions) const;
+  /// A fault of the field: of its cell or, where it has none, of a matrix as a whole.
+  tables::Error refused(const tables::RowCursor& row, std::string_view field, double value,
+                        std::string_view rule) const;
 
  private:
-  using Direction = std::array<tables::Column, 2>;
+  void find_form(const tables::Header& header, std::span<const BodyForm> forms,
+                 std::string_view rule);
+  void find_level(const tables::Header& header, bool has_level);
 
-  tables::Column column_of(std::string_view field) const;
-
-  std::array<tables::Column, 4> place_and_axes_{};
-  std::variant<Direction, tables::Column> direction_;  ///< ux uy, or angle
+  std::string file_, who_, prefix_;
+  std::size_t form_ = 0;
+  std::vector<std::string_view> fields_;  ///< in the order of columns_
+  std::vector<tables::Column> columns_;
+  std::optional<tables::Column> level_, confidence_;
 };
 
 }  // namespace tangency::tool

@@ -34,4 +34,13 @@ void add_row_stream_options(tables::Command& command, tables::RowStreamOptions& 
       .type_name("");
 }
 
+void add_mixed_terms_option(tables::Command& command, std::string& mixed_terms) {
+  command
+      .option("--mixed-terms", mixed_terms,
+              "What D, E, F, G, H and J of a quadric are of the factors of their terms: half "
+              "(default), or full")
+      .one_of({"half", "full"})
+      .type_name("half|full");
+}
+
 }  // namespace tangency::tool

@@ -3,6 +3,8 @@
 /// The subcommands, and what they have in common on the command line.
 #pragma once
 
+#include <string>
+
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/row_stream.hpp>
 
@@ -10,6 +12,9 @@ namespace tangency::tool {
 
 /// Adds --threads, --out, --keep-going and FILE. The options must outlive the parsing.
 void add_row_stream_options(tables::Command& command, tables::RowStreamOptions& options);
+
+/// Adds --mixed-terms half|full: how the coefficients of quadrics are written.
+void add_mixed_terms_option(tables::Command& command, std::string& mixed_terms);
 
 void add_contact(tables::Program& program);
 void add_overlap(tables::Program& program);

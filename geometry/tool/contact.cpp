@@ -12,7 +12,7 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
@@ -24,14 +24,8 @@ constexpr std::array<std::string_view, 15> kOutputColumns{
     "pa.z", "pb.x",     "pb.y", "pb.z", "gap_error", "status", "inner"};
 
 constexpr const char* kHelp = R"(
-Input columns, in any order; others are ignored:
-  a.x a.y a.z      centre of body a
-  a.r1 a.r2 a.r3   its semi-axes, > 0
-  a.qw a.qx a.qy a.qz
-                   its orientation, a quaternion other than 0 of any length that turns
-                   body axes into space axes; all four or none (no rotation)
-  and the same with b. for body b. Lengths are in any one unit. Numbers are decimal or
-  hex floats (0x1.8p+3). Lines that begin with # and blank lines are skipped.
+The same columns with b. are those of body b. Lengths are in any one unit. Numbers are
+decimal or hex floats (0x1.8p+3). Lines that begin with # and blank lines are skipped.
 
 Output columns, in this order:
   row              number of the data row, from 0
@@ -109,11 +103,11 @@ Answer without_numbers(const RelationAnswer& relation, std::string_view status) 
 
 /// The answer with the numbers of a Gap or OtherGap, unless one is beyond the range of a double.
 template <class AnyGap>
-Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
+Answer with_numbers(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const AnyGap& found,
                     std::string_view status, std::optional<double> gap_error) {
   const RelationAnswer exact = relation(a, b);
-  const Vec3 point_a = a.centre() + found.arm_a;
-  const Vec3 point_b = b.centre() + found.arm_b;
+  const Vec3 point_a = a.ellipsoid().centre() + found.arm_a;
+  const Vec3 point_b = b.ellipsoid().centre() + found.arm_b;
   const bool representable = std::isfinite(found.gap) && found.normal.allFinite() &&
                              point_a.allFinite() && point_b.allFinite() &&
                              std::isfinite(gap_error.value_or(0.0));
@@ -122,8 +116,8 @@ Answer with_numbers(const Ellipsoid& a, const Ellipsoid& b, const AnyGap& found,
 }
 
 template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>
-Answer by_other_definition(const Ellipsoid& a, const Ellipsoid& b) {
-  const OtherGap found = find(a, b);
+Answer by_other_definition(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
+  const OtherGap found = find(a.ellipsoid(), b.ellipsoid());
   switch (found.status) {
     case OtherGapStatus::ok:
       return with_numbers(a, b, found, "ok", std::nullopt);
@@ -135,8 +129,8 @@ Answer by_other_definition(const Ellipsoid& a, const Ellipsoid& b) {
   return without_numbers(relation(a, b), "not_converged");
 }
 
-Answer by_trace(const Ellipsoid& a, const Ellipsoid& b) {
-  const TraceContact found = trace_contact(a, b);
+Answer by_trace(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
+  const TraceContact found = trace_contact(a.ellipsoid(), b.ellipsoid());
   if (found.status != TraceStatus::ok) return without_numbers(relation(a, b), "not_applicable");
   return with_numbers(a, b, found, "ok", std::nullopt);
 }
@@ -171,14 +165,21 @@ tables::RowOutcome write_answer(const Answer& answer, tables::RowText& out) {
   return answer.has_numbers ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
 }
 
-/// The common normal, for all rows that are read in one call.
+std::string_view status_of(const Gap& gap) { return gap.status == GapStatus::ok ? "ok" : "local"; }
+
+Answer by_common_normal(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
+  const Gap gap = signed_gap(a, b);
+  return with_numbers(a, b, gap, status_of(gap), gap.gap_error);
+}
+
+/// The same of bodies by their axes, for all rows that are read in one call.
 class CommonNormalRows : public tables::Rows {
  public:
   CommonNormalRows(const BodyColumns& a, const BodyColumns& b) : columns_a_(a), columns_b_(b) {}
 
   void read(const tables::RowCursor& row) override {
-    const Ellipsoid a = columns_a_.read(row), b = columns_b_.read(row);
-    a_.push_back(a), b_.push_back(b);
+    const MatrixEllipsoid a = columns_a_.read(row), b = columns_b_.read(row);
+    a_.push_back(a.ellipsoid()), b_.push_back(b.ellipsoid());
   }
   void answer() override {
     gaps_.resize(a_.size());
@@ -186,8 +187,7 @@ class CommonNormalRows : public tables::Rows {
   }
   tables::RowOutcome write(std::size_t i, tables::RowText& out) const override {
     const Gap& gap = gaps_[i];
-    const std::string_view status = gap.status == GapStatus::ok ? "ok" : "local";
-    return write_answer(with_numbers(a_[i], b_[i], gap, status, gap.gap_error), out);
+    return write_answer(with_numbers(a_[i], b_[i], gap, status_of(gap), gap.gap_error), out);
   }
   void clear() override { a_.clear(), b_.clear(); }
 
@@ -197,43 +197,42 @@ class CommonNormalRows : public tables::Rows {
   std::vector<Gap> gaps_;
 };
 
-tables::MakeRows bind_common_normal(const tables::Header& header) {
-  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")] {
-    return std::make_unique<CommonNormalRows>(a, b);
-  };
-}
+using OneAnswer = Answer (*)(const MatrixEllipsoid&, const MatrixEllipsoid&);
 
-/// @param answer  of one pair
-tables::BindRows one_by_one(Answer (*answer)(const Ellipsoid&, const Ellipsoid&)) {
-  return tables::row_by_row([answer](const tables::Header& header) -> tables::RowFunction {
-    return [answer, a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](
-               const tables::RowCursor& row, tables::RowText& out) {
+struct Method {
+  std::string_view name;
+  OneAnswer answer;
+};
+
+constexpr std::array<Method, 4> kMethods{
+    {{"common-normal", by_common_normal},
+     {"perram-wertheim", by_other_definition<perram_wertheim_gap>},
+     {"midpoint-potential", by_other_definition<midpoint_potential_gap>},
+     {"trace", by_trace}}};
+
+tables::BindRows one_by_one(OneAnswer answer, MixedTerms mixed_terms) {
+  return tables::row_by_row([=](const tables::Header& header) -> tables::RowFunction {
+    return [answer, a = BodyColumns(header, "a", mixed_terms),
+            b = BodyColumns(header, "b", mixed_terms)](const tables::RowCursor& row,
+                                                       tables::RowText& out) {
       return write_answer(answer(a.read(row), b.read(row)), out);
     };
   });
 }
 
-struct Method {
-  std::string_view name;
-  tables::BindRows bind;
-};
-
-const std::array<Method, 4>& methods() {
-  static const std::array<Method, 4> all{
-      {{"common-normal", bind_common_normal},
-       {"perram-wertheim", one_by_one(by_other_definition<perram_wertheim_gap>)},
-       {"midpoint-potential", one_by_one(by_other_definition<midpoint_potential_gap>)},
-       {"trace", one_by_one(by_trace)}}};
-  return all;
-}
-
-/// Requires a name that check_method() accepts.
-const Method& method_named(std::string_view name) {
-  return *std::ranges::find(methods(), name, &Method::name);
+/// @param name  one that check_method() accepts
+tables::BindRows bind_method(std::string_view name, MixedTerms mixed_terms) {
+  const Method& method = *std::ranges::find(kMethods, name, &Method::name);
+  return [=](const tables::Header& header) -> tables::MakeRows {
+    const BodyColumns a(header, "a", mixed_terms), b(header, "b", mixed_terms);
+    if (method.answer == by_common_normal && a.has_axes() && b.has_axes())
+      return [a, b] { return std::make_unique<CommonNormalRows>(a, b); };
+    return one_by_one(method.answer, mixed_terms)(header);
+  };
 }
 
 std::string check_method(const std::string& name) {
-  if (std::ranges::find(methods(), name, &Method::name) != methods().end()) return {};
+  if (std::ranges::find(kMethods, name, &Method::name) != kMethods.end()) return {};
   return name +
          " is not a method; common-normal, perram-wertheim, midpoint-potential and trace are";
 }
@@ -242,7 +241,8 @@ std::string check_method(const std::string& name) {
 
 void add_contact(tables::Program& program) {
   struct Options {
-    std::string method{methods().front().name};
+    std::string method{kMethods.front().name};
+    std::string mixed_terms = "half";
     tables::RowStreamOptions rows;
   };
   const auto options = std::make_shared<Options>();
@@ -254,12 +254,14 @@ void add_contact(tables::Program& program) {
               "midpoint-potential or trace")
       .check(check_method)
       .type_name("M");
+  add_mixed_terms_option(command, options->mixed_terms);
   add_row_stream_options(command, options->rows);
-  command.footer(kHelp);
+  command.footer(std::string(kBodyColumnsHelp) + kHelp);
   command.runs([options] {
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = method_named(options->method).bind};
+    const tables::RowTask task{
+        .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+        .verdict_column = "status",
+        .bind = bind_method(options->method, mixed_terms_named(options->mixed_terms))};
     return tables::run_row_stream(task, options->rows);
   });
 }

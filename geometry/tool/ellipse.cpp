@@ -3,12 +3,13 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
 #include <tangency/geometry/ellipse_relation.hpp>
-#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
 namespace tangency::tool {
@@ -19,14 +20,8 @@ constexpr std::array<std::string_view, 11> kOutputColumns{
     "ny",  "chord_depth", "chord_nx",  "chord_ny", "status"};
 
 constexpr const char* kHelp = R"(
-Input columns, in any order; others are ignored:
-  a.x a.y          centre of ellipse a
-  a.r1 a.r2        its semi-axes, > 0
-  a.ux a.uy        the direction of its first axis, not both 0, of any length, meant
-                   exactly; or instead of these two
-  a.angle          in radians: short for its cosine and sine, each rounded correctly
-  and the same with b. for ellipse b. Lengths are in any one unit. Numbers are decimal or
-  hex floats (0x1.8p+3). Lines that begin with # and blank lines are skipped.
+The same columns with b. are those of ellipse b. Lengths are in any one unit. Numbers are
+decimal or hex floats (0x1.8p+3). Lines that begin with # and blank lines are skipped.
 
 Output columns, in this order:
   row              number of the data row, from 0
@@ -77,11 +72,11 @@ void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
   }
 }
 
-tables::RowOutcome write(const Ellipse& a, const Ellipse& b, tables::RowText& out) {
+tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables::RowText& out) {
   const EllipseRelation exact = relation(a, b);
   const PlaneGap found = signed_gap(a, b);
-  const double area = common_area(a, b);
-  const ChordContact chord = chord_contact(a, b);
+  const double area = common_area(a.ellipse(), b.ellipse());
+  const ChordContact chord = chord_contact(a.ellipse(), b.ellipse());
   out.text(to_string(exact.relation));
   write_crossings(exact, out);
   const bool has_chord = chord.status == ChordStatus::ok;
@@ -118,7 +113,7 @@ void add_ellipse(tables::Program& program) {
   tables::Command& command = program.subcommand(
       "ellipse", "Relation, crossings, common area and contact of pairs of ellipses in the plane");
   add_row_stream_options(command, *options);
-  command.footer(kHelp);
+  command.footer(std::string(kEllipseColumnsHelp) + kHelp);
   command.runs([options] {
     const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "status",

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tool/columns.hpp>
+#include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
 namespace tangency::tool {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kOutputColumns{"row", "relation", "overlaps", "tier"};
 
 constexpr const char* kHelp = R"(
-Input columns: those of `tangency contact`.
+The same columns with b. are those of body b.
 
 Output columns, in this order:
   row              number of the data row, from 0
@@ -35,9 +36,9 @@ Example, two unit spheres that touch:
   0,external_touch,0,exact
 )";
 
-tables::RowFunction bind(const tables::Header& header) {
-  return [a = BodyColumns(header, "a"), b = BodyColumns(header, "b")](const tables::RowCursor& row,
-                                                                      tables::RowText& out) {
+tables::RowFunction bind(const tables::Header& header, MixedTerms mixed_terms) {
+  return [a = BodyColumns(header, "a", mixed_terms), b = BodyColumns(header, "b", mixed_terms)](
+             const tables::RowCursor& row, tables::RowText& out) {
     const RelationAnswer answer = relation(a.read(row), b.read(row));
     const bool meet =
         answer.relation != Relation::separate && answer.relation != Relation::external_touch;
@@ -51,15 +52,21 @@ tables::RowFunction bind(const tables::Header& header) {
 }  // namespace
 
 void add_overlap(tables::Program& program) {
-  const auto options = std::make_shared<tables::RowStreamOptions>();
+  struct Options : tables::RowStreamOptions {
+    std::string mixed_terms = "half";
+  };
+  const auto options = std::make_shared<Options>();
   tables::Command& command =
       program.subcommand("overlap", "Exact relation of pairs of ellipsoids: do they overlap?");
+  add_mixed_terms_option(command, options->mixed_terms);
   add_row_stream_options(command, *options);
-  command.footer(kHelp);
+  command.footer(std::string(kBodyColumnsHelp) + kHelp);
   command.runs([options] {
+    const auto bind_rows = [terms = mixed_terms_named(options->mixed_terms)](
+                               const tables::Header& header) { return bind(header, terms); };
     const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
                                .verdict_column = "relation",
-                               .bind = tables::row_by_row(bind)};
+                               .bind = tables::row_by_row(bind_rows)};
     return tables::run_row_stream(task, *options);
   });
 }
