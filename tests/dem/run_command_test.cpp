@@ -175,9 +175,10 @@ TEST(RunCommand, NamesAMistypedSubcommandAndTheNearest) {
             "tangency-dem: rnu is no subcommand; the nearest is run" + end);
   EXPECT_EQ(run_tool({"shcema"}).err,
             "tangency-dem: shcema is no subcommand; the nearest is schema" + end);
-  EXPECT_EQ(
-      run_tool({"fly"}).err,
-      "tangency-dem: fly is no subcommand; run, report, contacts, particles and schema are" + end);
+  EXPECT_EQ(run_tool({"fly"}).err,
+            "tangency-dem: fly is no subcommand; run, report, contacts, particles, micro and "
+            "schema are" +
+                end);
 }
 
 std::map<std::string, std::string> files_below(const std::string& folder) {
