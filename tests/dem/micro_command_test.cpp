@@ -428,7 +428,7 @@ TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
   std::map<std::string, std::string> end_of;  // last cycle of each stage
   for (std::size_t k = 0; k < rows.at("cycle").size(); ++k)
     end_of[rows.at("stage")[k]] = rows.at("cycle")[k];
-  EXPECT_EQ(end_of.size(), 4u);
+  EXPECT_EQ(end_of.size(), 5u);
   std::size_t between = 0;
   for (std::size_t k = 0; k < rows.at("cycle").size(); ++k) {
     const std::string& cycle = rows.at("cycle")[k];
