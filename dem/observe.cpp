@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <tangency/dem/chunks.hpp>
@@ -49,7 +50,9 @@ void see_shapes(const Particles& particles, const Cell& cell, Observation& seen)
   }
   seen.porosity = 1.0 - solid / cell.volume();
   seen.packing_density = solid / cell.volume();
-  seen.void_ratio = seen.porosity / seen.packing_density;
+  // Of a cell without bound, as of a run that blows up, it is not defined.
+  seen.void_ratio = seen.packing_density > 0.0 ? seen.porosity / seen.packing_density
+                                               : std::numeric_limits<double>::quiet_NaN();
   seen.contact_density = 2.0 * static_cast<double>(seen.contacts) / cell.volume();
   seen.overlap_fraction = seen.mean_overlap / (2.0 * radii / static_cast<double>(particles.size()));
   // All of a type have one shape; in memory its particles stand anywhere.

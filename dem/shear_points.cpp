@@ -54,9 +54,9 @@ std::optional<std::size_t> constant_volume_of(Rows rows, std::size_t peak) {
     const double width = window.back().axial_strain - window.front().axial_strain;
     const bool is_whole =
         width >= (1.0 - kWindowSlack) * kConstantVolumeWindow || &window.back() != &rows.back();
+    if (strain || !is_whole) return;
     const auto slope = slope_of(window, &ShearPointRow::volumetric_strain);
-    if (strain || !is_whole || !slope || std::abs(slope->rate) >= kConstantVolumeRate) return;
-    strain = slope->strain;
+    if (slope && std::abs(slope->rate) < kConstantVolumeRate) strain = slope->strain;
   });
   if (!strain) return std::nullopt;
   return nearest(rows, peak, rows.size(), *strain);

@@ -5,16 +5,14 @@
 #include <cstddef>
 #include <string_view>
 
+#include <tangency/dem/tool/csv_text.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/whole_file.hpp>
-#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
-
-using tables::RowText;
 
 constexpr std::array<std::string_view, 23> kContactColumns{
     "a",  "b",  "ix", "iy", "iz", "x",  "y",  "z",  "nx", "ny", "nz",     "gap",
@@ -23,29 +21,38 @@ constexpr std::array<std::string_view, 19> kParticleColumns{
     "id", "type", "x",  "y",  "z",  "r1", "r2", "r3", "qw",      "qx",
     "qy", "qz",   "vx", "vy", "vz", "wx", "wy", "wz", "contacts"};
 
-void add_numbers(RowText& text, const Vec3& v) {
-  for (int k = 0; k < 3; ++k) text.number(v[k]);
+/// Of a run that is over those of its last stage.
+ContactLaws laws_of(const Simulation& simulation) {
+  const auto& drive = simulation.stage().drive;
+  return simulation.finished() && drive && drive->friction_coefficient
+             ? with_friction(simulation.laws(), *drive->friction_coefficient)
+             : simulation.laws();
 }
 
-void add_integer(RowText& text, std::int64_t k) { text.text(tables::to_text(k)); }
+template <std::size_t N>
+CsvText with_header(const std::array<std::string_view, N>& columns) {
+  CsvText text;
+  for (const std::string_view name : columns) text.add(name);
+  text.end_row();
+  return text;
+}
 
 }  // namespace
 
 std::string contact_table(const State& state, const ContactLaws& laws) {
   const PackingContacts contacts = packing_of(state, laws).contacts;
-  RowText text;
-  text.header(kContactColumns);
+  CsvText text = with_header(kContactColumns);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    for (const std::int64_t body : contacts.bodies[k]) add_integer(text, body);
-    for (const std::int32_t edges : contacts.image[k]) add_integer(text, edges);
-    add_numbers(text, contacts.point[k]);
-    add_numbers(text, contacts.normal[k]);
-    text.number(contacts.gap[k]);
-    add_numbers(text, contacts.branch[k]);
-    add_numbers(text, contacts.arm[k]);
-    text.number(contacts.normal_force[k]);
-    add_numbers(text, contacts.force[k]);
-    add_integer(text, contacts.sliding[k]);
+    for (const std::int64_t body : contacts.bodies[k]) text.add(body);
+    for (const std::int32_t edges : contacts.image[k]) text.add(std::int64_t{edges});
+    text.add(contacts.point[k]);
+    text.add(contacts.normal[k]);
+    text.add(contacts.gap[k]);
+    text.add(contacts.branch[k]);
+    text.add(contacts.arm[k]);
+    text.add(contacts.normal_force[k]);
+    text.add(contacts.force[k]);
+    text.add(std::int64_t{contacts.sliding[k]});
     text.end_row();
   }
   return std::string(text.view());
@@ -53,18 +60,17 @@ std::string contact_table(const State& state, const ContactLaws& laws) {
 
 std::string particle_table(const State& state) {
   const PackingParticles particles = packing_of(state).particles;
-  RowText text;
-  text.header(kParticleColumns);
+  CsvText text = with_header(kParticleColumns);
   for (std::size_t id = 0; id < particles.size(); ++id) {
-    text.integer(id);
-    add_integer(text, particles.type[id]);
-    add_numbers(text, particles.position[id]);
-    add_numbers(text, particles.semi_axes[id]);
+    text.add(static_cast<std::int64_t>(id));
+    text.add(std::int64_t{particles.type[id]});
+    text.add(particles.position[id]);
+    text.add(particles.semi_axes[id]);
     const Quaternion& q = particles.orientation[id];
-    for (const double part : {q.w(), q.x(), q.y(), q.z()}) text.number(part);
-    add_numbers(text, particles.velocity[id]);
-    add_numbers(text, particles.angular_velocity[id]);
-    add_integer(text, particles.contacts[id]);
+    for (const double part : {q.w(), q.x(), q.y(), q.z()}) text.add(part);
+    text.add(particles.velocity[id]);
+    text.add(particles.angular_velocity[id]);
+    text.add(std::int64_t{particles.contacts[id]});
     text.end_row();
   }
   return std::string(text.view());
@@ -85,8 +91,8 @@ std::filesystem::path ContactTables::file_of(std::int64_t cycle) const {
 void ContactTables::add(const Simulation& simulation) {
   const State& state = simulation.state();
   if (!adds_ || state.cycle == last_cycle_) return;
-  std::filesystem::create_directories(folder_);
-  write_whole(file_of(state.cycle), contact_table(state, simulation.laws()));
+  make_folder(folder_);
+  write_whole(file_of(state.cycle), contact_table(state, laws_of(simulation)));
   last_cycle_ = state.cycle;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -36,6 +37,12 @@ std::optional<std::int64_t> cycle_of_contact_table(const fs::path& file) {
 
 std::optional<std::int64_t> cycle_of_kept_state(const fs::path& file) {
   return file.extension() == ".state" ? cycle_of_state(file) : std::nullopt;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw WriteError(folder, error.value());
 }
 
 std::optional<fs::path> first_file(const fs::path& folder, CycleOf& cycle_of) {

@@ -17,6 +17,10 @@ CycleOf cycle_of_contact_table;
 /// Of NAME.state, which is read as far as it takes.
 CycleOf cycle_of_kept_state;
 
+/// Makes a folder of a run's results where there is none.
+/// @throws WriteError
+void make_folder(const std::filesystem::path& folder);
+
 /// The first file of the kind in a folder, by its name.
 std::optional<std::filesystem::path> first_file(const std::filesystem::path& folder,
                                                 CycleOf& cycle_of);

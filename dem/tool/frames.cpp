@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
@@ -123,7 +124,7 @@ std::optional<std::string> between(const std::string& line, const std::string& b
 Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds)
     : directory_(directory), adds_(adds) {
   if (!adds_ && !holds_any()) return;
-  std::filesystem::create_directories(directory_ / "frames");
+  make_folder(directory_ / "frames");
   const std::vector<Entry> later = read_index(last_cycle);
   // All that may fail comes first: then nothing has been taken away yet.
   std::optional<WholeFile> index;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/histogram.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +8,7 @@
 
 #include <tangency/dem/micromechanics/distributions.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
-#include <tangency/geometry/tables/number_text.hpp>
+#include <tangency/dem/tool/csv_text.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -21,24 +20,6 @@ constexpr const char* kColumns =
     "fl_xx,fl_xy,fl_xz,fl_yx,fl_yy,fl_yz,fl_zx,fl_zy,fl_zz,"
     "E2,E4,fn2,fn4,ft2x,ft2y,ft2z,ft4x,ft4y,ft4z,"
     "zn2,zn4,zt2x,zt2y,zt2z,zt4x,zt4y,zt4z\n";
-
-class Row {
- public:
-  explicit Row(std::size_t number) : text_(tables::to_text(number)) {}
-
-  void add(double x) {
-    text_ += ',';
-    if (std::isfinite(x)) tables::append_text(text_, x);
-  }
-  void add(const Vec3& v) {
-    for (const double x : v) add(x);
-  }
-  void add(std::int64_t x) { text_ += ',' + tables::to_text(x); }
-  std::string line() const { return text_ + '\n'; }
-
- private:
-  std::string text_;
-};
 
 /// Class means, NaN of empty classes.
 class Means {
@@ -52,7 +33,7 @@ class Means {
         branch_tangential_(groups.means(tangential(packing.contacts.branch))),
         products_(mm::group_sums(groups, packing.arrays()).products) {}
 
-  void add_to(Row& row, std::size_t g) const {
+  void add_to(CsvText& row, std::size_t g) const {
     const auto sides = static_cast<double>(groups_.sides(g));
     const double defined = sides > 0.0 ? 1.0 : kNotDefined;
     row.add(defined * force_normal_[g]);
@@ -79,7 +60,8 @@ class Means {
 
 /// Values of a model of order 2, and of both.
 template <class Model, class Value>
-void add_models(Row& row, const mm::Averages::Tensor& tensor, const Vec3& n, const Value& none) {
+void add_models(CsvText& row, const mm::Averages::Tensor& tensor, const Vec3& n,
+                const Value& none) {
   if (!tensor) {
     row.add(none);
     row.add(none);
@@ -96,10 +78,10 @@ std::string histogram_csv(const Packing& packing, const MicroSummary& summary) {
   const Means means(groups, packing);
   const mm::Averages& averages = summary.averages;
   const Vec3 no_vector = Vec3::Constant(kNotDefined);
-  std::string text = kColumns;
+  CsvText row;
   for (std::size_t g = 0; g < groups.partition().size(); ++g) {
     const Vec3& n = groups.partition().direction(g);
-    Row row(g);
+    row.add(static_cast<std::int64_t>(g));
     row.add(n);
     row.add(groups.partition().area(g));
     row.add(groups.sides(g));
@@ -110,9 +92,9 @@ std::string histogram_csv(const Packing& packing, const MicroSummary& summary) {
     add_models<mm::TangentialHarmonics>(row, averages.force_tangential, n, no_vector);
     add_models<mm::ScalarHarmonics>(row, averages.branch_normal, n, kNotDefined);
     add_models<mm::TangentialHarmonics>(row, averages.branch_tangential, n, no_vector);
-    text += row.line();
+    row.end_row();
   }
-  return text;
+  return kColumns + std::string(row.view());
 }
 
 }  // namespace tangency::dem

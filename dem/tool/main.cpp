@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -16,6 +18,7 @@
 #include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/micro.hpp>
 #include <tangency/dem/tool/micro_help.hpp>
+#include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/dem/tool/strain_report.hpp>
@@ -186,9 +189,9 @@ a, b and the image; contacts with walls are left out. Without a contact: the hea
   ax ay az    arm, m: point of contact less centre of a
   fn          normal force, N; a push is positive
   fx fy fz    the whole force of a on b, N
-  sliding     1 where the shear force is at the Coulomb limit, else 0: at that of the scene's
-              [contact], since a state does not know a friction_coefficient of its stage; in the
-              contacts/CYCLE.csv of a run at that of the stage
+  sliding     1 where the shear force is at the Coulomb limit, else 0: at that of --friction, else
+              of the scene's [contact], since a state does not know a friction_coefficient of its
+              stage; in the contacts/CYCLE.csv of a run at that of the stage
 Numbers read back to the same double.
 
 Exit status:
@@ -265,6 +268,19 @@ micromechanics::Classes classes_of(const std::string& partition, int count, bool
   return {kind, count};
 }
 
+constexpr const char* kFrictionOfStage =
+    "friction_coefficient of the state's stage [the scene's contacts']";
+
+/// Of a text that is no number the option itself says so.
+std::string refused_friction(const std::string& text) {
+  char* end = nullptr;
+  const double friction = std::strtod(text.c_str(), &end);
+  const bool is_number = end != text.c_str() && *end == '\0';
+  return is_number && std::isfinite(friction) && friction >= 0.0
+             ? ""
+             : text + ": a finite number from 0";
+}
+
 void add_micro(tables::Program& program) {
   struct Words {
     MicroOptions options;
@@ -281,6 +297,9 @@ void add_micro(tables::Program& program) {
   const tables::Option count =
       command.option("--classes", words->count, "N of the partition [4; polar 18]")
           .between(1, micromechanics::Classes::kMost);
+  command.option("--friction", words->options.friction, kFrictionOfStage)
+      .type_name("MU")
+      .check(refused_friction);
   command
       .option("--since", words->options.since,
               "An older state of the same run: strain since then, too")
@@ -302,8 +321,8 @@ void add_micro(tables::Program& program) {
 }
 
 /// A command that writes a table of a state.
-void add_table(tables::Program& program, const char* name, const char* what, const char* help,
-               std::function<std::string(const State&)> table) {
+tables::Command& add_table(tables::Program& program, const char* name, const char* what,
+                           const char* help, std::function<std::string(const State&)> table) {
   struct Words {
     std::string state, out;
   };
@@ -319,11 +338,19 @@ void add_table(tables::Program& program, const char* name, const char* what, con
     out.commit();
     return success;
   });
+  return command;
 }
 
 void add_tables(tables::Program& program) {
+  const auto friction = std::make_shared<std::optional<double>>();
   add_table(program, "contacts", "Table of a state's contacts", kContactsHelp,
-            [](const State& state) { return contact_table(state, state.laws); });
+            [friction](const State& state) {
+              return contact_table(state,
+                                   *friction ? with_friction(state.laws, **friction) : state.laws);
+            })
+      .option("--friction", *friction, kFrictionOfStage)
+      .type_name("MU")
+      .check(refused_friction);
   add_table(program, "particles", "Table of a state's particles", kParticlesHelp, particle_table);
 }
 

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/micro.hpp>
 
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <ostream>
+#include <utility>
+#include <vector>
+
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/histogram.hpp>
 #include <tangency/dem/tool/micro_json.hpp>
@@ -15,10 +22,29 @@
 namespace tangency::dem {
 namespace {
 
-void write(const std::string& file, const std::string& text) {
-  tables::OutputFile out(file);
-  out.write(text);
-  out.commit();
+/// Files that appear all or not at all.
+class Outputs {
+ public:
+  void write(const std::string& file, const std::string& text) {
+    files_.push_back(std::make_unique<tables::OutputFile>(file));
+    files_.back()->write(text);
+  }
+  void commit() {
+    for (const auto& file : files_) file->commit();
+  }
+
+ private:
+  std::vector<std::unique_ptr<tables::OutputFile>> files_;
+};
+
+/// The laws may be those of another friction than the stage's.
+void warn_of_shear_above_limit(const MicroOptions& options, const State& state) {
+  const std::int64_t above = contacts_above_limit(state, state.laws);
+  if (above > 0)
+    std::cerr << "tangency-dem: " << options.state << ": " << above
+              << " contacts bear more shear than their friction lets them; what slides is known "
+                 "with --friction, the friction_coefficient of the state's stage"
+              << std::endl;
 }
 
 }  // namespace
@@ -29,9 +55,13 @@ micromechanics::Classes::Kind partition_named(const std::string& name) {
 }
 
 int micro(const MicroOptions& options) {
-  if (options.json == "-" && options.histogram == "-")
-    throw tables::UsageError("--json and --histogram: one of them may be -");
-  const State state = load_state(options.state);
+  if (!options.json.empty() && options.json == options.histogram)
+    throw tables::UsageError(options.json == "-" ? "--json and --histogram: one of them may be -"
+                                                 : "--json and --histogram: two files, not " +
+                                                       options.json + " for both");
+  State state = load_state(options.state);
+  if (options.friction) state.laws = with_friction(std::move(state.laws), *options.friction);
+  warn_of_shear_above_limit(options, state);
   const Packing packing = packing_of(state);
   if (!options.histogram.empty() && packing.dimensions == 2)
     throw StateError(options.state + ": a packing in the plane: --histogram is of space alone");
@@ -40,10 +70,12 @@ int micro(const MicroOptions& options) {
       options.since.empty()
           ? strain_report(state, packing)
           : strain_report(state, packing, load_state(options.since), options.since);
-  if (!options.json.empty()) write(options.json, micro_json(state, packing, summary, strain));
-  if (!options.histogram.empty()) write(options.histogram, histogram_csv(packing, summary));
+  Outputs out;
+  if (!options.json.empty()) out.write(options.json, micro_json(state, packing, summary, strain));
+  if (!options.histogram.empty()) out.write(options.histogram, histogram_csv(packing, summary));
   if (options.json != "-" && options.histogram != "-")
-    write("-", micro_table(summary) + "\n" + strain_table(strain));
+    out.write("-", micro_table(summary) + "\n" + strain_table(strain));
+  out.commit();
   return success;
 }
 

@@ -3,6 +3,7 @@
 /// `tangency-dem micro STATE`.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <tangency/dem/micromechanics/averages.hpp>
@@ -13,6 +14,8 @@ struct MicroOptions {
   std::string state;
   std::string since;  ///< an older state of the same run; empty: none
   micromechanics::Classes classes;
+  /// That of the stage which the state is of; nothing: those of the scene's contacts.
+  std::optional<double> friction;
   std::string json, histogram;  ///< files; empty: none
 };
 
@@ -21,7 +24,7 @@ micromechanics::Classes::Kind partition_named(const std::string& name);
 
 /// Prints the averages of a saved packing, and writes the files that are asked for: `-` prints one
 /// instead of the averages.
-/// @throws StateError, tables::Error  as every command
+/// @throws StateError, tables::Error  as every command, and then nothing is left of either file
 int micro(const MicroOptions& options);
 
 }  // namespace tangency::dem

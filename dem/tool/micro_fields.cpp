@@ -63,10 +63,6 @@ class Columns {
     add("mean_normal_force", summary_.mean_normal_force);
   }
 
-  static double mean_of(const mm::Averages::Tensor& tensor) {
-    return tensor ? tensor->mean : kNotDefined;
-  }
-
   /// Of tensors in space axes.
   void add_second_order() {
     for (const auto& [name, x] : tensors_)
@@ -101,11 +97,12 @@ class Columns {
   void add_goodness() {
     for (std::size_t k = 0; k < 5; ++k) {  // r n t z zt
       const auto& [name, x] = tensors_[k];
-      add("unexplained2_" + name, x ? x->unexplained2 : kNotDefined);
-      add("unexplained4_" + name, x ? x->unexplained4 : kNotDefined);
+      const bool has = x && !is_rounding(*x);
+      add("unexplained2_" + name, has ? x->unexplained2 : kNotDefined);
+      add("unexplained4_" + name, has ? x->unexplained4 : kNotDefined);
     }
-    add("asymmetry_t", averages_.force_asymmetry);
-    add("asymmetry_zt", averages_.branch_asymmetry);
+    add("asymmetry_t", asymmetry_of(averages_.force_tangential, averages_.force_asymmetry));
+    add("asymmetry_zt", asymmetry_of(averages_.branch_tangential, averages_.branch_asymmetry));
     add("vector_normal_angle_mean_deg", summary_.mean_vector_angle);
     add("vector_normal_angle_largest_deg", summary_.largest_vector_angle);
     add("stress_asymmetry", mm::stress_asymmetry(averages_.stress, summary_.dimensions));
@@ -147,7 +144,7 @@ class Columns {
   /// The deviators' axes.
   static mm::Coaxiality compared(const std::optional<Mat3>& x, const Mat3& y) {
     if (!x) return {kNotDefined, {}, kNotDefined};
-    return mm::coaxiality(mm::harmonic_part(*x), mm::harmonic_part(y));
+    return dem::compared(*x, y);
   }
 
   void add_shares() {
@@ -175,20 +172,20 @@ class Columns {
     }
     for (std::size_t k = 0; k < 5; ++k) {  // r n t z zt
       const auto& [name, x] = tensors_[k];
-      add("axisymmetry_" + name,
-          x && summary_.dimensions == 3 ? mm::departure_from_axisymmetry(x->second) : kNotDefined);
+      add("axisymmetry_" + name, x && has_axes(*x) && summary_.dimensions == 3
+                                     ? mm::departure_from_axisymmetry(x->second)
+                                     : kNotDefined);
     }
   }
 
   void add_signs() {
     for (const auto& [name, x] : compared_tensors(averages_))
       if (name != "E")
-        add("sign_" + name, x && r_ ? sign(mm::contracted(*x, r_->second)) : kNotDefined);
+        add("sign_" + name,
+            x && r_ ? double(sign_of(mm::contracted(*x, r_->second))) : kNotDefined);
     for (const auto& [name, sign] : joint_signs_of(averages_))
       add("joint_" + name, sign && summary_.dimensions == 3 ? double(*sign) : kNotDefined);
   }
-
-  static double sign(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0); }
 
   void add_axis_groups() {
     for (std::size_t k = 0; k < 3; ++k)

@@ -6,7 +6,8 @@
 namespace tangency::dem {
 
 inline constexpr const char* kMicroHelp = R"(
-Contacts are those between particles: contacts with walls are counted and in no average.
+Contacts are those between particles: contacts with walls are counted and in no average but the
+measured stress, which is that of history.csv; the theory makes the stress of the others alone.
 Compression is positive. Partitions of directions, by N = --classes from 1 to 100:
   near-uniform   24 N^2 classes of nearly equal area; in the plane 8 N equal arcs
   polar          N rings of 2 N sectors about z, N from 2; in the plane 2 N equal arcs
@@ -38,7 +39,18 @@ JSON, null where something is not defined:
   s0, D_n, shares, shares_eight, axisymmetric_shares, signed_magnitudes, signs, joint_signs,
   coaxiality, part_coaxiality, axisymmetry, stress_asymmetry, force_asymmetry,
   branch_asymmetry, vector_normal_angle_mean_deg, vector_normal_angle_largest_deg,
-  direction_groups, radial_rings (polar), contact_statistics, plane, mean_normal_force
+  direction_groups, radial_rings (polar), plane, mean_normal_force
+  contact_statistics    f_*, pair_*, P2, P4, P2_model, a_axial_r_rot, a1 and chi_* as in micro.csv;
+                        standard errors as NAME_error; r_rot, 3x3: of <P2> a^E, what the bodies'
+                        axes explain of a^r; r_other, r_other_error: the rest;
+    of spheroids        a1_by_area, f_by_area: if contacts were spread evenly over their surfaces;
+                        G_off_model, G_off_area: largest distance of the cumulative share of contact
+                        sides by length from the model with the measured a1, and from that of areas;
+                        correlation_coordination, correlation_orientation_x, _y, _z: of P2 of the
+                        angle between contact vector and axis of symmetry with the body's number of
+                        contacts, and with the squares of the components of that axis
+    in the plane        a_L, a_L_by_arc: 2 <cos 2 beta> of contact vectors in body axes, and if
+                        contacts were spread evenly over outlines
 In the plane tensors are 3x3 with third row and column 0, and magnitudes are sqrt(2) times
 amplitudes.
 
@@ -49,7 +61,9 @@ branch length, E long axes, lambda contact vectors:
   contacts wall_contacts particles rattlers coordination_number
   coordination_without_rattlers coordination_std coordination_skewness
   coordination_excess_kurtosis empty_classes contact_density
-                        rattlers have fewer than two contacts
+                        2 contacts / particles: in history.csv contacts with walls count too;
+                        rattlers have fewer than two contacts, walls included, whether there is
+                        gravity or not
   f0 z0 mean_branch_length
                         means over orientations
   mean_normal_force     over contacts

@@ -62,11 +62,9 @@ Json json(const mm::TensorEstimate& x) {
           {"fourth_magnitude", x.fourth ? json(x.fourth->norm()) : Json(nullptr)},
           {"mean", json(x.mean)},
           {"mean_error", json(x.mean_error)},
-          {"unexplained2", json(x.unexplained2)},
-          {"unexplained4", json(x.unexplained4)}};
+          {"unexplained2", is_rounding(x) ? Json(nullptr) : json(x.unexplained2)},
+          {"unexplained4", is_rounding(x) ? Json(nullptr) : json(x.unexplained4)}};
 }
-
-double mean_of(const mm::Averages::Tensor& tensor) { return tensor ? tensor->mean : kNotDefined; }
 
 /// The eight parts, their sum, and that of the published seven; null without a state.
 Json stress_force_fabric(const mm::Averages& averages, int dimensions) {
@@ -138,9 +136,7 @@ Json json(const mm::Coaxiality& axes) {
 /// Of the deviators of tensors in space against one of them.
 Json coaxialities(const Named<std::optional<Mat3>>& tensors, const Mat3& other) {
   Json all;
-  for (const auto& [name, x] : tensors)
-    all[name] =
-        x ? json(mm::coaxiality(mm::harmonic_part(*x), mm::harmonic_part(other))) : Json(nullptr);
+  for (const auto& [name, x] : tensors) all[name] = x ? json(compared(*x, other)) : Json(nullptr);
   return all;
 }
 
@@ -153,8 +149,9 @@ void put_axes(Json& to, const MicroSummary& summary) {
       summary.state ? coaxialities(parts_of(summary.state), averages.stress) : Json(nullptr);
   Json axisymmetry;
   for (const auto& [name, x] : tensors_of(averages))
-    axisymmetry[name] =
-        in_space && x ? json(mm::departure_from_axisymmetry(x->second)) : Json(nullptr);
+    axisymmetry[name] = in_space && x && has_axes(*x)
+                            ? json(mm::departure_from_axisymmetry(x->second))
+                            : Json(nullptr);
   to["axisymmetry"] = axisymmetry;
 }
 
@@ -162,8 +159,7 @@ void put_signs(Json& to, const MicroSummary& summary) {
   Json signs, joint;
   const auto& r = summary.averages.normals;
   for (const auto& [name, x] : compared_tensors(summary.averages)) {
-    const double along = x && r ? mm::contracted(*x, r->second) : 0.0;
-    signs[name] = x && r ? Json((along > 0.0) - (along < 0.0)) : Json(nullptr);
+    signs[name] = x && r ? Json(sign_of(mm::contracted(*x, r->second))) : Json(nullptr);
   }
   for (const auto& [name, sign] : joint_signs_of(summary.averages))
     joint[name] = sign && summary.dimensions == 3 ? Json(*sign) : Json(nullptr);
@@ -319,8 +315,9 @@ std::string micro_json(const State& state, const Packing& packing, const MicroSu
   put_stresses(all, summary);
   put_axes(all, summary);
   put_signs(all, summary);
-  all["force_asymmetry"] = json(averages.force_asymmetry);
-  all["branch_asymmetry"] = json(averages.branch_asymmetry);
+  all["force_asymmetry"] = json(asymmetry_of(averages.force_tangential, averages.force_asymmetry));
+  all["branch_asymmetry"] =
+      json(asymmetry_of(averages.branch_tangential, averages.branch_asymmetry));
   all["vector_normal_angle_mean_deg"] = json(summary.mean_vector_angle);
   all["vector_normal_angle_largest_deg"] = json(summary.largest_vector_angle);
   all["direction_groups"] = axis_groups_of(summary);

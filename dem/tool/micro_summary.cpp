@@ -83,15 +83,34 @@ Named<StressSummary> stresses_of(const MicroSummary& summary, const mm::ContactA
   return stresses;
 }
 
+/// Of an anisotropy, over f0 or z0. Chosen: what remains of forces that have no tangential part is
+/// 1e-16 or so, and scatter alone leaves 1e-3 of any that have.
+constexpr double kRoundingAlone = 1e-12;
+
+/// 0 where it has no axes.
 std::optional<Mat3> second_of(const mm::Averages::Tensor& tensor) {
-  return tensor ? std::optional(tensor->second) : std::nullopt;
+  if (!tensor) return std::nullopt;
+  return has_axes(*tensor) ? tensor->second : Mat3(Mat3::Zero());
 }
 
 std::optional<Mat3> difference(const mm::Averages::Tensor& a, const mm::Averages::Tensor& b) {
-  return a && b ? std::optional<Mat3>(a->second - b->second) : std::nullopt;
+  return a && b ? std::optional<Mat3>(*second_of(a) - *second_of(b)) : std::nullopt;
 }
 
 }  // namespace
+
+bool has_axes(const mm::TensorEstimate& x) { return mm::modulus(x.second) >= kRoundingAlone; }
+
+bool is_rounding(const mm::TensorEstimate& x) {
+  return !has_axes(x) && !(x.fourth && x.fourth->norm() >= kRoundingAlone);
+}
+
+mm::Coaxiality compared(const Mat3& x, const Mat3& y) {
+  const Mat3 of_x = mm::harmonic_part(x), of_y = mm::harmonic_part(y);
+  if (of_x.isZero(0.0) || of_y.isZero(0.0))
+    return {kNotDefined, {kNotDefined, kNotDefined, kNotDefined}, kNotDefined};
+  return mm::coaxiality(of_x, of_y);
+}
 
 StressSummary summary_of(const Mat3& stress, int dimensions) {
   StressSummary found;
@@ -129,6 +148,7 @@ MicroSummary micro_summary(const Packing& packing, const mm::Classes& classes) {
   summary.coordination = mm::coordination_of(arrays);
   count_rattlers(summary, packing);
   summary.averages = mm::averages_of(arrays, bodies_of(packing), classes);
+  summary.averages.stress += packing.wall_stress;
   summary.state = mm::second_order_state(summary.averages, summary.dimensions);
   summary.plane = mm::plane_state(summary.averages, summary.dimensions);
   summary.stresses = stresses_of(summary, arrays);
@@ -154,6 +174,8 @@ Named<const mm::TensorEstimate*> tensors_of(const mm::Averages& averages) {
           {"lambda", at(averages.contact_vectors)},
           {"cv", at(averages.local_contacts)}};
 }
+
+double mean_of(const mm::Averages::Tensor& tensor) { return tensor ? tensor->mean : kNotDefined; }
 
 double signed_size(const mm::TensorEstimate* x, const mm::TensorEstimate* r) {
   if (!x || !r) return kNotDefined;

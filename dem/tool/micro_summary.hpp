@@ -57,7 +57,8 @@ struct MicroSummary {
   /// Of the others and of contacts between them.
   double coordination_without_rattlers = kNotDefined;
 
-  micromechanics::Averages averages;  ///< by the unbiased estimator
+  /// By the unbiased estimator; the stress has its share of contacts with walls.
+  micromechanics::Averages averages;
   /// Each empty where a tensor of it is, and in the other dimension.
   std::optional<micromechanics::SecondOrderState> state;
   std::optional<micromechanics::PlaneState> plane;
@@ -78,6 +79,23 @@ micromechanics::BodyArrays bodies_of(const Packing& packing);
 
 /// r n t z zt len E lambda cv.
 Named<const micromechanics::TensorEstimate*> tensors_of(const micromechanics::Averages& averages);
+
+/// Is more of its second order there than the rounding of a tensor that is 0, as without friction?
+/// Without that it has neither a sign nor axes.
+bool has_axes(const micromechanics::TensorEstimate& x);
+/// Is there nothing but rounding in any order?
+bool is_rounding(const micromechanics::TensorEstimate& x);
+/// |X - X'| / |X|; not defined where X is rounding.
+inline double asymmetry_of(const micromechanics::Averages::Tensor& tensor, double asymmetry) {
+  return tensor && is_rounding(*tensor) ? kNotDefined : asymmetry;
+}
+/// The axes of the deviators; not defined where one is 0.
+micromechanics::Coaxiality compared(const Mat3& x, const Mat3& y);
+
+/// Over orientations; NaN without a tensor.
+double mean_of(const micromechanics::Averages::Tensor& tensor);
+/// 1, 0 or -1.
+inline int sign_of(double x) { return (x > 0.0) - (x < 0.0); }
 
 /// The size of a tensor with the sign of its sense, sgn(X:a^r) |X|; NaN without either.
 double signed_size(const micromechanics::TensorEstimate* x,

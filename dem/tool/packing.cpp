@@ -15,6 +15,8 @@ namespace {
 /// Of the Coulomb limit. Chosen: a force that was cut back to it is off by rounding alone, and one
 /// that comes as near by chance is at it.
 constexpr double kAtTheLimit = 1e-12;
+/// Alike. Chosen far above rounding: the law of a stage is another, or it is not.
+constexpr double kAboveTheLimit = 1e-6;
 
 struct Entry {
   Pair of_ids;  ///< with a <= b by ids
@@ -34,10 +36,13 @@ Entry entry_of(const Pair& pair, std::size_t index, const std::vector<std::int32
   return {named, index, exchanged};
 }
 
+double limit_of(const Contact& contact, const ContactLaw& law) {
+  return law.cohesion + law.friction_coefficient * contact.normal_force;
+}
+
 bool slides(const Contact& contact, const ContactLaw& law) {
   const double size = contact.shear.force.norm();
-  const double limit = law.cohesion + law.friction_coefficient * contact.normal_force;
-  return size > 0.0 && size >= (1.0 - kAtTheLimit) * limit;
+  return size > 0.0 && size >= (1.0 - kAtTheLimit) * limit_of(contact, law);
 }
 
 void add(PackingContacts& all, const Entry& entry, const Contact& contact, const Vec3& centre_of_a,
@@ -99,10 +104,13 @@ Packing packing_of(const State& state, const ContactLaws& laws) {
   std::vector<Entry> entries;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!state.contacts.touches(k)) continue;
-    if (static_cast<std::size_t>(pairs[k].b) < particles.size())
+    if (static_cast<std::size_t>(pairs[k].b) < particles.size()) {
       entries.push_back(entry_of(pairs[k], k, particles.id));
-    else
-      ++packing.wall_contacts;
+      continue;
+    }
+    ++packing.wall_contacts;
+    packing.wall_stress +=
+        state.contacts.force(k) * state.contacts.columns().branch[k].transpose() / packing.volume;
   }
   std::sort(entries.begin(), entries.end(),
             [](const Entry& x, const Entry& y) { return x.of_ids < y.of_ids; });
@@ -116,6 +124,26 @@ Packing packing_of(const State& state, const ContactLaws& laws) {
         slides(contact, laws.between(type(a), type(b))));
   }
   return packing;
+}
+
+ContactLaws with_friction(ContactLaws laws, double friction_coefficient) {
+  for (ContactLaw& law : laws.law) law.friction_coefficient = friction_coefficient;
+  return laws;
+}
+
+std::int64_t contacts_above_limit(const State& state, const ContactLaws& laws) {
+  const std::vector<Pair>& pairs = state.list.pairs();
+  const std::vector<std::int32_t>& types = state.particles.type;
+  std::int64_t above = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto a = static_cast<std::size_t>(pairs[k].a), b = static_cast<std::size_t>(pairs[k].b);
+    if (!state.contacts.touches(k) || b >= types.size()) continue;
+    const ContactLaw& law =
+        laws.between(static_cast<std::size_t>(types[a]), static_cast<std::size_t>(types[b]));
+    const Contact contact = state.contacts.records()[k];
+    above += contact.shear.force.norm() > (1.0 + kAboveTheLimit) * limit_of(contact, law) ? 1 : 0;
+  }
+  return above;
 }
 
 }  // namespace tangency::dem

@@ -3,7 +3,8 @@
 /// A state as plain arrays: its particles in the order of the scene, and its touching contacts.
 /// What tables of contacts and particles and all averages over them are made of.
 ///
-/// Contacts are those between particles that touch; those with walls are counted alone. Bodies are
+/// Contacts are those between particles that touch; those with walls are counted and give their
+/// share of the stress. Bodies are
 /// named by their ids, the places in the order of the scene from 0. Of a contact a <= b, and b is
 /// the image of its particle that is moved by `image` edges of the cell; where a is b the image is
 /// positive in lexicographic order. Contacts stand in ascending order of (a, b, image): nothing of
@@ -66,6 +67,8 @@ struct Packing {
   Mat3 edges = Mat3::Identity();  ///< columns: edges of the cell, length
   double volume = 0.0;            ///< of the cell; in the plane an area
   std::int64_t wall_contacts = 0;
+  /// What the contacts with walls give to the stress, force (x) branch over the volume.
+  Mat3 wall_stress = Mat3::Zero();
   PackingContacts contacts;
   PackingParticles particles;
 
@@ -77,5 +80,10 @@ struct Packing {
 ///              contacts; a stage with a friction coefficient of its own has other ones
 Packing packing_of(const State& state, const ContactLaws& laws);
 inline Packing packing_of(const State& state) { return packing_of(state, state.laws); }
+
+/// Laws as of a stage with a friction coefficient of its own.
+ContactLaws with_friction(ContactLaws laws, double friction_coefficient);
+/// Contacts that bear more shear than the laws let them: these are not those of their stage.
+std::int64_t contacts_above_limit(const State& state, const ContactLaws& laws);
 
 }  // namespace tangency::dem

@@ -132,7 +132,12 @@ bool carries_on(const fs::path& directory, const RunOptions& options,
                 const Simulation& simulation) {
   const auto found = result_in(directory);
   if (!found) return false;
-  if (options.resume && is_history_of(directory, *options.resume, simulation)) return true;
+  if (options.resume && is_history_of(directory, *options.resume, simulation)) {
+    // Read before anything is taken away: it may be of another version.
+    RunTable(directory / "micro.csv", micro_columns(simulation, "", 0.0, MicroSummary()))
+        .rows_in_file();
+    return true;
+  }
   if (options.replace) return false;
   const std::string of_another =
       options.resume ? "not of the run of " + options.resume->string() : "of an earlier run";
@@ -202,6 +207,14 @@ void Results::add_micro(const Simulation& simulation, const Moment& moment) {
                                              classes_of(simulation.scene().output));
   const std::string& stage = simulation.scene().stages[moment.stage].name;
   micro_.add(moment, micro_columns(simulation, stage, strain, summary));
+}
+
+void Results::make_up(const Simulation& simulation) {
+  const State& state = simulation.state();
+  if (!carries_on_ || state.stage_cycle == 0) return;  // a stage's end has what is due there
+  const OutputIntervals& every = simulation.scene().output;
+  if (every.frame > 0 && state.cycle % every.frame == 0) frames_.add(simulation);
+  if (every.contacts > 0 && state.cycle % every.contacts == 0) contacts_.add(simulation);
 }
 
 void Results::checkpoint(const Simulation& simulation) const {

@@ -47,6 +47,9 @@ class Results {
   /// scene has one.
   void add_last_row_of_stage(const Simulation& simulation);
 
+  /// When a run begins in its own directory: what is due at its cycle and could not be written.
+  void make_up(const Simulation& simulation);
+
   /// The states that stages keep.
   StateKeeper& kept() { return kept_; }
   /// Those that are known only at a stage's end, where the simulation is: StateKeeper::keep_points.

@@ -107,6 +107,10 @@ class Run {
   int execute() {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
+    for (const double strain : results_.kept().missed_strains())
+      warn("stage " + simulation_.stage().name + " passed the axial strain " +
+           tables::to_text(strain) + " of save_strains before cycle " +
+           std::to_string(simulation_.state().cycle) + ": its state is not kept");
     // A run that is over would leave no row in a directory of its own.
     if (!results_.has_rows() && (simulation_.state().cycle == 0 || simulation_.finished())) {
       results_.add_row(simulation_);
@@ -117,6 +121,7 @@ class Run {
       results_.add_contacts(simulation_);
     }
     try {
+      results_.make_up(simulation_);
       results_.kept().begin(simulation_);
       while (!simulation_.finished()) {
         const StageStatus status = simulation_.status();
@@ -343,6 +348,8 @@ class Run {
   int give_up(const std::string& why) {
     warn(why);
     results_.add_row(simulation_);
+    if (simulation_.scene().output.micro > 0) results_.add_micro(simulation_);
+    results_.add_contacts(simulation_);
     results_.finish_incomplete(simulation_);
     print_profile();
     return not_reached;

@@ -9,21 +9,18 @@
 #include <utility>
 #include <variant>
 
+#include <tangency/dem/tool/csv_text.hpp>
 #include <tangency/dem/whole_file.hpp>
-#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
 namespace {
 
 std::string header_line(const std::vector<Field>& columns) {
-  std::string line;
-  for (const Field& field : columns) line += (line.empty() ? "" : ",") + field.name;
-  return line + "\n";
+  CsvText line;
+  for (const Field& field : columns) line.add(field.name);
+  line.end_row();
+  return std::string(line.view());
 }
-
-std::string text_of(double x) { return std::isnan(x) ? "" : tables::to_text(x); }
-std::string text_of(std::int64_t x) { return tables::to_text(x); }
-std::string text_of(const std::string& text) { return text; }
 
 }  // namespace
 
@@ -83,12 +80,11 @@ void RunTable::carry_on(const Simulation& simulation, std::int64_t interval) {
 
 void RunTable::add(const Moment& moment, const std::vector<Field>& row) {
   last_ = moment;
-  std::string line;
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (k > 0) line += ',';
-    line += std::visit([](const auto& value) { return text_of(value); }, row[k].value);
-  }
-  rows_ += line + "\n";
+  CsvText line;
+  for (const Field& field : row)
+    std::visit([&](const auto& value) { line.add(value); }, field.value);
+  line.end_row();
+  rows_ += line.view();
 }
 
 void RunTable::write() const { write_whole(file_, header_ + rows_); }

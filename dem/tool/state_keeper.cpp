@@ -25,6 +25,15 @@ double axial_strain_of(const State& state) {
   return -state.cell.logarithmic_strain()(axial, axial);
 }
 
+/// A cycle ago, or a little before that.
+double axial_strain_before(const Simulation& simulation) {
+  constexpr double kMore = 1.01;  // of the step's strain: logarithms and products differ by less
+  const State& state = simulation.state();
+  const int axial = state.cell.dimensions - 1;
+  const double shortening = -state.cell.rate(axial, axial) * simulation.time_step();
+  return axial_strain_of(state) - kMore * std::max(shortening, 0.0);
+}
+
 /// The stress of a row, which has six components.
 Mat3 stress_in(const History& history, std::size_t row) {
   const auto value = [&](const char* name) { return history.column(name)[row]; };
@@ -67,6 +76,16 @@ bool is_of_row(const Simulation& simulation, const History& history, std::size_t
   return true;
 }
 
+/// The cause for which points_of_stage() has nothing.
+std::string why_no_points(const Simulation& simulation, const fs::path& folder) {
+  const fs::path file = file_of_point(folder, simulation.stage().name, 0);
+  if (!fs::exists(file)) return "the state at its start is not there";
+  const State& end = simulation.state();
+  return load_state(file).cycle == end.cycle - end.stage_cycle
+             ? "history.csv has no row of it"
+             : "the state at its start is of another run";
+}
+
 }  // namespace
 
 fs::path file_of_point(const fs::path& folder, const std::string& stage, std::size_t point) {
@@ -99,16 +118,19 @@ std::optional<StagePoints> points_of_stage(const History& history, const std::st
 
 StateKeeper::StateKeeper(const fs::path& directory, std::int64_t last_cycle,
                          const Simulation& simulation)
-    : folder_(directory / "states") {
+    : folder_(directory / "states"), carries_on_(last_cycle >= 0) {
   remove_later_files(folder_, last_cycle, cycle_of_kept_state);
-  const State& state = simulation.state();
-  if (state.stage_cycle == 0 || simulation.finished()) return;
+  if (simulation.state().stage_cycle == 0 || simulation.finished()) return;
   // A servo may take a strain back that was passed before: then its file tells.
   const Stage& stage = simulation.stage();
   const std::vector<double>& strains = stage.kept.strains;
-  while (next_strain_ < strains.size() && (strains[next_strain_] <= axial_strain_of(state) ||
-                                           fs::exists(file_of_strain(stage, next_strain_))))
-    ++next_strain_;
+  const double passed =
+      carries_on_ ? axial_strain_before(simulation) : axial_strain_of(simulation.state());
+  for (; next_strain_ < strains.size(); ++next_strain_) {
+    const bool is_there = cycle_of_kept_state(file_of_strain(stage, next_strain_)).has_value();
+    if (!is_there && strains[next_strain_] > passed) break;
+    if (!is_there && carries_on_) missed_.push_back(strains[next_strain_]);
+  }
 }
 
 fs::path StateKeeper::file_of(const std::string& stage, const std::string& suffix) const {
@@ -120,7 +142,7 @@ fs::path StateKeeper::file_of_strain(const Stage& stage, std::size_t k) const {
 }
 
 void StateKeeper::keep(const Simulation& simulation, const fs::path& file) const {
-  fs::create_directories(folder_);
+  make_folder(folder_);
   save_state(simulation.state(), file);
 }
 
@@ -128,7 +150,18 @@ void StateKeeper::begin(const Simulation& simulation) {
   if (simulation.state().cycle == 0)
     after_stage(simulation);
   else if (simulation.state().stage_cycle == 0)
-    keep_start(simulation);
+    make_up_for_stage(simulation);
+  else if (carries_on_ && !simulation.finished())
+    after_cycle(simulation);
+}
+
+/// The end's state may be what could not be written before.
+void StateKeeper::make_up_for_stage(const Simulation& simulation) {
+  const Stage& before = simulation.scene().stages[simulation.state().stage - 1];
+  const fs::path file = file_of(before.name);
+  if (carries_on_ && before.kept.end && cycle_of_kept_state(file) != simulation.state().cycle)
+    keep(simulation, file);
+  keep_start(simulation);
 }
 
 void StateKeeper::after_stage(const Simulation& simulation) {
@@ -159,7 +192,7 @@ StateKeeper::Outcome StateKeeper::keep_points(const Simulation& simulation, cons
   try {
     const auto points = points_of_stage(history, stage, folder_);
     outcome = points ? run_again(simulation, history, *points, goes_on)
-                     : Outcome{false, "the state at its start is not there"};
+                     : Outcome{false, why_no_points(simulation, folder_)};
   } catch (const WriteError&) {
     throw;
   } catch (const std::exception& error) {  // what a changed scene or a damaged file may lead to

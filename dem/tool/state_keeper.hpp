@@ -20,6 +20,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <tangency/dem/shear_points.hpp>
 #include <tangency/dem/simulation.hpp>
@@ -59,8 +60,12 @@ class StateKeeper {
 
   /// All that writes throws WriteError.
   ///
-  /// When a run begins: the state it begins with, if that is one to keep.
+  /// When a run begins: the state it begins with, if that is one to keep. In the run's own
+  /// directory, too, what the last cycle before it should have kept and could not write.
   void begin(const Simulation& simulation);
+  /// When a run begins in its own directory: strains of the stage that were passed before and have
+  /// no state, as those that the scene did not have then.
+  const std::vector<double>& missed_strains() const { return missed_; }
   /// After each next_stage().
   void after_stage(const Simulation& simulation);
   void after_cycle(const Simulation& simulation);
@@ -82,11 +87,14 @@ class StateKeeper {
   std::filesystem::path file_of_strain(const Stage& stage, std::size_t k) const;
   void keep(const Simulation& simulation, const std::filesystem::path& file) const;
   void keep_start(const Simulation& simulation) const;
+  void make_up_for_stage(const Simulation& simulation);
   Outcome run_again(const Simulation& simulation, const History& history, const StagePoints& points,
                     const std::function<bool(double share)>& goes_on);
 
   std::filesystem::path folder_;
+  bool carries_on_;              ///< in the run's own directory
   std::size_t next_strain_ = 0;  ///< of the stage's save_strains
+  std::vector<double> missed_;
 };
 
 }  // namespace tangency::dem

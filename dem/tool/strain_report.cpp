@@ -10,6 +10,8 @@
 #include <utility>
 
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/sliding.hpp>
+#include <tangency/dem/tool/text_columns.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::dem {
@@ -24,31 +26,6 @@ mm::PeriodicCentres centres_of(const Packing& packing) {
 
 mm::PeriodicPairs pairs_of(const Packing& packing) {
   return {packing.contacts.bodies, packing.contacts.image};
-}
-
-/// What each contact slides, second over first.
-std::vector<Vec3> sliding_of(const State& state, const Packing& packing,
-                             const mm::ContactMotion& motion) {
-  const std::vector<Vec3> velocity = mm::contact_velocities(motion, centres_of(packing));
-  std::vector<Vec3> sliding(velocity.size(), Vec3::Zero());
-  for (std::size_t c = 0; c < velocity.size(); ++c) {
-    const auto& [a, b] = packing.contacts.bodies[c];
-    const auto type = [&](std::int64_t id) {
-      return static_cast<std::size_t>(packing.particles.type[static_cast<std::size_t>(id)]);
-    };
-    const ContactLaw& law = state.laws.between(type(a), type(b));
-    const Vec3& normal = packing.contacts.normal[c];
-    const double opening = normal.dot(velocity[c]);
-    const Vec3 tangential = velocity[c] - opening * normal;
-    const Vec3 shear = packing.contacts.force[c] - packing.contacts.normal_force[c] * normal;
-    const double limit_rate =
-        -law.friction_coefficient * packing.contacts.normal_stiffness[c] * opening;
-    // Without a spring all of it is sliding.
-    const double stiffness = packing.contacts.shear_stiffness[c];
-    if (!(stiffness > 0.0) || packing.contacts.sliding[c] != 0)
-      sliding[c] = mm::sliding_velocity(tangential, shear, stiffness, limit_rate);
-  }
-  return sliding;
 }
 
 /// The nets of a packing, and what each says; `say` adds it to the rest.
@@ -88,6 +65,14 @@ std::vector<StrainOfNet> nets_of(const Packing& packing, const Say& say) {
   throw StateError(file + ": " + what);
 }
 
+/// By ids.
+std::vector<double> masses_of(const State& state) {
+  std::vector<double> masses;
+  for (const std::uint32_t i : state.particles.index_of_id())
+    masses.push_back(state.particles.mass[i]);
+  return masses;
+}
+
 /// Are positions those of the same particles, at an earlier time?
 void require_older(const State& state, const Packing& now, const State& older, const Packing& then,
                    const std::string& file) {
@@ -100,9 +85,15 @@ void require_older(const State& state, const Packing& now, const State& older, c
   if (older.cycle > state.cycle)
     refuse(file, "a state of cycle " + std::to_string(older.cycle) +
                      "; --since takes one from before cycle " + std::to_string(state.cycle));
-  for (std::size_t i = 0; i < now.particles.size(); ++i)
+  const std::vector<double> masses = masses_of(state), masses_then = masses_of(older);
+  for (std::size_t i = 0; i < now.particles.size(); ++i) {
+    const std::string particle = "particle " + std::to_string(i);
     if (then.particles.type[i] != now.particles.type[i])
-      refuse(file, "particle " + std::to_string(i) + " is of another type than in the later state");
+      refuse(file, particle + " is of another type than in the later state");
+    if (masses_then[i] != masses[i])  // which growth keeps
+      refuse(file, particle + " has the mass " + tables::to_text(masses_then[i]) +
+                       ", in the later state " + tables::to_text(masses[i]));
+  }
 }
 
 }  // namespace
@@ -121,7 +112,8 @@ StrainReport strain_report(const State& state, const Packing& packing) {
                            packing.particles.velocity,
                            packing.particles.angular_velocity,
                            state.cell.rate};
-  const std::vector<Vec3> sliding = sliding_of(state, packing, motion);
+  const std::vector<Vec3> sliding =
+      sliding_of(packing, state.laws, mm::contact_velocities(motion, centres_of(packing)));
   motion.sliding = sliding;
   report.of_velocities = nets_of(packing, [&](const mm::StrainMesh& mesh, StrainOfNet& net) {
     net.parts = mm::strain_parts(mesh, centres_of(packing), motion);
@@ -211,23 +203,11 @@ Json since_json(const StrainReport::Since& since) {
           {"nets", std::move(nets)}};
 }
 
-constexpr std::size_t kNameWidth = 26, kCellWidth = 11;
-
-std::string right(const std::string& text) {
-  return std::string(text.size() < kCellWidth ? kCellWidth - text.size() : 1, ' ') + text;
-}
-
-std::string left(std::string text) {
-  text.resize(std::max(kNameWidth, text.size()), ' ');
-  return text;
-}
-
 /// The symmetric part.
 std::string row(const std::string& name, const Mat3& extension) {
   const Mat3 m = Mat3::Zero() - 0.5 * (extension + extension.transpose());
   std::string text = left(name);
-  for (const double x : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)})
-    text += right(tables::rounded_text(x, 4));
+  for (const double x : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}) text += cell(x);
   return text + "\n";
 }
 
@@ -285,13 +265,16 @@ const char* const kStrainHelp = R"(
 Average strain, as a sum over the edges of a net that covers the cell: polygons between contacts
 and triangles of centres in the plane, tetrahedra of centres in space; exactly that of the cell.
 JSON, average_strain: why_not (null; else why there is none, as with walls) and
-  velocities            rate of the cell, and of each net sum, and its parts: normal (contacts
+  velocities            What slides is known by the friction coefficient of the state's stage:
+                        --friction where it is not that of the scene's contacts.
+                        Rate of the cell, and of each net sum, and its parts: normal (contacts
                         become shorter), elastic (springs in shear), sliding, rotation (of
                         particles), apart (edges without contact); published (normal, elastic and
                         sliding: velocities at contacts with spins, which is not the strain of the
                         cell); cells, centres, edges, edges_in_contact, contacts_left_out (that are
                         no edge)
-  displacements         with --since OLDER, an earlier state of the same run, else null:
+  displacements         with --since OLDER, an earlier state of the same run, else null (a run of
+                        the same particles from other places cannot be told from it):
                         since_cycle, since_time, gradient and logarithmic strain of the cell, and
                         of each net of the older state sum, and its parts of edges in contact at
                         both states (kept), at the older one (lost), at the later one (gained), at

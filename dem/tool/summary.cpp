@@ -61,8 +61,10 @@ void add_relaxation_share(nlohmann::ordered_json& summary, const History& histor
   std::erase_if(rows, [&](const StageRows& stage) { return !is_namesake(stage); });
   if (std::ssize(rows) <= later) return;
   const std::size_t end = rows[rows.size() - 1 - static_cast<std::size_t>(later)].end;
-  summary["relaxation_share"] =
-      1.0 - static_cast<double>(last->growth->increments) / history.column("stage_cycle")[end - 1];
+  const double cycles = history.column("stage_cycle")[end - 1];
+  // A run that is over and was resumed elsewhere has the row of its end alone, without cycles.
+  if (!(cycles > 0.0)) return;
+  summary["relaxation_share"] = 1.0 - static_cast<double>(last->growth->increments) / cycles;
 }
 
 /// The points of the scene's last stage that keeps them, if their states are there.

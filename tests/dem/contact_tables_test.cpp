@@ -21,6 +21,7 @@
 #include <tangency/geometry/vectors.hpp>
 
 #include "../tool/process.hpp"
+#include "csv_columns.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {
@@ -39,9 +40,8 @@ std::vector<std::vector<double>> numbers_of(const std::string& csv, const std::s
   EXPECT_EQ(line, header);
   std::vector<std::vector<double>> rows;
   while (std::getline(in, line)) {
-    std::istringstream cells(line);
     auto& row = rows.emplace_back();
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    for (const std::string& cell : cells_of(line)) row.push_back(std::stod(cell));
   }
   return rows;
 }
@@ -198,7 +198,19 @@ TEST_F(Tables, OfARunTellWhichSlideByTheFrictionOfTheStage) {
   const auto rows = numbers_of(of_run, kContactHeader);
   EXPECT_GT(sliding_and_not(rows, 0.2).first, 0);
   EXPECT_EQ(sliding_and_not(contacts(), 0.5).first, 0);
-  // Nor does the run when it is over, so that it leaves the table as it is.
+  EXPECT_EQ(run_tool({"contacts", file_, "--friction", "0.2"}).out, of_run);
+  for (const char* wrong : {"-0.1", "nan", "rough", ""}) {
+    const Finished refused = run_tool({"contacts", file_, "--friction", wrong});
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_EQ(refused.out, "");
+  }
+  // A run that is over makes the same table elsewhere, and leaves it as it is.
+  const std::string elsewhere = folder_.path("elsewhere");
+  EXPECT_EQ(run_tool({"run", folder_.path("scene.toml"), "--out", elsewhere, "--quiet", "--resume",
+                      file_})
+                .status,
+            0);
+  EXPECT_EQ(read_file(elsewhere + "/contacts/" + std::to_string(state_.cycle) + ".csv"), of_run);
   const Finished again =
       run_tool({"run", folder_.path("scene.toml"), "--out", out_, "--quiet", "--resume", file_});
   EXPECT_EQ(again.status, 0) << again.err;

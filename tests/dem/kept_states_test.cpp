@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -22,6 +23,7 @@
 #include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
+#include "csv_columns.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {
@@ -115,20 +117,6 @@ class KeptStates : public ::testing::Test {
 
 double axial_strain(const dem::State& state) { return -state.cell.logarithmic_strain()(2, 2); }
 
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
-  std::vector<std::map<std::string, std::string>> rows;
-  std::istringstream in(csv);
-  std::string header, line;
-  std::getline(in, header);
-  while (std::getline(in, line)) {
-    std::istringstream names(header), cells(line);
-    auto& row = rows.emplace_back();
-    for (std::string name, cell; std::getline(names, name, ',') && std::getline(cells, cell, ',');)
-      row[name] = cell;
-  }
-  return rows;
-}
-
 TEST_F(KeptStates, AreThoseThatTheStagesAskFor) {
   EXPECT_EQ(names_in(whole() + "/states"), kStates);
   EXPECT_EQ(state("place.state").cycle, 0);
@@ -202,6 +190,64 @@ TEST_F(KeptStates, AreEachGoneOnFromBitForBit) {
     ASSERT_EQ(again.status, 0) << again.err;
     expect_same_results(whole(), here);
   }
+}
+
+// A file that cannot be written ends the run. Resumed where it can, the run makes up for it.
+TEST_F(KeptStates, ThatCouldNotBeWrittenAreMadeUpForByTheResumedRun) {
+  for (const std::string name :
+       {"states/place.state", "states/compress.state", "states/shear-0.05.state",
+        "states/shear-A.state", "states/shear-B.state", "states/shear.state", "contacts/300.csv"}) {
+    const std::string out = folder().path("blocked");
+    const std::string blocked = out + "/" + name + ".part";
+    fs::create_directories(blocked);
+    const Finished run = run_quietly(scene(), out);
+    EXPECT_EQ(run.status, 2) << name;
+    EXPECT_NE(run.err.find(name + ": cannot be written"), run.err.npos) << run.err;
+    fs::remove(blocked);
+    EXPECT_FALSE(fs::exists(out + "/" + name));
+    const Finished again = run_quietly(scene(), out, {"--resume", out + "/checkpoint.state"});
+    EXPECT_EQ(again.status, 0) << again.err;
+    expect_same_results(whole(), out);
+    fs::remove_all(out);
+  }
+}
+
+TEST_F(KeptStates, WithoutAPlaceForTheirFolderEndTheRunWithACheckpoint) {
+  std::string text = keeping_scene();
+  text = with(text, "bounding_fraction = 0.3\nsave = true\n", "bounding_fraction = 0.3\n");
+  for (const std::string taken : {"states", "contacts"}) {
+    const std::string out = folder().path("no-" + taken);
+    fs::create_directories(out);
+    std::ofstream(out + "/" + taken) << "no folder";
+    const Finished run = run_quietly(folder().write("late.toml", text), out);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, out + "/" + taken + ": cannot be written: Not a directory\n");
+    EXPECT_EQ(fs::exists(out + "/checkpoint.state"), taken == "states");
+  }
+}
+
+TEST_F(KeptStates, StayWhereTheRunIsRefusedForAnotherMicroCsv) {
+  const std::string out = copy("other-micro");
+  std::ofstream(out + "/micro.csv") << "cycle,time,stage,another\n";
+  const auto states = names_in(out + "/states"), tables = names_in(out + "/contacts");
+  const Finished run = run_quietly(scene(), out, {"--resume", out + "/states/shear-A.state"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("micro.csv: not as this program wrote it"), run.err.npos) << run.err;
+  EXPECT_EQ(names_in(out + "/states"), states);
+  EXPECT_EQ(names_in(out + "/contacts"), tables);
+}
+
+TEST_F(KeptStates, OfStrainsThatWerePassedBeforeAreNamed) {
+  const std::string out = copy("late");
+  const std::string more = folder().write(
+      "more.toml", with(keeping_scene(), "save_strains = [0.05,", "save_strains = [0.02, 0.05,"));
+  const Finished run = run_quietly(more, out, {"--resume", out + "/states/shear-0.05.state"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("tangency-dem: stage shear passed the axial strain 0.02 of save_strains "
+                         "before cycle "),
+            run.err.npos)
+      << run.err;
+  EXPECT_FALSE(fs::exists(out + "/states/shear-0.02.state"));
 }
 
 // From the stage's start all points are found, and from within it none, which is said.

@@ -9,12 +9,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/state_file.hpp>
+#include <tangency/geometry/vectors.hpp>
+
 #include "../tool/process.hpp"
+#include "csv_columns.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {
@@ -62,26 +65,6 @@ std::string sheared_scene() {
 const Made& spheroids() {
   static const Made made(sheared_scene());
   return made;
-}
-
-using Table = std::map<std::string, std::vector<std::string>>;
-
-/// Columns of CSV without quotes.
-Table table_of(const std::string& text) {
-  std::istringstream in(text);
-  std::string line, cell;
-  std::getline(in, line);
-  std::vector<std::string> names;
-  for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
-  Table table;
-  while (std::getline(in, line)) {
-    std::istringstream cells(line + ",");
-    for (const std::string& name : names) {
-      std::getline(cells, cell, ',');
-      table[name].push_back(cell);
-    }
-  }
-  return table;
 }
 
 double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
@@ -141,7 +124,7 @@ TEST(MicroCommand, TablesOfContactsAndParticlesGiveEveryTensorBack) {
 TEST(MicroCommand, StressAndCountsAreThoseOfTheTable) {
   const Made& made = spheroids();
   const Json all = made.json();
-  const Table contacts = table_of(run_tool({"contacts", made.state()}).out);
+  const Columns contacts = columns_of(run_tool({"contacts", made.state()}).out);
   const std::size_t count = contacts.at("a").size();
   const double volume = all["volume"];
   EXPECT_EQ(all["contacts"], count);
@@ -204,13 +187,31 @@ TEST(MicroCommand, SharesOfWhereBodiesAreTouchedAddUpAndTheirTurnIsOfContactNorm
   EXPECT_NEAR(seen["P2"], seen["P2_model"].get<double>(), 0.1);
 }
 
+TEST(MicroCommand, HelpNamesEveryKeyOfWhereBodiesAreTouched) {
+  const std::string help = run_tool({"micro", "--help"}).out;
+  const Made plane(growing_scene(2));
+  std::size_t named = 0;
+  for (const Json& seen :
+       {spheroids().json()["contact_statistics"], plane.json()["contact_statistics"]})
+    for (const auto& [key, value] : seen.items()) {
+      std::string name = key;  // of families the first stands for all
+      if (name.ends_with("_error") && name != "r_other_error") name.resize(name.size() - 6);
+      if (name.starts_with("pair_model_")) name = "pair_model_ss";
+      if (name.starts_with("correlation_orientation_")) name = "correlation_orientation_x";
+      EXPECT_NE(help.find(name), help.npos) << key;
+      ++named;
+    }
+  EXPECT_GT(named, 60u);
+}
+
 // dem/tool/histogram.hpp (1)
 TEST(MicroCommand, HistogramsOfBothPartitionsAddUpAndAgreeOnTheMeanForce) {
   const Made& made = spheroids();
   std::vector<double> means, errors;
   for (const std::string partition : {"near-uniform", "polar"}) {
     const Json all = made.json({"--partition", partition});
-    const Table table = table_of(made.micro({"--partition", partition, "--histogram", "-"}).out);
+    const Columns table =
+        columns_of(made.micro({"--partition", partition, "--histogram", "-"}).out);
     double density = 0.0, sides = 0.0, filled = 0.0, force = 0.0;
     std::size_t empty = 0;
     const std::size_t classes = table.at("class").size();
@@ -293,6 +294,50 @@ TEST(MicroCommand, OfSpheresHasNoTensorOfBodyAxes) {
   EXPECT_EQ(made.micro().status, 0);
 }
 
+TEST(MicroCommand, OfNoFrictionHasNoAxesOrSignsOfTangentialForces) {
+  const Made made(
+      with(with(growing_scene(3), "friction_coefficient = 0.5", "friction_coefficient = 0"),
+           "[output]\n", "[output]\nmicro_interval = 1000000\n"));
+  const Json all = made.json();
+  ASSERT_GT(all["contacts"].get<int>(), 50);
+  EXPECT_LT(all["tangential_force"]["magnitude"].get<double>(), 1e-12);
+  EXPECT_EQ(all["signs"]["t"], 0);
+  EXPECT_EQ(all["joint_signs"]["r_t"], 0);
+  EXPECT_NE(all["signs"]["n"], 0);
+  EXPECT_TRUE(all["coaxiality"]["t"]["axial_deg"].is_null());
+  EXPECT_FALSE(all["coaxiality"]["n"]["axial_deg"].is_null());
+  for (const Json& none :
+       {all["force_asymmetry"], all["axisymmetry"]["t"], all["tangential_force"]["unexplained2"]})
+    EXPECT_TRUE(none.is_null());
+  const Rows rows = rows_of(read_file(made.file("out/micro.csv")));
+  for (const char* column :
+       {"asymmetry_t", "axial_deg_t", "commutator_t", "axisymmetry_t", "unexplained2_t"})
+    EXPECT_EQ(rows.back().at(column), "") << column;
+  EXPECT_EQ(rows.back().at("sign_t"), "0");
+}
+
+TEST(MicroCommand, KnowsWhatSlidesByTheFrictionOfTheStage) {
+  const auto made_with = [](const std::string& of_contacts, const std::string& of_stage) {
+    return Made(with(with(sheared_scene(), "friction_coefficient = 0.5",
+                          "friction_coefficient = " + of_contacts),
+                     "kind = \"shear\"\n",
+                     "kind = \"shear\"\nfriction_coefficient = " + of_stage + "\n"));
+  };
+  const auto sliding = [](const Json& all) {
+    double size = 0.0;
+    for (const double x : numbers_of(all["average_strain"]["velocities"]["nets"][0]["sliding"]))
+      size = std::max(size, std::abs(x));
+    return size;
+  };
+  const Made smooth = made_with("0.5", "0.1"), rough = made_with("0.1", "0.5");
+  EXPECT_EQ(sliding(smooth.json()), 0.0);
+  EXPECT_GT(sliding(smooth.json({"--friction", "0.1"})), 1e-4);
+  EXPECT_GT(sliding(rough.json()), sliding(rough.json({"--friction", "0.5"})));
+  EXPECT_NE(rough.micro().err.find(" contacts bear more shear than their friction lets them"),
+            std::string::npos);
+  EXPECT_EQ(rough.micro({"--friction", "0.5"}).err, "");
+}
+
 TEST(MicroCommand, OfNoContactHasEmptyValuesAndNoCrash) {
   for (const char* dimensions : {"2", "3"}) {
     const Made made("schema = 1\n[cell]\ndimensions = " + std::string(dimensions) +
@@ -309,7 +354,7 @@ TEST(MicroCommand, OfNoContactHasEmptyValuesAndNoCrash) {
     EXPECT_EQ(all["coordination_number"], 0.0);
     EXPECT_EQ(made.micro().status, 0);
     EXPECT_EQ(made.micro().out.find("nan"), std::string::npos);
-    const Table rows = table_of(read_file(made.file("out/micro.csv")));
+    const Columns rows = columns_of(read_file(made.file("out/micro.csv")));
     ASSERT_EQ(rows.at("cycle").size(), 2u);
     EXPECT_EQ(rows.at("contacts").back(), "0");
     for (const char* column : {"f0", "A_r", "a_s", "share_r", "fraction_x", "axial_deg_fabric"})
@@ -318,13 +363,35 @@ TEST(MicroCommand, OfNoContactHasEmptyValuesAndNoCrash) {
   }
 }
 
+/// Particles and walls that touch in a state, one by one.
+std::size_t walls_touched(const std::string& file) {
+  const dem::State state = dem::load_state(file);
+  std::size_t touched = 0;
+  for (std::size_t i = 0; i < state.particles.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!state.cell.walled[static_cast<std::size_t>(axis)]) continue;
+      // Half the height of the body along the axis: |S R' e|.
+      const Vec3 along = state.particles.orientation[i].conjugate() * Vec3::Unit(axis);
+      const double half = state.particles.semi_axes[i].cwiseProduct(along).norm();
+      const double place = state.particles.position[i][axis];
+      touched += place < half ? 1u : 0u;
+      touched += place > state.cell.edges(axis, axis) - half ? 1u : 0u;
+    }
+  return touched;
+}
+
 TEST(MicroCommand, OfAWalledPackingCountsItsWalls) {
   const Made made(with(growing_scene(3), "[cell]\n", "[cell]\nwalls = \"z\"\n"));
   const Json all = made.json();
-  EXPECT_GT(all["wall_contacts"].get<int>(), 0);
+  EXPECT_EQ(all["wall_contacts"].get<std::size_t>(), walls_touched(made.state()));
   EXPECT_NE(made.micro().out.find("contacts with walls"), std::string::npos);
+  const Rows history = rows_of(read_file(made.file("out/history.csv")));
+  const double mean = number(history.back().at("mean_stress"));
+  ASSERT_GT(mean, 0.0);
+  EXPECT_NEAR(all["stresses"]["measured"]["mean"], mean, 1e-12 * mean);
+  EXPECT_NEAR(all["stress"][2][2], number(history.back().at("s_zz")), 1e-12 * mean);
   EXPECT_EQ(all["contacts"].get<std::size_t>(),
-            table_of(run_tool({"contacts", made.state()}).out).at("a").size());
+            columns_of(run_tool({"contacts", made.state()}).out).at("a").size());
 }
 
 TEST(MicroCommand, RefusesWhatIsNoStateOrNoPartitionWithOneLine) {
@@ -339,6 +406,9 @@ TEST(MicroCommand, RefusesWhatIsNoStateOrNoPartitionWithOneLine) {
         {"micro", made.state(), "--classes", "101"},
         {"micro", made.state(), "--partition", "polar", "--classes", "1"},
         {"micro", made.state(), "--json", "-", "--histogram", "-"},
+        {"micro", made.state(), "--json", folder.path("x"), "--histogram", folder.path("x")},
+        {"micro", made.state(), "--json", folder.path("x"), "--histogram", folder.path("no/h")},
+        {"micro", made.state(), "--friction", "-1"},
         {"micro", made.state(), "--json", folder.path("no/where.json")}}) {
     const Finished refused = run_tool(arguments);
     EXPECT_EQ(refused.status, 2) << refused.out;
@@ -350,11 +420,25 @@ TEST(MicroCommand, RefusesWhatIsNoStateOrNoPartitionWithOneLine) {
 
 TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
   const Made& made = spheroids();
-  const Table rows = table_of(read_file(made.file("out/micro.csv")));
-  const Table history = table_of(read_file(made.file("out/history.csv")));
+  const Columns rows = columns_of(read_file(made.file("out/micro.csv")));
+  const Columns history = columns_of(read_file(made.file("out/history.csv")));
   for (const char* column : {"cycle", "time", "stage", "stage_cycle", "axial_strain", "contacts"})
     EXPECT_EQ(rows.at(column), history.at(column)) << column;
   ASSERT_GT(rows.at("cycle").size(), 10u);
+  std::map<std::string, std::string> end_of;  // last cycle of each stage
+  for (std::size_t k = 0; k < rows.at("cycle").size(); ++k)
+    end_of[rows.at("stage")[k]] = rows.at("cycle")[k];
+  EXPECT_EQ(end_of.size(), 5u);
+  std::size_t between = 0;
+  for (std::size_t k = 0; k < rows.at("cycle").size(); ++k) {
+    const std::string& cycle = rows.at("cycle")[k];
+    if (cycle == end_of.at(rows.at("stage")[k])) continue;
+    EXPECT_EQ(std::stoll(cycle) % 100, 0) << cycle;
+    ++between;
+  }
+  // None is left out, but one that is the end of a stage.
+  const auto last_cycle = static_cast<std::size_t>(std::stoull(rows.at("cycle").back()));
+  EXPECT_GE(between + end_of.size(), last_cycle / 100);
   // The last row is what the command makes of the final state.
   const Json all = made.json();
   const auto last = [&](const std::string& column) { return number(rows.at(column).back()); };
@@ -382,7 +466,7 @@ TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
 TEST(MicroCsv, TakesThePartitionOfTheScene) {
   const Made made(with(sheared_scene(), "micro_interval = 100\n",
                        "micro_interval = 100\npartition = \"polar\"\nclasses = 6\n"));
-  const Table rows = table_of(read_file(made.file("out/micro.csv")));
+  const Columns rows = columns_of(read_file(made.file("out/micro.csv")));
   const Json all = made.json({"--partition", "polar", "--classes", "6"});
   EXPECT_EQ(number(rows.at("f0").back()), all["f0"].get<double>());
   EXPECT_NE(number(rows.at("f0").back()), made.json()["f0"].get<double>());

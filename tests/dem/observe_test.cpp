@@ -12,6 +12,7 @@
 #include <tangency/dem/observe.hpp>
 
 #include "assembly.hpp"
+#include "assembly_state.hpp"
 
 namespace {
 
@@ -19,14 +20,9 @@ using namespace tangency::dem;
 using tangency::Mat3;
 using tangency::Vec3;
 using tangency::testing::crowd;
+using tangency::testing::laws_in;
 
 constexpr ContactLaw kFrictionless{100.0, 0.0, 0.0, 0.0};
-
-/// One law for all; in a walled cell the walls are a second type.
-ContactLaws laws_in(const Cell& cell, const ContactLaw& law) {
-  const std::size_t types = cell.has_walls() ? 2 : 1;
-  return {types, std::vector(types * types, law)};
-}
 
 struct Seen {
   NeighbourList list;

@@ -17,6 +17,7 @@
 #include <tangency/geometry/gap.hpp>
 
 #include "assembly.hpp"
+#include "assembly_state.hpp"
 
 namespace tangency::testing {
 namespace {
@@ -25,15 +26,7 @@ constexpr dem::ContactLaw kRough{100.0, 80.0, 0.2, 0.0};
 
 /// Of particles that have moved for a time: some of the contacts slide, others stick.
 dem::State state_of(dem::Particles particles, const dem::Cell& cell, double dt) {
-  dem::State state;
-  state.cell = cell;
-  state.particles = std::move(particles);
-  const std::size_t types = cell.has_walls() ? 2 : 1;
-  state.laws = {types, std::vector(types * types, kRough)};
-  state.list.build(state.particles, cell, 0.3);
-  state.contacts.carry_over({}, state.list.pairs());
-  state.contacts.update(state.particles, cell, state.list, state.laws, dt);
-  return state;
+  return testing::state_of(std::move(particles), cell, kRough, dt);
 }
 
 /// The same with the particles in another order in memory.

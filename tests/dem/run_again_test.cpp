@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "../tool/process.hpp"
+#include "csv_columns.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {
@@ -225,11 +226,14 @@ TEST(RunAgain, AFinishedStateInAnEmptyPlaceHasARowAndAReport) {
   const std::string out = folder.path("out"), empty = folder.path("empty");
   ASSERT_EQ(run_quietly(scene, out).status, 0);
   ASSERT_EQ(run_quietly(scene, empty, {"--resume", out + "/final.state"}).status, 0);
-  const auto whole = lines_of(read_file(out + "/history.csv")),
-             rows = lines_of(read_file(empty + "/history.csv"));
+  const auto rows = lines_of(read_file(empty + "/history.csv"));
   ASSERT_EQ(rows.size(), 2u);
   // The last row of the run, but for the cycles of its stage, which the state has gone on from.
-  EXPECT_EQ(rows[1].substr(0, rows[1].rfind(',')), whole.back().substr(0, whole.back().rfind(',')));
+  const Rows of_run = rows_of(read_file(out + "/history.csv"));
+  std::map<std::string, std::string> last = of_run.back();
+  EXPECT_NE(last.at("stage_cycle"), "0");
+  last["stage_cycle"] = "0";
+  EXPECT_EQ(rows_of(read_file(empty + "/history.csv")).back(), last);
   const Finished report = run_tool({"report", empty});
   EXPECT_EQ(report.status, 0) << report.err;
   EXPECT_NE(report.out.find("\nshear "), report.out.npos) << report.out;

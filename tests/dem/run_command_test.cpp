@@ -16,6 +16,7 @@
 #include <tangency/dem/observe.hpp>
 
 #include "../tool/process.hpp"
+#include "csv_columns.hpp"
 #include "scenes.hpp"
 
 namespace tangency::testing {
@@ -175,9 +176,10 @@ TEST(RunCommand, NamesAMistypedSubcommandAndTheNearest) {
             "tangency-dem: rnu is no subcommand; the nearest is run" + end);
   EXPECT_EQ(run_tool({"shcema"}).err,
             "tangency-dem: shcema is no subcommand; the nearest is schema" + end);
-  EXPECT_EQ(
-      run_tool({"fly"}).err,
-      "tangency-dem: fly is no subcommand; run, report, contacts, particles and schema are" + end);
+  EXPECT_EQ(run_tool({"fly"}).err,
+            "tangency-dem: fly is no subcommand; run, report, contacts, particles, micro and "
+            "schema are" +
+                end);
 }
 
 std::map<std::string, std::string> files_below(const std::string& folder) {
@@ -278,16 +280,11 @@ TEST(RunCommand, LeavesHistorySummaryStatesAndFrames) {
   EXPECT_FALSE(summary.contains("peak_friction_angle_deg")) << "no stage sheared";
 
   // The last row of the history is the head of the summary, number by number.
-  std::istringstream history(read_file(out + "/history.csv"));
-  std::string header, line, row;
-  std::getline(history, header);
-  while (std::getline(history, line)) {
-    EXPECT_EQ(line.find(",-0,"), line.npos) << line;
-    row = line;
-  }
-  std::istringstream names(header), values(row);
-  std::string name, value;
-  while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
+  const Columns history = columns_of(read_file(out + "/history.csv"));
+  ASSERT_FALSE(history.at("cycle").empty());
+  for (const auto& [name, cells] : history) {
+    for (const std::string& cell : cells) EXPECT_NE(cell, "-0") << name;
+    const std::string& value = cells.back();
     if (name == "stage") {
       EXPECT_EQ(summary[name], value);
     } else {

@@ -15,6 +15,7 @@
 #include <tangency/dem/simulation.hpp>
 
 #include "scenes.hpp"
+#include "stages.hpp"
 
 namespace {
 
@@ -40,18 +41,7 @@ std::string compacted_then(const std::string& stage) {
 
 /// The state at the start of the stage added last, which all tests begin with.
 const State& compacted() {
-  static const State state = [] {
-    Simulation simulation(parse_scene(compacted_then(""), "scene.toml"));
-    while (!simulation.finished()) {
-      const StageStatus status = simulation.status();
-      if (status == StageStatus::out_of_cycles) throw std::runtime_error("it does not compact");
-      if (status == StageStatus::done)
-        simulation.next_stage();
-      else
-        simulation.step();
-    }
-    return simulation.state();
-  }();
+  static const State state = at_end(compacted_then("")).state();
   return state;
 }
 

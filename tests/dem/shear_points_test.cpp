@@ -9,10 +9,14 @@
 #include <random>
 #include <vector>
 
+#include <tangency/dem/micromechanics/plane.hpp>
+#include <tangency/dem/micromechanics/stress_force_fabric.hpp>
 #include <tangency/dem/shear_points.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace {
+
+namespace mm = tangency::micromechanics;
 
 using tangency::Mat3;
 using tangency::Quaternion;
@@ -128,6 +132,21 @@ TEST(StressRatio, DependsOnNeitherAxesNorUnits) {
   EXPECT_NEAR(ratio, std::sqrt(13.0) / (8.0 / 3.0), 1e-15);  // sqrt(((1-2)^2 + 3^2 + 4^2) / 2)
   const Mat3 turn = Quaternion(0.8, 0.36, -0.288, 0.384).normalized().toRotationMatrix();
   EXPECT_NEAR(stress_ratio_of(1e7 * turn * stress * turn.transpose()), ratio, 1e-14);
+}
+
+// The two libraries have it each, since the simulator links none for one formula; where it is not
+// defined the simulator's rules go on with 0.
+TEST(StressRatio, IsThatOfMicromechanicsWhereItIsDefined) {
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 20; ++k) {
+    Mat3 stress;
+    for (double& x : stress.reshaped()) x = normal(random);
+    stress = Mat3(stress + stress.transpose() + 9.0 * Mat3::Identity());
+    ASSERT_GT(stress.topLeftCorner(2, 2).trace(), 0.0);
+    EXPECT_NEAR(stress_ratio_of(stress), mm::shear_stress_ratio(stress), 1e-14);
+    EXPECT_NEAR(stress_ratio_of(stress, 2), mm::plane_shear_ratio(stress), 1e-14);
+  }
 }
 
 // Triaxial: 6 sin(phi) / (3 - sin(phi)). In the plane: sin(phi), whatever stands across it.

@@ -22,6 +22,7 @@
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
+#include "stages.hpp"
 
 namespace tangency::testing {
 namespace {
@@ -120,14 +121,7 @@ struct TwoStates {
                                   "[[stage]]\nkind = \"shear\"\nmean_stress = 50e6\n"
                                   "axial_strain_rate = 0.05\naxial_strain = 0.5\n"
                                   "time_step_factor = 0.3\ndamping = 0.1\n[output]\n");
-    dem::Simulation run(dem::parse_scene(text, "scene.toml"));
-    const std::size_t stages = run.scene().stages.size();
-    while (run.state().stage + 1 < stages) {
-      if (run.status() == dem::StageStatus::running)
-        run.step();
-      else
-        run.next_stage();
-    }
+    dem::Simulation run = at_stage(text, 4);
     const auto go_on_and_save = [&](int cycles, const char* name) {
       for (int k = 0; k < cycles; ++k) run.step();
       dem::save_state(run.state(), folder.path(name));
@@ -201,6 +195,69 @@ TEST_P(StrainOfStates, PartsAddUpToTheStrainOfTheCell) {
 }
 INSTANTIATE_TEST_SUITE_P(Dimensions, StrainOfStates, ::testing::Values(2, 3));
 
+/// Disks on a square lattice that touch their four neighbours, at rest; `edit` gives them motion.
+/// @param friction  0: contacts have no spring in shear
+template <class Edit>
+json strain_of_lattice(double friction, const Edit& edit) {
+  dem::Simulation run = at_stage(
+      "schema = 1\n[cell]\ndimensions = 2\n[particles.disk]\ncount = 16\nmean_radius = 1.0\n"
+      "[contact]\nnormal_stiffness = 1e6\nfriction_coefficient = " +
+          std::to_string(friction) +
+          "\n[[stage]]\nkind = \"place\"\njitter = 0.0\n"
+          "[[stage]]\nkind = \"compress\"\nmean_stress = 1e4\nmax_strain_rate = 0.05\n",
+      2);
+  dem::State state = run.state();
+  EXPECT_EQ(state.contacts.totals().contacts, 32);
+  for (std::size_t i = 0; i < state.particles.size(); ++i) {
+    state.particles.velocity[i].setZero();
+    state.particles.angular_velocity[i].setZero();
+  }
+  state.cell.rate.setZero();
+  edit(state);
+  const TemporaryFolder folder;
+  dem::save_state(state, folder.path("lattice.state"));
+  const Finished done = run_tool({"micro", folder.path("lattice.state"), "--json", "-"});
+  EXPECT_EQ(done.status, 0) << done.err;
+  return json::parse(done.out)["average_strain"]["velocities"]["nets"][0];
+}
+
+/// Is a part the tensor, and are all others 0? The second part may be minus it.
+void expect_alone(const json& net, const std::string& part, const Mat3& wanted,
+                  const std::string& against = "") {
+  EXPECT_EQ(net["net"], "polygons");
+  for (const char* name : {"normal", "elastic", "sliding", "rotation", "apart"}) {
+    const Mat3 expected = name == part      ? wanted
+                          : name == against ? Mat3(-wanted)
+                                            : Mat3(Mat3::Zero());
+    EXPECT_LT((tensor(net[name]) - expected).norm(), 1e-9 * wanted.norm()) << name;
+  }
+}
+
+// Contacts lie along x and y: whatever the motion, each part is known.
+TEST(StrainCommand, OfALatticePartsAreThoseOfItsMotion) {
+  Mat3 opening = Mat3::Zero(), shear = Mat3::Zero(), turn = Mat3::Zero();
+  opening.diagonal() << 0.3, -0.2, 0.0;
+  shear(0, 1) = 0.5;
+  turn(0, 1) = -0.7;
+  turn(1, 0) = 0.7;
+  expect_alone(strain_of_lattice(0.5, [&](dem::State& state) { state.cell.rate = opening; }),
+               "normal", -opening);
+  expect_alone(strain_of_lattice(0.5, [&](dem::State& state) { state.cell.rate = shear; }),
+               "elastic", -shear);
+  expect_alone(strain_of_lattice(0.0, [&](dem::State& state) { state.cell.rate = shear; }),
+               "sliding", -shear);
+  const auto spin = [&](dem::State& state) {
+    for (Vec3& w : state.particles.angular_velocity) w[2] = turn(1, 0);
+  };
+  expect_alone(strain_of_lattice(0.5, spin), "rotation", -turn, "elastic");
+  expect_alone(strain_of_lattice(0.5,
+                                 [&](dem::State& state) {
+                                   spin(state);
+                                   state.cell.rate = turn;
+                                 }),
+               "rotation", -turn);
+}
+
 TEST(StrainCommand, TableHasTheStrainOfTheCellAndItsSum) {
   const TwoStates states(2);
   const Finished done = run_tool({"micro", states.later, "--since", states.older});
@@ -231,6 +288,21 @@ TEST(StrainCommand, RefusesAStateThatIsNoEarlierOneOfTheSameParticles) {
   EXPECT_NE(refused({"micro", states.later, "--since", file})
                 .find("other.state: a state of 27 particles"),
             std::string::npos);
+}
+
+TEST(StrainCommand, RefusesAStateOfOtherMasses) {
+  const TemporaryFolder folder;
+  const auto saved = [&](const char* name, const std::string& scene) {
+    dem::save_state(dem::Simulation(dem::parse_scene(scene, "scene.toml")).state(),
+                    folder.path(name));
+    return folder.path(name);
+  };
+  const std::string state = saved("a.state", small_scene());
+  const std::string other =
+      saved("b.state", with(small_scene(), "mean_radius = 10.0", "mean_radius = 20.0"));
+  const Finished done = run_tool({"micro", state, "--since", other});
+  EXPECT_EQ(done.status, 2);
+  EXPECT_NE(done.err.find("b.state: particle 0 has the mass "), std::string::npos) << done.err;
 }
 
 TEST(StrainCommand, SaysThatCellsWithWallsHaveNone) {

@@ -20,6 +20,7 @@
 #include "../tool/process.hpp"
 #include "assembly.hpp"
 #include "scenes.hpp"
+#include "stages.hpp"
 
 namespace {
 
@@ -162,19 +163,7 @@ constexpr std::size_t kSheared = 27;
 
 /// At the start of the shear, by the certified answers.
 const State& at_rest() {
-  static const State state = [] {
-    Simulation simulation(parse_scene(sheared("follow", kSheared), "scene.toml"));
-    while (simulation.state().stage < 3) {
-      const StageStatus status = simulation.status();
-      if (status == StageStatus::out_of_cycles)
-        throw std::runtime_error("it does not come to rest");
-      if (status == StageStatus::done)
-        simulation.next_stage();
-      else
-        simulation.step();
-    }
-    return simulation.state();
-  }();
+  static const State state = at_stage(sheared("follow", kSheared), 3).state();
   return state;
 }
 

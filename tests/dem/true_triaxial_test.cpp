@@ -11,6 +11,7 @@
 #include <tangency/dem/simulation.hpp>
 
 #include "scenes.hpp"
+#include "stages.hpp"
 
 namespace {
 
@@ -35,19 +36,7 @@ std::string sheared(const std::string& stage) {
 
 /// At the start of the last stage.
 const State& at_rest() {
-  static const State state = [] {
-    Simulation simulation(parse_scene(sheared(""), "scene.toml"));
-    while (!simulation.finished()) {
-      const StageStatus status = simulation.status();
-      if (status == StageStatus::out_of_cycles)
-        throw std::runtime_error("it does not come to rest");
-      if (status == StageStatus::done)
-        simulation.next_stage();
-      else
-        simulation.step();
-    }
-    return simulation.state();
-  }();
+  static const State state = at_end(sheared("")).state();
   return state;
 }
 
@@ -79,7 +68,10 @@ Off worst_in(double ratio, const std::string& stage) {
   std::cout << "ratio " << ratio << ": off by " << worst.ratio << ", mean stress by " << worst.mean
             << ", lateral strains " << strain[0] << ", " << strain[1] << "\n";
   // b = 0 leaves x and y alike; the larger it is the more y is kept from extending.
-  EXPECT_EQ(strain[1]<strain[0] - 0.002, ratio> 0.1);
+  if (ratio == 0.0)
+    EXPECT_NEAR(strain[0], strain[1], 0.002);
+  else
+    EXPECT_LT(strain[1], strain[0] - 0.002);
   return worst;
 }
 
@@ -92,7 +84,7 @@ TEST_P(TrueTriaxial, ShearHoldsTheIntermediateStressAtItsRatio) {
                "[[stage]]\nkind = \"shear\"\nmean_stress = 10e6\naxial_strain = 0.02\n"
                "axial_strain_rate = 0.001\ntime_step_factor = 0.3\nintermediate_ratio = " +
                    std::to_string(ratio) + "\n");
-  EXPECT_LT(worst.ratio, 0.01);
+  EXPECT_LT(worst.ratio, 1e-4);
   EXPECT_LT(worst.mean, 0.01);
 }
 
