@@ -134,4 +134,32 @@ WallTruth wall(const RawEllipsoid& body, const std::array<double, 3>& normal, do
   return truth;
 }
 
+Real plane_distance(const RawEllipse& body, const std::array<double, 2>& point) {
+  const Real ux = body.direction[0], uy = body.direction[1], norm = sqrt(ux * ux + uy * uy);
+  const Real dx = Real(point[0]) - body.centre[0], dy = Real(point[1]) - body.centre[1];
+  const Real y1 = abs(ux * dx + uy * dy) / norm, y2 = abs(ux * dy - uy * dx) / norm;
+  const Real a1 = body.semi_axes[0], a2 = body.semi_axes[1];
+  // Half the derivative of the distance's square by the angle, negated: > 0 before the foot.
+  const auto ahead = [&](const Real& c, const Real& s) {
+    return (a1 * a1 - a2 * a2) * c * s - a1 * y1 * s + a2 * y2 * c;
+  };
+  // The angle's tangent is q for q <= 1 and 1 / (2 - q) above: small angles keep their digits.
+  const auto point_at = [&](const Real& q) {
+    const Real other = q <= 1 ? q : Real(2 - q), length = sqrt(1 + other * other);
+    const Real large = 1 / length, small = other / length;
+    return q <= 1 ? std::array<Real, 2>{large, small} : std::array<Real, 2>{small, large};
+  };
+  Real low = 0, high = 2;
+  constexpr int kHalvings = 380;  // of 398 bits
+  for (int i = 0; i < kHalvings; ++i) {
+    const Real middle = (low + high) / 2;
+    const auto [c, s] = point_at(middle);
+    (ahead(c, s) > 0 ? low : high) = middle;
+  }
+  const auto [c, s] = point_at(low);
+  const Real e1 = y1 - a1 * c, e2 = y2 - a2 * s, distance = sqrt(e1 * e1 + e2 * e2);
+  const Real w1 = y1 / a1, w2 = y2 / a2;
+  return w1 * w1 + w2 * w2 < 1 ? Real(-distance) : distance;
+}
+
 }  // namespace tangency::verify
