@@ -51,13 +51,20 @@ long condition_bits(const RationalMatrix<N>& m) {
   return std::max(0L, static_cast<long>(N) * exponent_of(trace) - exponent_of(determinant) + 2);
 }
 
+/// A number keeps the bits that it was made with, whatever is assigned to it.
+template <std::size_t N>
+std::array<mpf_class, N> wide_zeros(long bits) {
+  std::array<mpf_class, N> zeros;
+  for (mpf_class& zero : zeros) zero.set_prec(static_cast<mp_bitcnt_t>(bits));
+  return zeros;
+}
+
 template <std::size_t N>
 WideMatrix<N> wide(const RationalMatrix<N>& m, long bits) {
   WideMatrix<N> result;
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) {
-      result[i][j] = mpf_class(m[i][j], static_cast<mp_bitcnt_t>(bits));
-    }
+    result[i] = wide_zeros<N>(bits);
+    for (std::size_t j = 0; j < N; ++j) result[i][j] = m[i][j];
   }
   return result;
 }
@@ -99,11 +106,11 @@ Eigen<N> eigen(const RationalMatrix<N>& matrix) {
   const long bits = kSpareBits + 2 * condition_bits(matrix);
   WideMatrix<N> m = wide(matrix, bits);
   Eigen<N> result;
-  const mpf_class zero(0, static_cast<mp_bitcnt_t>(bits)), one(1, static_cast<mp_bitcnt_t>(bits));
   for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) result.vectors[i][j] = i == j ? one : zero;
+    result.vectors[i] = wide_zeros<N>(bits);
+    result.vectors[i][i] = 1;
   }
-  mpf_class largest = zero;
+  mpf_class largest(0, static_cast<mp_bitcnt_t>(bits));
   for (std::size_t i = 0; i < N; ++i) largest = std::max(largest, mpf_class(abs(m[i][i])));
   // Of a singular matrix the smallest is nothing but rounding, and this is what ends the search.
   const mpf_class floor = largest >> static_cast<mp_bitcnt_t>(bits - kRoundingBits);
@@ -118,6 +125,7 @@ Eigen<N> eigen(const RationalMatrix<N>& matrix) {
       }
     }
   }
+  result.values = wide_zeros<N>(bits);
   for (std::size_t i = 0; i < N; ++i) result.values[i] = m[i][i];
   return result;
 }
@@ -302,7 +310,7 @@ template <std::size_t N>
 NearestSolid<N> nearest_solid(const RationalSolid<N>& solid) {
   const Eigen<N> found = eigen(solid.shape);
   NearestSolid<N> result;
-  std::array<mpf_class, N> semi_axes;
+  auto semi_axes = wide_zeros<N>(static_cast<long>(found.values[0].get_prec()));
   for (std::size_t k = 0; k < N; ++k) {
     semi_axes[k] = sqrt(found.values[k]);
     result.semi_axes[k] = nearest(semi_axes[k]);
