@@ -15,11 +15,8 @@ ClosestPoint projected(const Ellipsoid& body, const Vec3& point) {
   const detail::SeenFromCentre seen = detail::seen_from_centre(body, point);
   const detail::ClosestOnSurface found = detail::closest_on_surface(body, seen);
   const double distance = found.distance.high;
-  return {std::scalbn(distance, seen.exponent),
-          found.normal,
-          found.arm,
-          detail::error_of_distance(distance, detail::size_of(seen), seen.exponent),
-          GapStatus::ok};
+  return {std::scalbn(distance, seen.exponent), found.normal, found.arm,
+          detail::error_of_distance(distance, detail::size_of(seen), seen.exponent), GapStatus::ok};
 }
 
 }  // namespace

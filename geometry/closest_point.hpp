@@ -21,9 +21,9 @@
 namespace tangency {
 
 struct ClosestPoint {
-  double distance;  ///< signed, < 0 inside, in the unit of length of the body
-  Vec3 normal;      ///< unit, the outer normal of the surface at the closest point
-  Vec3 arm;         ///< closest point - centre
+  double distance;        ///< signed, < 0 inside, in the unit of length of the body
+  Vec3 normal;            ///< unit, the outer normal of the surface at the closest point
+  Vec3 arm;               ///< closest point - centre
   double distance_error;  ///< proven: |distance - true distance| is at most this
   GapStatus status;       ///< ok: the least distance is always found
 };

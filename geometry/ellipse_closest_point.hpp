@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The point of an ellipse's boundary that is closest to a given point, and the signed distance: the
-/// plane's counterpart of closest_point.hpp, by the same definition,
+/// The point of an ellipse's boundary that is closest to a given point, and the signed distance:
+/// the plane's counterpart of closest_point.hpp, by the same definition,
 ///
 ///     s(p) = max over unit n of [ n . (p - c) - h(n) ],
 ///
@@ -21,17 +21,17 @@
 namespace tangency {
 
 struct PlaneClosestPoint {
-  double distance;  ///< signed, < 0 inside, in the unit of length of the ellipse
-  Vec2 normal;      ///< unit, the outer normal of the boundary at the closest point
-  Vec2 arm;         ///< closest point - centre
+  double distance;        ///< signed, < 0 inside, in the unit of length of the ellipse
+  Vec2 normal;            ///< unit, the outer normal of the boundary at the closest point
+  Vec2 arm;               ///< closest point - centre
   double distance_error;  ///< proven: |distance - true distance| is at most this
   GapStatus status;       ///< ok: the least distance is always found
 };
 
-/// Any finite point and any semi-axes. With L = |p - c| + larger semi-axis and u = 2^-53 the numbers
-/// are as near to the true ones as those of closest_point.hpp: distance_error is 2 u |distance| +
-/// 2^-80 L (docs/derivations/primitives.md, section 3), the arm within 2 u |arm| + 2^-80 L of a point
-/// of the boundary that is closest to a point within 2^-80 L of p.
+/// Any finite point and any semi-axes. With L = |p - c| + larger semi-axis and u = 2^-53 the
+/// numbers are as near to the true ones as those of closest_point.hpp: distance_error is 2 u
+/// |distance| + 2^-80 L (docs/derivations/primitives.md, section 3), the arm within 2 u |arm| +
+/// 2^-80 L of a point of the boundary that is closest to a point within 2^-80 L of p.
 ///
 /// On the longer axis, nearer to the centre than the centres of curvature of its ends, two points
 /// tie: it is the one on the positive side of the shorter axis. At the centre of a circle all

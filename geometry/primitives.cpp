@@ -90,8 +90,8 @@ enum class Free { outer, both };
 
 /// How far the body reaches from a plane, in units of 2^exponent.
 struct Reach {
-  DoubleDouble height;  ///< of the centre above the plane
-  bool reversed;        ///< is above where the plane's normal does not point?
+  DoubleDouble height;        ///< of the centre above the plane
+  bool reversed;              ///< is above where the plane's normal does not point?
   DoubleDoubleVector normal;  ///< unit, from the body to the plane
   SupportPoint support;       ///< towards it, in units of 2^own; the point in space
   int own, exponent;
@@ -99,9 +99,7 @@ struct Reach {
   double size;       ///< of which 2^-80 bounds the error of double-double
 
   /// How far the body's other side is above the plane.
-  DoubleDouble top() const {
-    return height + scaled_by_power(support.support, own - exponent);
-  }
+  DoubleDouble top() const { return height + scaled_by_power(support.support, own - exponent); }
 };
 
 Reach reach(const Ellipsoid& body, const Vec3& wall_normal, double offset, Free free) {
@@ -168,10 +166,9 @@ struct AskedWall {
     return reach.top().high < -error ? std::optional(Relation::a_in_b) : std::nullopt;
   }
   Relation exact(const MatrixEllipsoid& body) const {
-    const auto [centre, outside] =
-        exact::wall_signs(body.exact() != nullptr ? *body.exact()
-                                                  : exact::rational_solid(body.ellipsoid()),
-                          normal, offset);
+    const auto [centre, outside] = exact::wall_signs(
+        body.exact() != nullptr ? *body.exact() : exact::rational_solid(body.ellipsoid()), normal,
+        offset);
     if (outside < 0) return Relation::overlap;
     const bool inside = free == Free::outer && centre < 0;
     if (outside == 0) return inside ? Relation::internal_touch : Relation::external_touch;

@@ -13,9 +13,11 @@
 /// (2) A sphere and an Ellipsoid of three equal semi-axes have the same gap to any third body.
 /// (3) Moving either body along the normal until the gap is 0 leaves a touch.
 /// (4) A common rotation or translation leaves the gap, and a common scaling scales it.
-/// (5) The relation of a body and a Sheet is that of the body and the Plane on the other side of its
+/// (5) The relation of a body and a Sheet is that of the body and the Plane on the other side of
+/// its
 ///     centre, with internal_touch and a_in_b impossible.
-/// (6) A separation d in place of the centres leaves the answer to bodies whose centres are d apart.
+/// (6) A separation d in place of the centres leaves the answer to bodies whose centres are d
+/// apart.
 #pragma once
 
 #include <tangency/geometry/gap.hpp>

@@ -230,8 +230,9 @@ RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t
 
 RayHit intersect(const MatrixEllipsoid& body, const Ray& ray, double t_begin,
                  double t_end) noexcept {
-  return in_default_environment(
-      [&] { return found_hit({body.ellipsoid(), body.exact()}, ray, t_begin, t_end); });
+  return in_default_environment([&] {
+    return found_hit({body.ellipsoid(), body.exact()}, ray, t_begin, t_end);
+  });
 }
 
 RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, const Vec3& direction,

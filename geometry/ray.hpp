@@ -70,8 +70,8 @@ RayHit intersect(const MatrixEllipsoid& body, const Ray& ray, double t_begin = 0
 
 /// With the separation d = origin - c given, in place of origin and centre: for periodic images.
 /// @param separation  finite
-RayHit intersect_from_centre(
-    const Ellipsoid& body, const Vec3& separation, const Vec3& direction, double t_begin = 0.0,
-    double t_end = std::numeric_limits<double>::infinity()) noexcept;
+RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, const Vec3& direction,
+                             double t_begin = 0.0,
+                             double t_end = std::numeric_limits<double>::infinity()) noexcept;
 
 }  // namespace tangency

@@ -161,8 +161,8 @@ TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellip
   return found;
 }
 
-/// The body by doubles, larger or smaller about its centre by the share that it is off: the true one
-/// lies inside, or has it inside. Nothing where such a body is beyond the range of doubles.
+/// The body by doubles, larger or smaller about its centre by the share that it is off: the true
+/// one lies inside, or has it inside. Nothing where such a body is beyond the range of doubles.
 std::optional<Ellipsoid> grown(const MatrixEllipsoid& body, double sign) {
   // The share, and what its own arithmetic rounds.
   const double share = body.relative_rounding() + (body.exact() != nullptr ? 0x1p-50 : 0.0);
@@ -182,22 +182,21 @@ TimeOfContact found_time(const MatrixEllipsoid& a, const Motion& motion_a, const
   const auto smaller_a = grown(a, -1.0), smaller_b = grown(b, -1.0);
   const bool encloses = larger_a && larger_b;
   // Where no larger body can be stored nothing is proven beyond the start.
-  TimeOfContact found =
-      found_time(encloses ? *larger_a : a.ellipsoid(), motion_a,
-                 encloses ? *larger_b : b.ellipsoid(), motion_b, encloses ? horizon : 0.0, tolerance);
+  TimeOfContact found = found_time(encloses ? *larger_a : a.ellipsoid(), motion_a,
+                                   encloses ? *larger_b : b.ellipsoid(), motion_b,
+                                   encloses ? horizon : 0.0, tolerance);
   const bool touching = relation(a, b).relation != Relation::separate;
   if (touching || !encloses || found.status == ContactTimeStatus::touching_at_start) {
-    found.status = touching  ? ContactTimeStatus::touching_at_start
+    found.status = touching   ? ContactTimeStatus::touching_at_start
                    : encloses ? ContactTimeStatus::grazing
                               : ContactTimeStatus::not_converged;
     found.time = found.latest = 0.0;
     return found;
   }
   if (found.status != ContactTimeStatus::contact) return found;
-  const TimeOfContact inner = smaller_a && smaller_b
-                                  ? found_time(*smaller_a, motion_a, *smaller_b, motion_b, horizon,
-                                               tolerance)
-                                  : found;
+  const TimeOfContact inner = smaller_a && smaller_b ? found_time(*smaller_a, motion_a, *smaller_b,
+                                                                  motion_b, horizon, tolerance)
+                                                     : found;
   const bool proven = smaller_a && smaller_b && inner.status == ContactTimeStatus::contact;
   found.status = proven ? ContactTimeStatus::contact : ContactTimeStatus::grazing;
   found.latest = proven ? std::max(inner.latest, found.time) : found.time;

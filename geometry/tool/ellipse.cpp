@@ -77,9 +77,11 @@ Example, a unit circle and an ellipse of half its width:
   0,0,1,1,0,1.25,0,0.5,2,1,0
   $ tangency ellipse ellipses.csv
   row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status,inner,gap_error
-  0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok,,0
+  0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok,,3.4972025275692463e-15
   $ tangency ellipse --points ellipses.csv
   row,x,y,multiplicity
+  0,0.7755599823106163,-0.6312738817964486,1
+  0,0.7755599823106163,0.6312738817964486,1
 )";
 
 void write_crossings(const EllipseRelation& exact, tables::RowText& out) {

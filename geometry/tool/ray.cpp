@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/geometry/ray.hpp>
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tangency/geometry/ray.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
@@ -70,8 +69,7 @@ class RayColumns {
   Ray ray(const tables::RowCursor& row) const {
     const std::array<double, 6> p = line_.read(row);
     const Vec3 direction(p[3], p[4], p[5]);
-    if (direction == Vec3::Zero())
-      throw row.error(line_[3], "a ray's direction must not be all 0");
+    if (direction == Vec3::Zero()) throw row.error(line_[3], "a ray's direction must not be all 0");
     return {Vec3(p[0], p[1], p[2]), direction};
   }
   Ends ends(const tables::RowCursor& row) const {

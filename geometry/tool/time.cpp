@@ -56,6 +56,8 @@ Example, a sphere that flies at another, and past it:
   0,0,0,1,1,1,2,0,0,0,0,0,6,3,0,1,1,1,0,0,0,0,0,0
   $ tangency time --horizon 10 --tolerance 0x1p-20 motions.csv
   row,status,time,latest
+  0,contact,1.9999999999999574,2.0000009536742738
+  1,none,10,10
 )";
 
 struct Options : tables::RowStreamOptions {
@@ -79,7 +81,9 @@ class TimeColumn {
     if (!column_) tables::parse_number(all_rows, all_rows_);
   }
 
-  double read(const tables::RowCursor& row) const { return column_ ? row.number(*column_) : all_rows_; }
+  double read(const tables::RowCursor& row) const {
+    return column_ ? row.number(*column_) : all_rows_;
+  }
   std::optional<tables::Column> column() const noexcept { return column_; }
 
  private:
@@ -144,8 +148,8 @@ std::string_view to_string(ContactTimeStatus status) {
   return "not_converged";
 }
 
-tables::RowOutcome write(const MovingBody& a, const MovingBody& b, double horizon,
-                         double tolerance, tables::RowText& out) {
+tables::RowOutcome write(const MovingBody& a, const MovingBody& b, double horizon, double tolerance,
+                         tables::RowText& out) {
   if (!is_representable(a.motion, horizon) || !is_representable(b.motion, horizon)) {
     out.text("not_applicable");
     out.empty(2);
@@ -179,7 +183,8 @@ tables::RowFunction bind(const tables::Header& header, const Options& options) {
 
 void add_time(tables::Program& program) {
   const auto options = std::make_shared<Options>();
-  tables::Command& command = program.subcommand("time", "When pairs of moving ellipsoids first touch");
+  tables::Command& command =
+      program.subcommand("time", "When pairs of moving ellipsoids first touch");
   command
       .option("--horizon", options->horizon, "How far in time is looked, where no column says so")
       .check(check_number([](double x) { return x >= 0.0; }, kHorizonRule))
@@ -193,11 +198,11 @@ void add_time(tables::Program& program) {
   add_row_stream_options(command, *options);
   command.footer(std::string(kBodyColumnsHelp) + kHelp);
   command.runs([options] {
-    const tables::RowTask task{
-        .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-        .verdict_column = "status",
-        .bind = tables::row_by_row(
-            [options](const tables::Header& header) { return bind(header, *options); })};
+    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+                               .verdict_column = "status",
+                               .bind = tables::row_by_row([options](const tables::Header& header) {
+                                 return bind(header, *options);
+                               })};
     return tables::run_row_stream(task, *options);
   });
 }

@@ -59,8 +59,14 @@ Example, a body above a floor, through it, and below:
   0,0,-4,3,2,1,0,0,1,1
   $ tangency wall bodies.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
+  0,separate,2,0,0,-1,0,0,3,0,0,1,4.44089209850063e-16,ok,
+  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230246251575e-16,ok,
+  2,a_in_b,-6,0,0,-1,0,0,-5,0,0,1,1.776356839400252e-15,ok,
   $ tangency wall --two-sided bodies.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
+  0,separate,2,0,0,-1,0,0,3,0,0,1,4.44089209850063e-16,ok,
+  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230246251575e-16,ok,
+  2,separate,4,0,0,1,0,0,-3,0,0,1,8.88178419700126e-16,ok,
 )";
 
 struct WallAnswer {
@@ -82,7 +88,7 @@ tables::RowOutcome write(const WallAnswer& answer, const Vec3& centre, tables::R
   if (representable) {
     out.number(gap.gap);
     for (const Vec3* vector : {&gap.normal, &on_body, &on_wall}) {
-      for (const double component : *vector) out.number(component);
+      for (const double component : *vector) out.number(component + 0.0);  // 0 for -0
     }
     out.number(gap.gap_error);
   } else {
@@ -106,8 +112,8 @@ tables::RowFunction bind(const tables::Header& header, MixedTerms mixed_terms, b
     const auto [nx, ny, nz, offset] = w.read(row);
     const Vec3 normal(nx, ny, nz);
     if (normal == Vec3::Zero()) throw row.error(w[0], "a wall's normal must not be all 0");
-    const WallAnswer found = two_sided ? answer(body, Sheet{normal, offset})
-                                       : answer(body, Plane{normal, offset});
+    const WallAnswer found =
+        two_sided ? answer(body, Sheet{normal, offset}) : answer(body, Plane{normal, offset});
     return write(found, body.ellipsoid().centre(), out);
   };
 }

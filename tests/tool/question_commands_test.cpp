@@ -98,9 +98,8 @@ TEST(WallCommand, TellsEveryRelationOfBothKindsOfWall) {
   EXPECT_EQ(column(solid.out, 2), (std::vector<std::string>{"1", "0", "-3", "-6", "-7"}));
   EXPECT_EQ(column(solid.out, 14), (std::vector<std::string>{"", "", "", "a", ""}));
   const Finished thin = run_tool({"wall", "--two-sided"}, rows);
-  EXPECT_EQ(column(thin.out, 1),
-            (std::vector<std::string>{"separate", "external_touch", "overlap", "external_touch",
-                                      "separate"}));
+  EXPECT_EQ(column(thin.out, 1), (std::vector<std::string>{"separate", "external_touch", "overlap",
+                                                           "external_touch", "separate"}));
   EXPECT_EQ(column(thin.out, 2), (std::vector<std::string>{"1", "0", "-3", "0", "1"}));
   EXPECT_EQ(column(thin.out, 5), (std::vector<std::string>{"-1", "-1", "-1", "1", "1"}));
 }
@@ -116,10 +115,11 @@ TEST(WallCommand, NamesWhatItRefuses) {
 // The last hit's body is given by a precision matrix and a level, and touched exactly.
 TEST(RayCommand, TellsHitsTouchesAndMissesExactlyForEveryForm) {
   const std::string header = "a.x,a.y,a.z,a.p.xx,a.p.yy,a.p.zz,a.p.xy,a.p.yz,a.p.zx,a.level,";
-  const Finished run = run_tool({"ray"}, header + kRay +
-                                             "\n0,0,0,1,1,3,0,0,0,3,-5,0,1,1,0,0\n"
-                                             "0,0,0,1,1,3,0,0,0,0x1.8000000000001p1,-5,0,1,1,0,0\n"
-                                             "0,0,0,1,1,3,0,0,0,0x1.7ffffffffffffp1,-5,0,1,1,0,0\n");
+  const Finished run =
+      run_tool({"ray"}, header + kRay +
+                            "\n0,0,0,1,1,3,0,0,0,3,-5,0,1,1,0,0\n"
+                            "0,0,0,1,1,3,0,0,0,0x1.8000000000001p1,-5,0,1,1,0,0\n"
+                            "0,0,0,1,1,3,0,0,0,0x1.7ffffffffffffp1,-5,0,1,1,0,0\n");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(column(run.out, 1), (std::vector<std::string>{"grazing", "hit", "miss"}));
   EXPECT_EQ(column(run.out, 2)[0], "5");
@@ -148,9 +148,8 @@ TEST(TimeCommand, TellsEveryStatus) {
                                     a + ",1e308,0,0,0,0,0,6,2,0" + b);            // beyond range
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(column(run.out, 1),
-            (std::vector<std::string>{"contact", "none", "touching_at_start", "grazing",
-                                      "not_applicable"}));
+  EXPECT_EQ(column(run.out, 1), (std::vector<std::string>{"contact", "none", "touching_at_start",
+                                                          "grazing", "not_applicable"}));
   EXPECT_EQ(column(run.out, 2)[1], "10");
   EXPECT_EQ(column(run.out, 2)[2], "0");
   EXPECT_EQ(column(run.out, 2)[4], "");

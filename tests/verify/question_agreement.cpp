@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the questions of single bodies, in every form of a body, against exact rational numbers and
-// 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres by
-// matrices meet. The merge gate runs a part of it; docs/guide.md names the whole.
+// 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres
+// by matrices meet. The merge gate runs a part of it; docs/guide.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 
@@ -15,6 +15,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/ellipse_closest_point.hpp>
@@ -119,8 +120,8 @@ bool check_ellipses(Source& source, long count) {
   Tally tally{"ellipse and point"};
   for (long i = 0; i < count; ++i) {
     const double aspect = source.log_uniform(1, source.below(4) == 0 ? 1e30 : 1e8);
-    const double size = source.below(8) == 0 ? source.log_uniform(1e-150, 1e150)
-                                             : source.log_uniform(0.1, 10);
+    const double size =
+        source.below(8) == 0 ? source.log_uniform(1e-150, 1e150) : source.log_uniform(0.1, 10);
     std::array<double, 2> axes{size, source.below(8) == 0 ? size : size / aspect};
     if (source.below(8) == 0) axes[1] = std::nextafter(size, 0.0);
     if (source.below(2) == 0) std::swap(axes[0], axes[1]);
@@ -128,7 +129,8 @@ bool check_ellipses(Source& source, long count) {
     const std::array<double, 2> centre{away * size * source.uniform(-1, 1),
                                        away * size * source.uniform(-1, 1)};
     std::array<double, 2> u{source.uniform(-1, 1), source.uniform(-1, 1)};
-    if (source.below(3) == 0) u = source.below(2) == 0 ? std::array{1.0, 0.0} : std::array{0.0, -3.0};
+    if (source.below(3) == 0)
+      u = source.below(2) == 0 ? std::array{1.0, 0.0} : std::array{0.0, -3.0};
     const Ellipse e(Vec2(centre[0], centre[1]), Vec2(axes[0], axes[1]), Vec2(u[0], u[1]));
     const double angle = source.uniform(-4, 4);
     Vec2 p = e.support_point(Vec2(std::cos(angle), std::sin(angle)));
@@ -183,20 +185,24 @@ Wall wall(Source& source) {
       const double nudge = source.below(2) == 0 ? 0.0 : source.whole(2);
       const double reach = source.below(2) == 0 ? row[3] : -row[3];
       const Mat3 shape = turned * turned.transpose();
-      return {MatrixEllipsoid::from_shape(centre, shape), exactly(shape),
+      return {MatrixEllipsoid::from_shape(centre, shape),
+              exactly(shape),
               {normal, normal.dot(centre) + scale * (reach + nudge)}};
     }
   }
   const double size = source.below(8) == 0 ? source.log_uniform(1e-100, 1e100) : 1.0;
   const Mat3 shape = *source.definite(size * size);
-  const Vec3 centre = source.below(3) == 0 ? Vec3(Vec3::Zero())
-                                           : Vec3(size * source.log_uniform(0.1, 1e6) * source.direction());
+  const Vec3 centre = source.below(3) == 0
+                          ? Vec3(Vec3::Zero())
+                          : Vec3(size * source.log_uniform(0.1, 1e6) * source.direction());
   const Vec3 normal = source.log_uniform(1e-50, 1e50) * source.direction();
   const double reach = std::sqrt(normal.dot(shape * normal));
-  const double by = source.below(2) == 0 ? source.uniform(-2, 2)
-                                         : (source.below(2) == 0 ? 1 : -1) *
-                                               (1 + source.log_uniform(1e-17, 1e-10) * source.whole(1));
-  return {MatrixEllipsoid::from_shape(centre, shape), exactly(shape),
+  const double by = source.below(2) == 0
+                        ? source.uniform(-2, 2)
+                        : (source.below(2) == 0 ? 1 : -1) *
+                              (1 + source.log_uniform(1e-17, 1e-10) * source.whole(1));
+  return {MatrixEllipsoid::from_shape(centre, shape),
+          exactly(shape),
           {normal, normal.dot(centre) + by * reach}};
 }
 
@@ -209,10 +215,10 @@ bool check_walls(Source& source, long count) {
     // The centre as it was given is that of the nearest body: a double each.
     const mpq_class height = dot(n, exactly(body.ellipsoid().centre())) - mpq_class(plane.offset);
     const int side = sgn(height), outside = sgn(mpq_class(height * height - square));
-    const Relation solid = outside < 0    ? Relation::overlap
-                           : outside == 0 ? (side < 0 ? Relation::internal_touch
-                                                      : Relation::external_touch)
-                                          : (side < 0 ? Relation::a_in_b : Relation::separate);
+    const Relation solid = outside < 0 ? Relation::overlap
+                           : outside == 0
+                               ? (side < 0 ? Relation::internal_touch : Relation::external_touch)
+                               : (side < 0 ? Relation::a_in_b : Relation::separate);
     const Relation sheet = outside < 0    ? Relation::overlap
                            : outside == 0 ? Relation::external_touch
                                           : Relation::separate;
@@ -223,7 +229,9 @@ bool check_walls(Source& source, long count) {
     const RelationAnswer found = relation(body, plane);
     const WallGap to_wall = signed_gap(body, plane), to_sheet = signed_gap(body, thin);
     const auto sign = [](double x) { return (x > 0) - (x < 0); };
-    const int true_sign = solid == Relation::separate ? 1 : solid == Relation::external_touch ? 0 : -1;
+    const int true_sign = solid == Relation::separate         ? 1
+                          : solid == Relation::external_touch ? 0
+                                                              : -1;
     const bool kept = found.relation == solid && relation(body, thin).relation == sheet &&
                       (found.inner == Inner::a) == (solid == Relation::internal_touch) &&
                       sign(to_wall.gap) == true_sign && sign(to_sheet.gap) == outside;
@@ -262,7 +270,9 @@ RayCase ray_case(Source& source) {
   const Mat3 p = *source.definite(1.0);
   const Vec3 centre = source.below(2) == 0 ? Vec3(Vec3::Zero()) : Vec3(10 * source.direction());
   const double size = 1 / std::sqrt(p.trace());
-  return {p, source.log_uniform(0.1, 10), centre,
+  return {p,
+          source.log_uniform(0.1, 10),
+          centre,
           {centre + source.log_uniform(0.1, 1e6) * size * source.direction(),
            source.log_uniform(1e-20, 1e20) * source.direction()}};
 }
@@ -292,10 +302,11 @@ bool check_rays(Source& source, long count) {
         const int side = sgn(disc) == 0 ? 0 : k == hits - 1 ? 1 : -1;
         const Digits120 t = (digits(-b) + side * sqrt(digits(disc))) / digits(a);
         // Exact but for one rounding of t, and 2^-100 of how far away the body is.
-        const double reach = std::abs(static_cast<double>(digits(-b / a))) + std::abs(found.points[k].t);
-        share = std::max(share, share_of(found.points[k].t - t,
-                                         kUnitRoundoff * std::abs(found.points[k].t) +
-                                             0x1p-90 * reach));
+        const double reach =
+            std::abs(static_cast<double>(digits(-b / a))) + std::abs(found.points[k].t);
+        share = std::max(share,
+                         share_of(found.points[k].t - t,
+                                  kUnitRoundoff * std::abs(found.points[k].t) + 0x1p-90 * reach));
       }
     }
     tally.special += sgn(disc) == 0;
@@ -364,11 +375,13 @@ bool check_points(Source& source, long count) {
     const double unit = source.below(8) == 0 ? source.log_uniform(1e-50, 1e50) : 1.0;
     const Mat3 precision = *source.definite(1 / (unit * unit));
     const double level = source.below(2) == 0 ? 1.0 : source.log_uniform(0.1, 10);
-    const Vec3 centre = source.below(2) == 0 ? Vec3(Vec3::Zero()) : Vec3(5 * unit * source.direction());
+    const Vec3 centre =
+        source.below(2) == 0 ? Vec3(Vec3::Zero()) : Vec3(5 * unit * source.direction());
     const MatrixEllipsoid body = MatrixEllipsoid::from_precision(centre, precision, level);
     const Vec3 surface = body.ellipsoid().support_point(source.direction());
-    const double by = source.below(3) == 0 ? 1.0 : source.below(2) == 0 ? source.uniform(0, 2)
-                                                                       : source.log_uniform(1, 1e3);
+    const double by = source.below(3) == 0   ? 1.0
+                      : source.below(2) == 0 ? source.uniform(0, 2)
+                                             : source.log_uniform(1, 1e3);
     const Vec3 point = centre + by * surface;
     const auto truth = distance(exactly(precision), level, minus(exactly(point), exactly(centre)));
     if (!truth) continue;
@@ -389,7 +402,8 @@ bool check_times(Source& source, long count) {
       return MatrixEllipsoid::from_shape(centre, square * Mat3::Identity());
     };
     const Vec3 d = source.uniform(1, 20) * source.direction();
-    const Vec3 v = source.log_uniform(0.1, 10) * (-d.normalized() + source.uniform(0, 1) * source.direction());
+    const Vec3 v =
+        source.log_uniform(0.1, 10) * (-d.normalized() + source.uniform(0, 1) * source.direction());
     const double horizon = 20, tolerance = source.log_uniform(1e-12, 1e-3);
     const Vec3 spin = source.uniform(0, 5) * source.direction();
     const TimeOfContact found = time_of_contact(ball(Vec3::Zero(), ma), Motion{Vec3::Zero(), spin},
