@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -183,6 +184,19 @@ RC_GTEST_PROP(EllipseClosestPointProperty, FromTheCentreIsThatOfAnImage, ()) {
   RC_ASSERT(found.arm == there.arm);
   RC_ASSERT(std::abs(found.distance - closest_point(e, p).distance) <=
             4 * kU * (size_of(e, p) + p.norm()));
+}
+
+// The ellipse is the section of an ellipsoid whose third axis is the longer one; a quaternion of
+// whole numbers (w, 0, 0, z) turns its first axis into (w^2 - z^2, 2 w z).
+RC_GTEST_PROP(PlaneDistanceOracle, IsThatOfTheEllipsoidInSpace, ()) {
+  const double a = *testing::log_uniform(1e-4, 1), b = *testing::log_uniform(1e-4, 1);
+  const double w = *rc::gen::inRange(1, 50), z = *rc::gen::inRange(-50, 50);
+  const double x = *testing::uniform(-2, 2), y = *testing::uniform(-2, 2);
+  const verify::RawEllipsoid body{{0, 0, 0}, {a, b, std::max(a, b)}, {w, 0, 0, z}};
+  const auto in_space = verify::nearest(body, verify::from_centre(body, {x, y, 0})).distance;
+  const auto in_plane =
+      verify::plane_distance({{0, 0}, {a, b}, {w * w - z * z, 2 * w * z}}, {x, y});
+  RC_ASSERT(abs(in_space - in_plane) <= 1e-50);
 }
 
 }  // namespace

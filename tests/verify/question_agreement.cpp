@@ -435,7 +435,7 @@ bool check_times(Source& source, long count) {
     tally.special += found.status == ContactTimeStatus::contact;
     tally.see(kept, 0.0);
   }
-  return tally.print("contacts", count / 4);
+  return tally.print("contacts", count / 8);
 }
 
 bool agree(std::uint64_t seed, long count) {
