@@ -485,6 +485,7 @@ TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
   guide_example_1(f.two[0], f.two[1], f.two, f.pairs, f.separations);
   guide_example_2(f.two[0], f.two[1], f.two, f.pairs, f.separations);
   guide_example_3(f.two[0], f.two[1], f.two, f.pairs, f.separations);
+  guide_example_4(f.two[0], f.two[1], f.two, f.pairs, f.separations);
 }
 
 TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {

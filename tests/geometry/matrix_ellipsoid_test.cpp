@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -197,6 +198,7 @@ Precise precise_support(const Ellipsoid& e, const Vec3& n) {
   return sqrt(sum);
 }
 
+// geometry/bodies/rational_solid.hpp (2)
 TEST(MatrixEllipsoid, SupportFunctionsDifferByNoMoreThanTheRoundingSays) {
   Draws draws(14);
   double largest = 0.0;
@@ -235,6 +237,38 @@ TEST(MatrixEllipsoid, GapsOfTheSameSolidAgreeWithinTheirErrors) {
     EXPECT_LE(std::abs(by_axes.gap - by_shape.gap), by_axes.gap_error + by_shape.gap_error);
     EXPECT_EQ(by_shape.gap > 0.0, by_axes.gap > 0.0);
     EXPECT_EQ(by_shape.gap == 0.0, by_axes.gap == 0.0);
+  }
+}
+
+// geometry/bodies/rational_solid.hpp (1)
+TEST(MatrixEllipsoid, IntegerFormIsMinusOneAtTheCentreAndZeroAtTheEndsOfTheAxes) {
+  using exact::to_rational;
+  Draws draws(16);
+  for (int k = 0; k < 50; ++k) {
+    const Vec3 c(draws.uniform(), draws.uniform(), draws.uniform());
+    Mat3 u = Mat3::NullaryExpr([&] { return draws.uniform(); });
+    exact::RationalSolid<3> solid;
+    for (std::size_t i = 0; i < 3; ++i) {
+      solid.centre[i] = to_rational(c[static_cast<int>(i)]);
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (int n = 0; n < 3; ++n)
+          solid.shape[i][j] +=
+              to_rational(u(static_cast<int>(i), n)) * to_rational(u(static_cast<int>(j), n));
+      }
+    }
+    const exact::SolidForm<4> form = exact::integer_form(solid);
+    const auto value = [&](int axis) {  // at the centre, or c + that column of U
+      std::array<mpq_class, 4> x{solid.centre[0], solid.centre[1], solid.centre[2], 1};
+      for (std::size_t i = 0; axis >= 0 && i < 3; ++i)
+        x[i] += to_rational(u(static_cast<int>(i), axis));
+      mpq_class sum;
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) sum += x[i] * form.form[i][j] * x[j];
+      }
+      return mpq_class(sum / form.denominator);
+    };
+    EXPECT_EQ(value(-1), -1);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(value(axis), 0);
   }
 }
 
