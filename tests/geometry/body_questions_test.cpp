@@ -174,6 +174,23 @@ TEST(TimeOfContactOfMatrices, HoldsForTheBodiesAsGiven) {
   EXPECT_LE(found.latest - found.time, 1.1e-9);
 }
 
+// A needle of aspect 2^24 that both forms have exactly, and a ball that flies at its tip at speed
+// 5, 49 away. Nearest semi-axes and quaternion may be off by 2^-29 of the needle's length.
+TEST(TimeOfContactOfMatrices, HoldsWhereTheRoundingOfTheAxesShiftsTheContact) {
+  const double k = 0x1p48;
+  Mat3 shape;
+  shape << 9 * k + 16, 12 * k - 12, 0, 12 * k - 12, 16 * k + 9, 0, 0, 0, 25;
+  const MatrixEllipsoid needle = MatrixEllipsoid::from_shape({0, 0, 0}, shape);
+  ASSERT_GT(needle.relative_rounding(), 0x1p-40);
+  const Ellipsoid ball(Vec3(3, 4, 0) * (0x1p24 + 10), {1, 1, 1});
+  const Motion way{{-3, -4, 0}, Vec3::Zero(), Vec3::Zero()};
+  const TimeOfContact found = time_of_contact(needle, Motion{}, ball, way, 20, 1e-6);
+  ASSERT_EQ(found.status, ContactTimeStatus::contact);
+  EXPECT_LE(found.time, 9.8 - 1e-5);
+  EXPECT_GE(found.latest, 9.8 + 1e-5);
+  EXPECT_LE(found.latest - found.time, 1);
+}
+
 TEST(TimeOfContactOfMatrices, KnowsATouchAtTheStartFromANearMiss) {
   const auto ball = [](const Vec3& centre) {
     return MatrixEllipsoid::from_shape(centre, 2 * Mat3::Identity());
