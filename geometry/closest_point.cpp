@@ -14,13 +14,28 @@ ClosestPoint projected(const Ellipsoid& body, const Vec3& point) {
   assert(point.allFinite());
   const detail::SeenFromCentre seen = detail::seen_from_centre(body, point);
   const detail::ClosestOnSurface found = detail::closest_on_surface(body, seen);
-  return {std::scalbn(found.distance.high, seen.exponent), found.normal, found.arm};
+  const double distance = found.distance.high;
+  return {std::scalbn(distance, seen.exponent), found.normal, found.arm,
+          detail::error_of_distance(distance, detail::size_of(seen), seen.exponent), GapStatus::ok};
 }
 
 }  // namespace
 
 ClosestPoint closest_point(const Ellipsoid& body, const Vec3& point) noexcept {
   return in_default_environment([&] { return projected(body, point); });
+}
+
+ClosestPoint closest_point(const MatrixEllipsoid& body, const Vec3& point) noexcept {
+  return in_default_environment([&] {
+    ClosestPoint found = projected(body.ellipsoid(), point);
+    // No support function is off by more, and so no distance.
+    found.distance_error = (found.distance_error + body.rounding()) * (1.0 + 0x1p-50);
+    return found;
+  });
+}
+
+ClosestPoint closest_point_from_centre(const Ellipsoid& body, const Vec3& separation) noexcept {
+  return closest_point(body.moved_to(Vec3::Zero()), separation);
 }
 
 }  // namespace tangency

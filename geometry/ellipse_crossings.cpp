@@ -34,8 +34,7 @@ PlaneLens lens_of(const ScaledPair& s, Meeting meeting) {
   return PlaneLens(s.a, s.b, s.d, s.d_low, meeting);
 }
 
-Crossings crossings(const Asked& asked) {
-  const Meeting meeting = exact_meeting(asked).meeting;
+Crossings crossings(const Asked& asked, Meeting meeting) {
   Crossings result{0, meeting == Meeting::equal, {}};
   const ScaledPair s = detail::scaled_pair(asked);
   const auto in_unit = [&](const DoubleDouble2& v) {
@@ -149,11 +148,24 @@ ChordContact chord_contact(const Asked& asked) {
 }  // namespace
 
 Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept {
-  return in_default_environment([&] { return crossings(Asked{a, b}); });
+  return in_default_environment([&] {
+    const Asked asked{a, b};
+    return crossings(asked, exact_meeting(asked).meeting);
+  });
 }
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
   assert(separation.allFinite());
-  return in_default_environment([&] { return crossings(Asked{a, b, &separation}); });
+  return in_default_environment([&] {
+    const Asked asked{a, b, &separation};
+    return crossings(asked, exact_meeting(asked).meeting);
+  });
+}
+Crossings crossings(const MatrixEllipse& a, const MatrixEllipse& b) noexcept {
+  if (a.exact() == nullptr && b.exact() == nullptr) return crossings(a.ellipse(), b.ellipse());
+  return in_default_environment([&] {
+    const ConicAnswer known = exact::conic_relation(exact::conic_form(a), exact::conic_form(b));
+    return crossings(Asked{a.ellipse(), b.ellipse()}, known.meeting);
+  });
 }
 
 double common_area(const Ellipse& a, const Ellipse& b) noexcept {

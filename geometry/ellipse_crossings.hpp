@@ -21,6 +21,7 @@
 #include <array>
 
 #include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/matrix_ellipse.hpp>
 
 namespace tangency {
 
@@ -41,6 +42,9 @@ struct Crossings {
 Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept;
 /// With d = c_B - c_A given, in place of the centres, here and below: for periodic images.
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
+/// Of ellipses given by matrices: count and multiplicities are exact for their numbers as they were
+/// given, and the places those of MatrixEllipse::ellipse() of each. Allocates.
+Crossings crossings(const MatrixEllipse& a, const MatrixEllipse& b) noexcept;
 
 /// Area of the common region, with a relative error of 1e-13 where bodies of aspect ratios to 1000
 /// overlap by 1e-16 of their size and more. Infinite above the range of doubles; below it rounded

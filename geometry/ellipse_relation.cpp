@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_relation.hpp>
 
-#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 
@@ -40,11 +39,8 @@ EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
 
 EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcept {
   if (a.exact() == nullptr && b.exact() == nullptr) return relation(a.ellipse(), b.ellipse());
-  const auto form_of = [](const MatrixEllipse& body) {
-    return body.exact() != nullptr ? exact::integer_form(*body.exact()).form
-                                   : exact::conic_form(body.ellipse());
-  };
-  const exact::ConicAnswer found = exact::conic_relation(form_of(a), form_of(b));
+  const exact::ConicAnswer found =
+      exact::conic_relation(exact::conic_form(a), exact::conic_form(b));
   return {found.relation, found.inner, crossings(found.meeting), Tier::exact};
 }
 

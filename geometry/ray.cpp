@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/bodies/ray_form.hpp>
 #include <tangency/geometry/bodies/surface_projection.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
@@ -79,16 +80,23 @@ UnitBallLine unit_ball_line(const detail::SeenFromCentre& seen, const DoubleDoub
 /// The sign of a number that is within `error` of the value; 0 where that does not tell.
 int certain_sign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
 
+/// The body that is asked about: the ellipsoid or, where it is given by a matrix, the exact one.
+struct AskedBody {
+  const Ellipsoid& ellipsoid;
+  const exact::RationalSolid<3>* exact = nullptr;
+};
+
 /// The line and the ball in both arithmetics. Units of length and of the direction are powers of
 /// two: t is the caller's, 2^exponent times that of the unit ball's line.
 class Chord {
  public:
-  Chord(const Ellipsoid& body, const Ray& ray, const UnitBallLine& line, int exponent,
-        bool taken_for_thicker)
+  /// @param in_integers  is the line that of another body than the one that is asked about?
+  Chord(const AskedBody& body, const Ray& ray, const UnitBallLine& line, int exponent,
+        bool in_integers)
       : body_(body), ray_(ray), line_(line), exponent_(exponent) {
-    sign_ = taken_for_thicker ? 0 : certain_sign(line.discriminant.high, line.error);
+    sign_ = in_integers ? 0 : certain_sign(line.discriminant.high, line.error);
     if (sign_ == 0) sign_ = integers().discriminant_sign();
-    filtered_ = !taken_for_thicker;
+    filtered_ = !in_integers;
   }
 
   /// Of the discriminant, exact.
@@ -157,11 +165,13 @@ class Chord {
   }
 
   const exact::RayForm& integers() {
-    if (!form_) form_.emplace(body_, ray_.origin, ray_.direction);
+    if (!form_ && body_.exact != nullptr)
+      form_.emplace(*body_.exact, body_.ellipsoid, ray_.origin, ray_.direction);
+    if (!form_) form_.emplace(body_.ellipsoid, ray_.origin, ray_.direction);
     return *form_;
   }
 
-  const Ellipsoid& body_;
+  const AskedBody& body_;
   const Ray& ray_;
   const UnitBallLine& line_;
   int exponent_, sign_;
@@ -169,7 +179,8 @@ class Chord {
   std::optional<exact::RayForm> form_;
 };
 
-RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) {
+RayHit found_hit(const AskedBody& asked, const Ray& ray, double t_begin, double t_end) {
+  const Ellipsoid& body = asked.ellipsoid;
   assert(ray.origin.allFinite() && ray.direction.allFinite() && ray.direction != Vec3::Zero());
   assert(t_begin <= t_end);
   RayHit hit{
@@ -177,12 +188,13 @@ RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t
   const detail::SeenFromCentre seen = detail::seen_from_centre(body, ray.origin);
   const int turn = exponent_of(ray.direction);
   const Vec3 direction = scaled_by_power(ray.direction, -turn);
-  if (passes_far(seen, direction)) return hit;
+  const bool is_rounded = asked.exact != nullptr;
+  if (!is_rounded && passes_far(seen, direction)) return hit;
 
   const DoubleDoubleMatrix rotation = detail::double_double_rotation(body.orientation());
   const UnitBallLine line = unit_ball_line(seen, rotation, direction);
-  Chord chord(body, ray, line, seen.exponent - turn,
-              seen.semi_axes.minCoeff() <= detail::kThinnestAxisSeen);
+  Chord chord(asked, ray, line, seen.exponent - turn,
+              is_rounded || seen.semi_axes.minCoeff() <= detail::kThinnestAxisSeen);
   if (chord.sign() < 0) return hit;
 
   const int begin = chord.place_of(t_begin), end = chord.place_of(t_end);
@@ -213,7 +225,19 @@ RayHit found_hit(const Ellipsoid& body, const Ray& ray, double t_begin, double t
 }  // namespace
 
 RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin, double t_end) noexcept {
-  return in_default_environment([&] { return found_hit(body, ray, t_begin, t_end); });
+  return in_default_environment([&] { return found_hit({body}, ray, t_begin, t_end); });
+}
+
+RayHit intersect(const MatrixEllipsoid& body, const Ray& ray, double t_begin,
+                 double t_end) noexcept {
+  return in_default_environment([&] {
+    return found_hit({body.ellipsoid(), body.exact()}, ray, t_begin, t_end);
+  });
+}
+
+RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, const Vec3& direction,
+                             double t_begin, double t_end) noexcept {
+  return intersect(body.moved_to(Vec3::Zero()), Ray{separation, direction}, t_begin, t_end);
 }
 
 }  // namespace tangency

@@ -8,11 +8,14 @@
 /// (4) Moving the origin along the line shifts t.
 /// (5) Whether a point is in the interval is exact: t_begin and t_end are those of the stored
 ///     doubles, and an end that is exactly a hit's t is returned as that.
+/// (6) A body given by axes and the same given by its shape matrix have the same hits, where the
+///     matrix is exact.
 #pragma once
 
 #include <limits>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 
 namespace tangency {
 
@@ -59,5 +62,16 @@ struct RayHit {
 /// @param t_begin, t_end  t_begin <= t_end; infinities allowed, NaN not (asserted)
 RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin = 0.0,
                  double t_end = std::numeric_limits<double>::infinity()) noexcept;
+
+/// Of a body given by a matrix: status, interval and t are those of its numbers as they were given,
+/// decided in exact integers; arms are relative to the centre of MatrixEllipsoid::ellipsoid().
+RayHit intersect(const MatrixEllipsoid& body, const Ray& ray, double t_begin = 0.0,
+                 double t_end = std::numeric_limits<double>::infinity()) noexcept;
+
+/// With the separation d = origin - c given, in place of origin and centre: for periodic images.
+/// @param separation  finite
+RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, const Vec3& direction,
+                             double t_begin = 0.0,
+                             double t_end = std::numeric_limits<double>::infinity()) noexcept;
 
 }  // namespace tangency

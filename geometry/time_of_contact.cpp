@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <tangency/geometry/bodies/moving_pair.hpp>
 #include <tangency/geometry/bodies/scaled_pair.hpp>
@@ -160,6 +161,48 @@ TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellip
   return found;
 }
 
+/// The body by doubles, larger or smaller about its centre by the share that it is off: the true
+/// one lies inside, or has it inside. Nothing where such a body is beyond the range of doubles.
+std::optional<Ellipsoid> grown(const MatrixEllipsoid& body, double sign) {
+  // The share, and what its own arithmetic rounds.
+  const double share = body.relative_rounding() + (body.exact() != nullptr ? 0x1p-50 : 0.0);
+  const Ellipsoid& e = body.ellipsoid();
+  const Vec3 axes = (1.0 + sign * share) * e.semi_axes();
+  constexpr double kLeast = std::numeric_limits<double>::min();  // above, no product is subnormal
+  if (share == 0.0) return e;
+  if (!axes.allFinite() || !(axes.minCoeff() >= kLeast)) return std::nullopt;
+  return Ellipsoid(e.centre(), axes, e.orientation());
+}
+
+TimeOfContact found_time(const MatrixEllipsoid& a, const Motion& motion_a, const MatrixEllipsoid& b,
+                         const Motion& motion_b, double horizon, double tolerance) {
+  if (a.exact() == nullptr && b.exact() == nullptr)
+    return found_time(a.ellipsoid(), motion_a, b.ellipsoid(), motion_b, horizon, tolerance);
+  const auto larger_a = grown(a, 1.0), larger_b = grown(b, 1.0);
+  const auto smaller_a = grown(a, -1.0), smaller_b = grown(b, -1.0);
+  const bool encloses = larger_a && larger_b;
+  // Where no larger body can be stored nothing is proven beyond the start.
+  TimeOfContact found = found_time(encloses ? *larger_a : a.ellipsoid(), motion_a,
+                                   encloses ? *larger_b : b.ellipsoid(), motion_b,
+                                   encloses ? horizon : 0.0, tolerance);
+  const bool touching = relation(a, b).relation != Relation::separate;
+  if (touching || !encloses || found.status == ContactTimeStatus::touching_at_start) {
+    found.status = touching   ? ContactTimeStatus::touching_at_start
+                   : encloses ? ContactTimeStatus::grazing
+                              : ContactTimeStatus::not_converged;
+    found.time = found.latest = 0.0;
+    return found;
+  }
+  if (found.status != ContactTimeStatus::contact) return found;
+  const TimeOfContact inner = smaller_a && smaller_b ? found_time(*smaller_a, motion_a, *smaller_b,
+                                                                  motion_b, horizon, tolerance)
+                                                     : found;
+  const bool proven = smaller_a && smaller_b && inner.status == ContactTimeStatus::contact;
+  found.status = proven ? ContactTimeStatus::contact : ContactTimeStatus::grazing;
+  found.latest = proven ? std::max(inner.latest, found.time) : found.time;
+  return found;
+}
+
 }  // namespace
 
 Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_velocity,
@@ -181,6 +224,20 @@ Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept 
 
 TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                               const Motion& motion_b, double horizon, double tolerance) noexcept {
+  return in_default_environment(
+      [&] { return found_time(a, motion_a, b, motion_b, horizon, tolerance); });
+}
+
+TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                              const Motion& motion_b, const Vec3& separation, double horizon,
+                              double tolerance) noexcept {
+  return time_of_contact(a.moved_to(Vec3::Zero()), motion_a, b.moved_to(separation), motion_b,
+                         horizon, tolerance);
+}
+
+TimeOfContact time_of_contact(const MatrixEllipsoid& a, const Motion& motion_a,
+                              const MatrixEllipsoid& b, const Motion& motion_b, double horizon,
+                              double tolerance) noexcept {
   return in_default_environment(
       [&] { return found_time(a, motion_a, b, motion_b, horizon, tolerance); });
 }

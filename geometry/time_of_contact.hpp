@@ -11,6 +11,7 @@
 #pragma once
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/motion.hpp>
 
 namespace tangency {
@@ -62,5 +63,21 @@ struct TimeOfContact {
 /// @param tolerance  time, > 0 (asserted)
 TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                               const Motion& motion_b, double horizon, double tolerance) noexcept;
+
+/// The same with the separation d = c_B - c_A at t = 0 given, in place of the centres: for periodic
+/// images.
+/// @param separation  finite
+TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
+                              const Motion& motion_b, const Vec3& separation, double horizon,
+                              double tolerance) noexcept;
+
+/// Of bodies given by matrices. `touching_at_start` is exact for their numbers as they were given,
+/// `none` and `time` are proven for bodies around them, and an overlap at `latest` for bodies
+/// inside them: these are larger and smaller by MatrixEllipsoid::relative_rounding(). So `latest`
+/// may be later than time + tolerance, and what touches the larger ones only is `grazing`. Gap and
+/// resolution are those of the larger ones.
+TimeOfContact time_of_contact(const MatrixEllipsoid& a, const Motion& motion_a,
+                              const MatrixEllipsoid& b, const Motion& motion_b, double horizon,
+                              double tolerance) noexcept;
 
 }  // namespace tangency

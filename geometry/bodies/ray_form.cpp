@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -35,6 +36,18 @@ detail::DoubleDouble quotient(const mpz_class& numerator, const mpz_class& denom
   return detail::quick_two_sum(std::scalbn(high, power), std::scalbn(digits.get_d(), power));
 }
 
+int common_unit(const Ellipsoid& body, const Vec3& origin) {
+  return std::min(length_exponent(body), common_exponent_of(origin));
+}
+
+/// The form in coordinates x / 2^exponent, times a power of four. Requires exponent <= 0.
+IntegerForm<4> in_unit(IntegerForm<4> form, int exponent) {
+  const auto finer = static_cast<mp_bitcnt_t>(-exponent);
+  for (std::size_t i = 0; i < 3; ++i) form[i][3] <<= finer, form[3][i] <<= finer;
+  form[3][3] <<= 2 * finer;
+  return form;
+}
+
 /// Of unit length, from integers of any size.
 Vec3 unit_vector(const std::array<mpz_class, 3>& v) {
   long longest = 0;
@@ -46,10 +59,21 @@ Vec3 unit_vector(const std::array<mpz_class, 3>& v) {
 
 }  // namespace
 
-RayForm::RayForm(const Ellipsoid& body, const Vec3& origin, const Vec3& direction) {
-  const int exponent = std::min(length_exponent(body), common_exponent_of(origin));
+RayForm::RayForm(const Ellipsoid& body, const Vec3& origin, const Vec3& direction)
+    : RayForm(common_unit(body, origin), body, origin, direction) {}
+
+RayForm::RayForm(int exponent, const Ellipsoid& body, const Vec3& origin, const Vec3& direction)
+    : RayForm(ellipsoid_form(body, exponent).form, exponent, body, origin, direction) {}
+
+RayForm::RayForm(const RationalSolid<3>& body, const Ellipsoid& rounded, const Vec3& origin,
+                 const Vec3& direction)
+    : RayForm(in_unit(integer_form(body).form, std::min(0, common_exponent_of(origin))),
+              std::min(0, common_exponent_of(origin)), rounded, origin, direction) {}
+
+RayForm::RayForm(IntegerForm<4> form, int exponent, const Ellipsoid& body, const Vec3& origin,
+                 const Vec3& direction)
+    : form_(std::move(form)) {
   const int of_direction = common_exponent_of(direction);
-  form_ = ellipsoid_form(body, exponent).form;
   unit_ = of_direction - exponent;
   int largest = exponent,
       least = body.semi_axes().unaryExpr([](double x) { return exponent_of(x); }).minCoeff();

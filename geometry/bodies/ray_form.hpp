@@ -9,6 +9,7 @@
 
 #include <array>
 
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
@@ -19,6 +20,10 @@ class RayForm {
  public:
   /// @param direction  not 0
   RayForm(const Ellipsoid& body, const Vec3& origin, const Vec3& direction);
+  /// Of a body given by a matrix.
+  /// @param rounded  that body by doubles: for the digits of hit(), of no sign
+  RayForm(const RationalSolid<3>& body, const Ellipsoid& rounded, const Vec3& origin,
+          const Vec3& direction);
 
   /// 1 where the line meets the interior, 0 where it touches, -1 where it misses.
   int discriminant_sign() const { return sgn(discriminant_); }
@@ -39,6 +44,11 @@ class RayForm {
 
  private:
   using IntegerVector = std::array<mpz_class, 3>;
+
+  RayForm(int exponent, const Ellipsoid& body, const Vec3& origin, const Vec3& direction);
+  /// @param form  in coordinates x / 2^exponent, of which origin has integers
+  RayForm(IntegerForm<4> form, int exponent, const Ellipsoid& body, const Vec3& origin,
+          const Vec3& direction);
 
   IntegerForm<4> form_;
   IntegerVector origin_, direction_;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 namespace tangency::detail {
@@ -134,6 +136,17 @@ ClosestOnSurface closest_on_surface(const Ellipsoid& body, const SeenFromCentre&
       project_on_surface(seen.semi_axes, turned_back(r, seen.separation));
   return {found.distance, rounded(turned(r, found.normal)),
           scaled_by_power(rounded(turned(r, found.point)), seen.exponent)};
+}
+
+double size_of(const SeenFromCentre& seen) noexcept {
+  return rounded(seen.separation).norm() + seen.semi_axes.maxCoeff();
+}
+
+double error_of_distance(double distance, double size, int exponent) noexcept {
+  // Scaling rounds what becomes subnormal, of distance and error.
+  constexpr double kSubnormal = 2.0 * std::numeric_limits<double>::denorm_min();
+  return std::scalbn(2.0 * kUnitRoundoff * std::abs(distance) + 0x1p-80 * size, exponent) +
+         kSubnormal;
 }
 
 }  // namespace tangency::detail

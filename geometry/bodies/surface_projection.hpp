@@ -52,4 +52,11 @@ struct ClosestOnSurface {
 /// @param seen  the point, as seen_from_centre() of this body has it
 ClosestOnSurface closest_on_surface(const Ellipsoid& body, const SeenFromCentre& seen) noexcept;
 
+/// L of the headers: |p - c| + largest semi-axis, in units of 2^exponent.
+double size_of(const SeenFromCentre& seen) noexcept;
+
+/// What the headers promise of a distance, 2 u |distance| + 2^-80 L, in the unit of the body.
+/// @param distance, size  rounded once; L; in units of 2^exponent
+double error_of_distance(double distance, double size, int exponent) noexcept;
+
 }  // namespace tangency::detail

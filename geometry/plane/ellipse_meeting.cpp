@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
@@ -137,6 +138,10 @@ IntegerForm<3> conic_form(const Ellipse& e) {
     }
   }
   return form;
+}
+
+IntegerForm<3> conic_form(const MatrixEllipse& e) {
+  return e.exact() != nullptr ? integer_form(*e.exact()).form : conic_form(e.ellipse());
 }
 
 ConicAnswer conic_relation(const Ellipse& a, const Ellipse& b) {

@@ -19,6 +19,7 @@
 #include <optional>
 
 #include <tangency/geometry/ellipse.hpp>
+#include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -49,6 +50,8 @@ ConicAnswer conic_relation(const Ellipse& a, const Ellipse& b);
 ConicAnswer conic_relation(const IntegerForm<3>& a, const IntegerForm<3>& b);
 /// In the coordinates themselves.
 IntegerForm<3> conic_form(const Ellipse& e);
+/// The same of an ellipse given in any form.
+IntegerForm<3> conic_form(const MatrixEllipse& e);
 
 }  // namespace tangency::exact
 

@@ -230,13 +230,14 @@ void RowStream::write_taken(Job& job) const {
     job.rows->answer();
     std::size_t answered = 0;
     for (const auto& [row, valid] : job.taken) {
-      job.text.integer(row);
+      const bool is_line = valid && task_.writes_lines;
+      if (!is_line) job.text.integer(row);
       if (!valid) {
         write_invalid(job.text);
       } else if (job.rows->write(answered++, job.text) == RowOutcome::unanswered) {
         job.all_answered = false;
       }
-      job.text.end_row();
+      if (!is_line) job.text.end_row();
       whole_rows = job.text.size();
     }
   } catch (...) {

@@ -38,7 +38,8 @@ class Rows {
   virtual void read(const RowCursor& row) = 0;
   /// Answers all that was read since clear().
   virtual void answer() = 0;
-  /// Writes the cells of the i-th of them, from the second output column on.
+  /// Writes the cells of the i-th of them, from the second output column on; or, where the task
+  /// writes lines, none or more whole ones.
   virtual RowOutcome write(std::size_t i, RowText& out) const = 0;
   virtual void clear() = 0;
 };
@@ -60,6 +61,8 @@ struct RowTask {
   /// The one of them that reads `invalid` for a refused row under --keep-going.
   std::string_view verdict_column;
   BindRows bind;
+  /// Do its Rows write whole lines, row number and end included: none or several a row?
+  bool writes_lines = false;
 };
 
 struct RowStreamOptions {

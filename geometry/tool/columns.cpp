@@ -2,6 +2,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 #include <tangency/geometry/matrix_ellipsoid.hpp>
@@ -12,9 +13,9 @@ namespace {
 
 std::string listed(const std::vector<std::string_view>& fields) {
   std::string text;
-  for (const std::string_view field : fields) {
-    const bool first = &field == &fields.front(), last = &field == &fields.back();
-    text += (first ? "" : last ? " and " : ", ") + std::string(field);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const bool last = i + 1 == fields.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + std::string(fields[i]);
   }
   return text;
 }

@@ -37,6 +37,31 @@ std::array<tables::Column, N> find_columns(const tables::Header& header, std::st
 tables::Error lacking(const tables::Header& header, std::string_view who,
                       const std::vector<std::string>& missing, std::string_view rule);
 
+/// Columns of numbers that a table must have: a point, a wall, a line, a motion.
+template <std::size_t N>
+class NumberColumns {
+ public:
+  /// @param who   "the point", in messages
+  /// @param rule  which columns there have to be
+  /// @throws tables::Error  naming the columns that the header lacks
+  NumberColumns(const tables::Header& header, std::string_view who, std::string_view prefix,
+                const std::array<std::string_view, N>& fields, std::string_view rule) {
+    std::vector<std::string> missing;
+    columns_ = find_columns(header, prefix, fields, missing);
+    if (!missing.empty()) throw lacking(header, who, missing, rule);
+  }
+
+  std::array<double, N> read(const tables::RowCursor& row) const {
+    std::array<double, N> numbers{};
+    for (std::size_t i = 0; i < N; ++i) numbers[i] = row.number(columns_[i]);
+    return numbers;
+  }
+  tables::Column operator[](std::size_t i) const noexcept { return columns_[i]; }
+
+ private:
+  std::array<tables::Column, N> columns_{};
+};
+
 /// One way to give a body.
 struct BodyForm {
   std::string_view name;                   ///< in messages: "a shape matrix"

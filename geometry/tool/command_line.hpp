@@ -20,5 +20,10 @@ void add_contact(tables::Program& program);
 void add_overlap(tables::Program& program);
 void add_classify(tables::Program& program);
 void add_ellipse(tables::Program& program);
+void add_point(tables::Program& program);
+void add_ellipse_point(tables::Program& program);
+void add_wall(tables::Program& program);
+void add_ray(tables::Program& program);
+void add_time(tables::Program& program);
 
 }  // namespace tangency::tool

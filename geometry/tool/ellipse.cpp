@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <tangency/geometry/ellipse_crossings.hpp>
 #include <tangency/geometry/ellipse_gap.hpp>
@@ -15,9 +17,10 @@
 namespace tangency::tool {
 namespace {
 
-constexpr std::array<std::string_view, 11> kOutputColumns{
-    "row", "relation",    "crossings", "area",     "gap",   "nx",
-    "ny",  "chord_depth", "chord_nx",  "chord_ny", "status"};
+constexpr std::array<std::string_view, 13> kOutputColumns{
+    "row",         "relation", "crossings", "area",   "gap",   "nx",       "ny",
+    "chord_depth", "chord_nx", "chord_ny",  "status", "inner", "gap_error"};
+constexpr std::array<std::string_view, 4> kPointColumns{"row", "x", "y", "multiplicity"};
 
 constexpr const char* kHelp = R"(
 The same columns with b. are those of ellipse b. Lengths are in any one unit. Numbers are
@@ -39,6 +42,10 @@ Output columns, in this order:
                    unit normal of the chord, to the side where a's boundary is inside b;
                    these three are empty unless the boundaries cross in exactly two points
   status           see below
+  inner            a or b, the ellipse inside, for internal_touch; else empty
+  gap_error        proven: the true gap is this near to gap; on a local row it bounds the
+                   distance to the local value, and the true gap is at least
+                   gap - gap_error
   Numbers read back to the same double.
 
 Status of a row:
@@ -48,6 +55,15 @@ Status of a row:
   not_applicable   some number is beyond the range of a double; numbers are empty but for
                    crossings
   invalid          the row was refused (only with --keep-going); numbers are empty
+
+With --points there is a line for each point in which the boundaries meet, by increasing x
+and then y, and none for ellipses that meet nowhere:
+  row              number of the data row
+  x y              the point
+  multiplicity     1 for a crossing, 2 for a touch, 3 for a crossing of third order, 4 for a
+                   touch of fourth order: exact. Or a word, and x and y are empty: equal for
+                   equal ellipses, which meet everywhere; not_applicable for a point beyond
+                   the range of a double; invalid (only with --keep-going)
 
 Exit status: 0 every row is ok or local; 1 some row is not; 2 refused command line or
 input, or a failed read or write. A refusal is one line on standard error:
@@ -60,8 +76,12 @@ Example, a unit circle and an ellipse of half its width:
   a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.ux,b.uy
   0,0,1,1,0,1.25,0,0.5,2,1,0
   $ tangency ellipse ellipses.csv
-  row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status
-  0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok
+  row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status,inner,gap_error
+  0,overlap,2,0.21523012977701694,-0.25,1,0,0.25,1,0,ok,,3.4972025275692463e-15
+  $ tangency ellipse --points ellipses.csv
+  row,x,y,multiplicity
+  0,0.7755599823106163,-0.6312738817964486,1
+  0,0.7755599823106163,0.6312738817964486,1
 )";
 
 void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
@@ -69,6 +89,20 @@ void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
     out.integer(static_cast<std::uint64_t>(*exact.crossings));
   } else {
     out.empty();
+  }
+}
+
+void write_inner(Inner inner, tables::RowText& out) {
+  switch (inner) {
+    case Inner::none:
+      out.empty();
+      break;
+    case Inner::a:
+      out.text("a");
+      break;
+    case Inner::b:
+      out.text("b");
+      break;
   }
 }
 
@@ -81,9 +115,11 @@ tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables:
   write_crossings(exact, out);
   const bool has_chord = chord.status == ChordStatus::ok;
   if (!std::isfinite(area) || !std::isfinite(found.gap) || !found.normal.allFinite() ||
-      (has_chord && !std::isfinite(chord.depth))) {
+      (has_chord && !std::isfinite(chord.depth)) || !std::isfinite(found.gap_error)) {
     out.empty(7);
     out.text("not_applicable");
+    write_inner(exact.inner, out);
+    out.empty();
     return tables::RowOutcome::unanswered;
   }
   out.number(area);
@@ -96,6 +132,8 @@ tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables:
     out.empty(3);
   }
   out.text(found.status == GapStatus::ok ? "ok" : "local");
+  write_inner(exact.inner, out);
+  out.number(found.gap_error);
   return tables::RowOutcome::answered;
 }
 
@@ -106,18 +144,76 @@ tables::RowFunction bind(const tables::Header& header) {
   };
 }
 
+/// The points in which the boundaries meet, a line each.
+class PointLines : public tables::Rows {
+ public:
+  PointLines(const EllipseColumns& a, const EllipseColumns& b) : columns_a_(a), columns_b_(b) {}
+
+  void read(const tables::RowCursor& row) override {
+    const MatrixEllipse a = columns_a_.read(row), b = columns_b_.read(row);
+    found_.push_back({row.index(), a.ellipse().centre(), crossings(a, b)});
+  }
+  void answer() override {}
+  tables::RowOutcome write(std::size_t i, tables::RowText& out) const override {
+    const auto& [row, centre, found] = found_[i];
+    const auto word = [&](std::string_view multiplicity) {
+      out.integer(row), out.empty(2), out.text(multiplicity), out.end_row();
+    };
+    if (found.equal) word("equal");
+    bool all_written = true;
+    for (int k = 0; k < found.count; ++k) {
+      const Crossing& crossing = found.at[static_cast<std::size_t>(k)];
+      const Vec2 point = centre + crossing.arm_a;
+      if (point.allFinite()) {
+        out.integer(row), out.number(point[0]), out.number(point[1]);
+        out.integer(static_cast<std::uint64_t>(crossing.multiplicity)), out.end_row();
+      } else {
+        word("not_applicable"), all_written = false;
+      }
+    }
+    return all_written ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
+  }
+  void clear() override { found_.clear(); }
+
+ private:
+  struct Found {
+    std::uint64_t row;
+    Vec2 centre;
+    Crossings crossings;
+  };
+
+  EllipseColumns columns_a_, columns_b_;
+  std::vector<Found> found_;
+};
+
+tables::MakeRows bind_points(const tables::Header& header) {
+  return [a = EllipseColumns(header, "a"), b = EllipseColumns(header, "b")] {
+    return std::make_unique<PointLines>(a, b);
+  };
+}
+
 }  // namespace
 
 void add_ellipse(tables::Program& program) {
-  const auto options = std::make_shared<tables::RowStreamOptions>();
+  struct Options : tables::RowStreamOptions {
+    bool points = false;
+  };
+  const auto options = std::make_shared<Options>();
   tables::Command& command = program.subcommand(
       "ellipse", "Relation, crossings, common area and contact of pairs of ellipses in the plane");
+  command.flag("--points", options->points,
+               "A line for each point in which the boundaries meet, in place of one a row");
   add_row_stream_options(command, *options);
   command.footer(std::string(kEllipseColumnsHelp) + kHelp);
   command.runs([options] {
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = tables::row_by_row(bind)};
+    tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
+                         .verdict_column = "status",
+                         .bind = tables::row_by_row(bind)};
+    if (options->points)
+      task = {.output_columns = {kPointColumns.begin(), kPointColumns.end()},
+              .verdict_column = "multiplicity",
+              .bind = bind_points,
+              .writes_lines = true};
     return tables::run_row_stream(task, *options);
   });
 }

@@ -5,8 +5,8 @@ namespace tangency::tool {
 namespace {
 
 constexpr const char* kProgramDescription =
-    "tangency: how two ellipsoids touch, exactly.\n"
-    "Reads a table of pairs, ellipses or quadrics (CSV), writes a table of answers.";
+    "tangency: how ellipsoids touch each other, points, walls and rays, exactly.\n"
+    "Reads a table of questions (CSV), writes a table of answers.";
 
 constexpr const char* kProgramHelp = R"(
 Exit status:
@@ -29,5 +29,10 @@ int main(int argc, char** argv) {
   add_overlap(program);
   add_classify(program);
   add_ellipse(program);
+  add_point(program);
+  add_ellipse_point(program);
+  add_wall(program);
+  add_ray(program);
+  add_time(program);
   return program.run(argc, argv);
 }

@@ -188,9 +188,13 @@ void add_primitives(const Input& in, Bits& bits) {
   bits.add(signed_gap(a, sphere), signed_gap(sphere, a),
            signed_gap(Sphere{a.centre(), in.size}, sphere));
   const WallGap wall = signed_gap(a, Plane{in.normal, in.size});
-  bits.add(wall.gap, wall.normal, wall.arm_body, wall.arm_wall);
+  bits.add(wall.gap, wall.normal, wall.arm_body, wall.arm_wall, wall.gap_error);
+  const WallGap sheet = signed_gap(MatrixEllipsoid(a), Sheet{in.normal, in.size});
+  bits.add(sheet.gap, sheet.normal, sheet.gap_error);
+  const RelationAnswer to_wall = relation(a, Plane{in.normal, in.size});
+  bits.add(to_wall.relation, to_wall.inner, to_wall.tier);
   const ClosestPoint closest = closest_point(a, b.centre());
-  bits.add(closest.distance, closest.normal, closest.arm);
+  bits.add(closest.distance, closest.normal, closest.arm, closest.distance_error);
   const RayHit hit =
       intersect(a, {b.centre(), in.normal}, -std::numeric_limits<double>::infinity());
   bits.add(hit.status, hit.count);

@@ -253,13 +253,14 @@ TEST(ContactCommand, BadHeaderIsAlwaysRefused) {
   const std::string body_b = "b.x,b.y,b.z,b.r1,b.r2,b.r3";
   const std::vector<std::pair<std::string, std::string>> cases{
       {"a.x,a.y,a.z,a.r1,a.r3," + body_b,
-       "<stdin>:1: body a without a.r2: a body has the columns x, y, z, r1, r2 and r3\n"},
+       "<stdin>:1: body a without a.r2: a body given by semi-axes has the columns x, y, z, r1, r2 "
+       "and r3\n"},
       {"a.x,a.y,a.z,a.r1,a.r2,a.r3",
-       "<stdin>:1: body b without b.x, b.y, b.z, b.r1, b.r2, b.r3: a body has the columns x, y, z, "
-       "r1, r2 and r3\n"},
+       "<stdin>:1: body b without b.x, b.y, b.z, b.r1, b.r2, b.r3: a body given by semi-axes has "
+       "the columns x, y, z, r1, r2 and r3\n"},
       {"a.x,a.y,a.z,a.r1,a.r2,a.r3,b.qw,b.qy," + body_b,
-       "<stdin>:1: body b without b.qx, b.qz: the orientation columns qw, qx, qy and qz come all "
-       "four or not at all\n"},
+       "<stdin>:1: body b without b.qx, b.qz: the columns qw, qx, qy and qz come all "
+       "or not at all\n"},
       {"a.x,a.y,a.z,a.r1,a.r2,a.r3,a.y," + body_b,
        "<stdin>:1: a.y: a column must be named only once\n"}};
   for (const auto& [names, message] : cases) {

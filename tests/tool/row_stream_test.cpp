@@ -209,7 +209,8 @@ TEST(RowStream, NamesAMistypedSubcommandAndTheNearest) {
         {"overlpas", "the nearest is overlap"},
         {"clasify", "the nearest is classify"},
         {"elipse", "the nearest is ellipse"},
-        {"walk", "contact, overlap, classify and ellipse are"}}) {
+        {"xyzzy",
+         "contact, overlap, classify, ellipse, point, ellipse-point, wall, ray and time are"}}) {
     const Finished run = run_tool({word, "pairs.csv"});
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.err, "tangency: " + word + " is no subcommand; " + message + end);

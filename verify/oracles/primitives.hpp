@@ -9,12 +9,15 @@
 ///     |p - z|^2 - |p - x|^2 = (x - z)'(I + t diag(1/a^2))(x - z) >= 0.
 /// (2) `line`: the roots of the quadratic |diag(1/a) R'(o + t e)|^2 = 1.
 /// (3) `wall`: the support function.
+/// (4) `plane_distance`: of the quarter of the ellipse on the point's side of both axes, where the
+///     only foot of a normal through the point that can be closest lies, by bisection of its angle.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
 
 #include <array>
 
+#include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
 namespace tangency::verify {
@@ -48,5 +51,8 @@ struct WallTruth {
 };
 /// The half-space normal . x <= offset, in space.
 WallTruth wall(const RawEllipsoid& body, const std::array<double, 3>& normal, double offset);
+
+/// The signed distance of a point from an ellipse in the plane, < 0 inside.
+Digits120 plane_distance(const RawEllipse& body, const std::array<double, 2>& point);
 
 }  // namespace tangency::verify
