@@ -67,7 +67,8 @@ std::optional<std::size_t> constant_volume_of(Rows rows, std::size_t peak) {
 double stress_ratio_of(const Mat3& stress, int dimensions) {
   if (dimensions == 2) {
     const double mean = stress.topLeftCorner<2, 2>().trace() / 2.0;
-    const double half = std::hypot((stress(0, 0) - stress(1, 1)) / 2.0, stress(0, 1));
+    const double apart = (stress(0, 0) - stress(1, 1)) / 2.0;
+    const double half = std::sqrt(apart * apart + stress(0, 1) * stress(0, 1));
     return mean > 0.0 ? half / mean : 0.0;
   }
   const double mean = stress.trace() / 3.0;
