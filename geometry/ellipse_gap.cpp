@@ -43,7 +43,8 @@ struct ExactMatrices {
 
   Relation relation() const { return tangency::relation(a, b).relation; }
   bool overlaps(GapTier&) const {
-    return relation() != Relation::separate && relation() != Relation::external_touch;
+    const Relation found = relation();
+    return found != Relation::separate && found != Relation::external_touch;
   }
 };
 
