@@ -7,6 +7,7 @@
 #include <span>
 
 #include <tangency/geometry/curvature.hpp>
+#include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 
 namespace tangency::tool {
@@ -36,8 +37,25 @@ void curvatures(const ContactRow& row, Cells cells) {
   cells[0] = found.curvature[1], cells[1] = found.curvature[0];
 }
 
+void derivatives(const ContactRow& row, Cells cells) {
+  const Ellipsoid &a = row.a.ellipsoid(), &b = row.b.ellipsoid();
+  const GapDerivatives found =
+      gap_derivatives(a, b, row.gap != nullptr ? *row.gap : signed_gap(a, b));
+  if (found.status != DerivativeStatus::ok && found.status != DerivativeStatus::local) return;
+  for (int i = 0; i < 18; ++i) {
+    const MatrixEllipsoid& owner = i < kOfBodyB ? row.a : row.b;
+    const bool by_axes = owner.exact() == nullptr;
+    if (i % kOfBodyB < kSemiAxes || by_axes) cells[static_cast<std::size_t>(i)] = found.gradient[i];
+  }
+}
+
 constexpr std::array<std::string_view, 3> kSizes{"F", "mu", "F_error"};
 constexpr std::array<std::string_view, 2> kCurvatures{"curvature_min", "curvature_max"};
+// In the order of GapGradient.
+constexpr std::array<std::string_view, 18> kDerivatives{
+    "dgap.a.x",  "dgap.a.y",  "dgap.a.z",  "dgap.a.wx", "dgap.a.wy", "dgap.a.wz",
+    "dgap.a.r1", "dgap.a.r2", "dgap.a.r3", "dgap.b.x",  "dgap.b.y",  "dgap.b.z",
+    "dgap.b.wx", "dgap.b.wy", "dgap.b.wz", "dgap.b.r1", "dgap.b.r2", "dgap.b.r3"};
 
 constexpr std::array kGroups{
     Group{
@@ -52,6 +70,15 @@ constexpr std::array kGroups{
           "                   of the distance between the surfaces where their normals are n, the\n"
           "                   sums of both bodies' curvatures: 1/length\n",
           curvatures},
+    Group{kDerivatives,
+          "  dgap.a.x dgap.a.y dgap.a.z dgap.b.x dgap.b.y dgap.b.z\n"
+          "                   derivatives of the gap as defined above by the centres,\n"
+          "  dgap.a.wx dgap.a.wy dgap.a.wz dgap.b.wx dgap.b.wy dgap.b.wz\n"
+          "                   by turns about the centres: in space, radians; and\n"
+          "  dgap.a.r1 dgap.a.r2 dgap.a.r3 dgap.b.r1 dgap.b.r2 dgap.b.r3\n"
+          "                   by semi-axes, of bodies that are given by them. All empty where\n"
+          "                   normals tie, so that the gap has no derivative\n",
+          derivatives},
 };
 
 constexpr std::size_t kMostInAGroup = std::ranges::max_element(kGroups, {}, [](const Group& g) {

@@ -2,6 +2,7 @@
 /// `tangency contact --columns` from outside.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <tangency/geometry/curvature.hpp>
+#include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/tests/tool/process.hpp>
 
@@ -64,6 +66,35 @@ TEST(ContactColumns, OfADiscAndANeedleIncludeThePublishedFactor) {
   ASSERT_EQ(row.size(), 17U);
   EXPECT_NEAR(number(row[15]), 3.36270604063863, 5e-15);
   EXPECT_NEAR(number(row[16]) * number(row[16]), 3.36270604063863, 5e-15);
+}
+
+TEST(ContactColumns, OfDerivativesAreThoseOfTheLibraryByEveryMethodAndEmptyWhereNormalsTie) {
+  const std::string text = kHeader + kDiscAndNeedle + kConcentric;
+  const Ellipsoid disc({0, 0, 0}, {10, 10, 0.1}), needle({0.7, -0.7, 1.1}, {5, 0.5, 0.5});
+  const GapDerivatives found = gap_derivatives(disc, needle, signed_gap(disc, needle));
+  const std::string names = "dgap.a.x,dgap.a.wz,dgap.a.r3,dgap.b.y,dgap.b.wx,dgap.b.r1";
+  const std::array<int, 6> places{0, 5, 8, 10, 12, 15};
+  for (const char* method : {"common-normal", "perram-wertheim"}) {
+    const std::string out = run_tool({"contact", "--method", method, "--columns", names}, text).out;
+    const Cells row = cells_of(out, 1), tied = cells_of(out, 2);
+    ASSERT_EQ(row.size(), 21U);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      EXPECT_NEAR(number(row[15 + k]), found.gradient[places[k]], 1e-12) << names << k;
+    }
+    EXPECT_EQ(Cells(tied.begin() + 15, tied.end()), Cells(6));
+  }
+}
+
+TEST(ContactColumns, OfDerivativesBySemiAxesAreEmptyForABodyByAMatrix) {
+  const std::string text =
+      "a.x,a.y,a.z,a.m.xx,a.m.yy,a.m.zz,a.m.xy,a.m.yz,a.m.zx,b.x,b.y,b.z,b.r1,b.r2,b.r3\n"
+      "0,0,0,2,1,1,0,0,0,4,0,0,1,1,1\n";
+  const std::string names = "dgap.a.r1,dgap.b.r1,dgap.a.x";
+  const Cells row = cells_of(run_tool({"contact", "--columns", names}, text).out, 1);
+  ASSERT_EQ(row.size(), 18U);
+  EXPECT_EQ(row[15], "");
+  EXPECT_EQ(number(row[16]), -1);
+  EXPECT_EQ(number(row[17]), -1);
 }
 
 TEST(ContactColumns, AreEmptyWhereTheRowHasNoSuchNumber) {
