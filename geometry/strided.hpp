@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstring>
 #include <span>
+#include <vector>
 
 #include <tangency/geometry/vectors.hpp>
 
@@ -70,6 +71,8 @@ class VectorColumn : public NumberColumn<3> {
       : NumberColumn(Strided<double>{vectors.empty() ? nullptr : vectors[0].data(), vectors.size(),
                                      static_cast<std::ptrdiff_t>(sizeof(Vec3))}) {}
 
+  VectorColumn(const std::vector<Vec3>& vectors) : VectorColumn(std::span<const Vec3>(vectors)) {}
+
   Vec3 operator[](std::size_t i) const noexcept {
     Vec3 v;
     read(i, v.data());
@@ -88,6 +91,9 @@ class QuaternionColumn : public NumberColumn<4> {
                                      quaternions.size(),
                                      static_cast<std::ptrdiff_t>(sizeof(Quaternion))}),
         order_(QuaternionOrder::xyzw) {}
+
+  QuaternionColumn(const std::vector<Quaternion>& quaternions)
+      : QuaternionColumn(std::span<const Quaternion>(quaternions)) {}
 
   Quaternion operator[](std::size_t i) const noexcept {
     double q[4];
