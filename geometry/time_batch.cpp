@@ -332,7 +332,7 @@ void run(const Asked& asked, int threads) {
   if (asked.motions.size() != asked.body_count)
     contract::wrong_column(kCall, "motions", asked.motions.size(), asked.body_count);
   require_columns(asked.to, count);
-  detail::for_parts(count, threads, kBlock, [&](std::size_t first, std::size_t last) {
+  detail::in_ranges(count, threads, kBlock, [&](std::size_t first, std::size_t last) {
     in_default_environment([&] { Sweep(asked).run(first, last); });
   });
 }
