@@ -3,18 +3,18 @@
 /// The gap at a bounded cost, for callers who cannot wait: gap.hpp without its search and without
 /// the exact relation. Conventions are those there.
 ///
-/// A pair that is apart, or no deeper than the least radii of curvature, is answered as by
-/// signed_gap(), but for its sign within gap_error of a touch. Of a deep pair the answer is the
-/// best maximum that a fixed number of steps finds, with a proof of how much shallower the true
-/// depth may be; where that is nothing but rounding, the answer is the global one and says so.
+/// Every pair takes a fixed number of steps at most. A pair that is apart, or no deeper than the
+/// least radii of curvature, is mostly answered as by signed_gap() (bodies of aspect to 5: always,
+/// measured), but for its sign within gap_error of a touch. Of a deep pair the answer is the best
+/// maximum that those steps find, with a proof of how much shallower the true depth may be
+/// (docs/derivations/bounded-gap.md); where that is nothing but rounding, the answer is the global
+/// one and says so.
 ///
 /// (1) gap - gap_error <= true gap <= gap + above.
-/// (2) `ok`: both are at most 100 u L (gap.hpp), so that the answer is the global one. Else
-/// `local`. (3) Exchanging the bodies leaves the enclosures of (1) to hold of the same true gap,
-/// and where
-///     both are `ok` the gaps, to within their errors.
-/// (4) A batch answers each pair to the bit alike at any place, order, number and threads, and
-///     encloses what the single call does.
+/// (2) `ok` where both are at most 100 u L (gap.hpp), so that the answer is the global one; else
+///     `local`.
+/// (3) Exchanging the bodies, or a common motion or scaling, leaves enclosures of one true gap,
+///     which therefore meet.
 ///
 /// The sign is proven where gap > gap_error or gap < -above. Nothing here tells a touch from a near
 /// miss: relation() does, and overlaps_by_filter() in bounded time where doubles tell.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Holds the enclosure of bounded_gap(), of the single call and of the batch, against signed_gap()
-// on as many deep pairs as asked for, and against the 100-digit oracle on some of them. The merge
-// gate runs a part of it.
+// Holds the enclosure of bounded_gap() against signed_gap() on as many deep pairs as asked for, and
+// against the 100-digit oracle on some of them. The merge gate runs a part of it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
