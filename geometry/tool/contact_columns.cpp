@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
@@ -49,7 +50,40 @@ void derivatives(const ContactRow& row, Cells cells) {
   }
 }
 
+/// Which body lies in the other, touching its boundary or not? Of equal ones a.
+std::optional<Inner> nested(const RelationAnswer& relation) {
+  switch (relation.relation) {
+    case Relation::a_in_b:
+    case Relation::equal:
+      return Inner::a;
+    case Relation::b_in_a:
+      return Inner::b;
+    case Relation::internal_touch:
+      return relation.inner;
+    default:
+      return std::nullopt;
+  }
+}
+
+void clearances(const ContactRow& row, Cells cells) {
+  const std::optional<Inner> inner = nested(row.relation);
+  if (!inner) return;
+  const Clearance found =
+      *inner == Inner::a ? clearance(row.a, row.b) : clearance(row.b, row.a);
+  cells[0] = found.clearance, cells[1] = found.clearance_error;
+}
+
+void margins(const ContactRow& row, Cells cells) {
+  const std::optional<Inner> inner = nested(row.relation);
+  if (!inner) return;
+  const ContainmentMargin found =
+      *inner == Inner::a ? containment_margin(row.a, row.b) : containment_margin(row.b, row.a);
+  cells[0] = found.margin, cells[1] = found.margin_error;
+}
+
 constexpr std::array<std::string_view, 3> kSizes{"F", "mu", "F_error"};
+constexpr std::array<std::string_view, 2> kClearances{"clearance", "clearance_error"};
+constexpr std::array<std::string_view, 2> kMargins{"margin", "margin_error"};
 constexpr std::array<std::string_view, 2> kCurvatures{"curvature_min", "curvature_max"};
 // In the order of GapGradient.
 constexpr std::array<std::string_view, 18> kDerivatives{
@@ -79,6 +113,16 @@ constexpr std::array kGroups{
           "                   by semi-axes, of bodies that are given by them. All empty where\n"
           "                   normals tie, so that the gap has no derivative\n",
           derivatives},
+    Group{kClearances,
+          "  clearance        of a body that lies in the other, by the relation: the least distance\n"
+          "                   between the two surfaces\n"
+          "  clearance_error  proven: the true clearance is this near\n",
+          clearances},
+    Group{kMargins,
+          "  margin           of a body that lies in the other: the largest factor, >= 1, by which\n"
+          "                   it can be scaled about its centre and still lies there\n"
+          "  margin_error     proven: the true margin is this near\n",
+          margins},
 };
 
 constexpr std::size_t kMostInAGroup = std::ranges::max_element(kGroups, {}, [](const Group& g) {
