@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <tuple>
 
@@ -10,6 +11,9 @@
 #include <tangency/geometry/numbers/arc_tangent.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/vector3.hpp>
+#include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/volume/slice_integrals.hpp>
@@ -95,45 +99,63 @@ CommonVolume whole(const Ellipsoid& body, double rounding, double tolerance) {
                                       : CommonVolumeStatus::tolerance_not_reached};
 }
 
-/// Over the ball's volume and over the area of its great circle.
-struct Sliced {
-  SliceIntegrals found;
-  bool usable;
-};
-
-/// Passes with less and less tolerance, until it is one of the common volume itself.
-Sliced sliced(const CircularSections& bodies, double smaller_volume, double tolerance) {
-  constexpr int kMostPasses = 4;
-  const double asked = std::max(tolerance, kLeastTolerance);
-  double of_volume = asked * smaller_volume, of_area = asked * detail::kPi;
-  SliceIntegrals found;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const SliceIntegrals next = slice_integrals(bodies, of_volume, of_area);
-    if (!(next.volume_error < std::numeric_limits<double>::max()) ||
-        !(next.gradient_error < std::numeric_limits<double>::max()) ||
-        !std::isfinite(next.volume) || !next.gradient.allFinite()) {
-      return {found, pass > 0};
-    }
-    const bool better = pass == 0 || next.volume_error < 0.5 * found.volume_error;
-    if (better) found = next;
-    const double size = found.volume + found.volume_error;
-    const double area = found.gradient.norm() + found.gradient_error;
-    if (!better || found.volume_error <= asked * found.volume) break;
-    if (found.volume_error > 2.0 * of_volume) break;  // no tolerance makes it less
-    of_volume = std::min(of_volume, asked * size), of_area = std::min(of_area, asked * area);
-  }
-  return {found, true};
+bool usable(const SliceIntegrals& s) {
+  constexpr double most = std::numeric_limits<double>::max();
+  return s.volume_error < most && s.gradient_error < most && std::isfinite(s.volume) &&
+         s.gradient.allFinite();
 }
 
-/// In the unit of the pair, the smaller body first.
+/// Are the errors within the tolerance of the ball's volume and of the area of its great circle?
+bool within(const SliceIntegrals& s, double tolerance) {
+  return s.volume_error <= tolerance * kBall && s.gradient_error <= tolerance * detail::kPi;
+}
+
+/// Passes with less and less tolerance, until it is one of the common volume itself.
+template <class T>
+SliceIntegrals sliced(const CircularSections<T>& bodies, double tolerance) {
+  constexpr int kMostPasses = 4;
+  double of_volume = tolerance * kBall, of_area = tolerance * detail::kPi;
+  SliceIntegrals found = slice_integrals(bodies, of_volume, of_area);
+  for (int pass = 1; pass < kMostPasses && usable(found); ++pass) {
+    const bool done = found.volume_error <= tolerance * found.volume;
+    if (done || found.volume_error > 2.0 * of_volume) break;
+    of_volume = std::min(of_volume, tolerance * (found.volume + found.volume_error));
+    of_area = std::min(of_area, tolerance * (found.gradient.norm() + found.gradient_error));
+    const SliceIntegrals next = slice_integrals(bodies, of_volume, of_area);
+    if (!(usable(next) && next.volume_error < found.volume_error)) break;
+    found = next;
+  }
+  return found;
+}
+
+/// A pair in one unit, the smaller body first.
 struct Ordered {
   const Ellipsoid &first, &second;
-  detail::DoubleDoubleVector d;
+  Vec3 d, d_low;  ///< from the centre of the first to that of the second: their sum
+  double distortion;
+
+  template <class T>
+  CircularSections<T> sections() const {
+    detail::Vector3<T> between;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int i = static_cast<int>(k);
+      between[k] = T(d[i]) + T(d_low[i]);
+    }
+    CircularSections<T> result = detail::circular_sections<T>(first, second, between);
+    result.distortion += distortion;
+    return result;
+  }
 };
-Ordered ordered(const ScaledPair& s, bool b_first) {
-  const detail::DoubleDoubleVector d = detail::exactly(s.d) + detail::exactly(s.d_low);
-  if (b_first) return {s.b, s.a, -d};
-  return {s.a, s.b, d};
+
+/// In double-double; in 512 bits where that does not suffice for the tolerance and more digits can.
+SliceIntegrals sliced(const Ordered& pair, double tolerance) {
+  constexpr double kHopeless = 16.0;  // chosen: distortions come in with a factor of up to 12
+  const double asked = std::max(tolerance, kLeastTolerance);
+  const SliceIntegrals found = sliced(pair.sections<detail::DoubleDouble>(), asked);
+  if (usable(found) && within(found, asked)) return found;
+  if (kHopeless * pair.distortion > asked) return found;
+  const SliceIntegrals wide = sliced(pair.sections<detail::WideFloat>(), asked);
+  return usable(wide) && !(wide.volume_error > found.volume_error) ? wide : found;
 }
 
 CommonVolume unknown(const Ellipsoid& smaller_body, double rounding, int exponent,
@@ -150,22 +172,22 @@ CommonVolume overlap_volume(const Asked& asked, const Roundings& roundings, doub
   const Ellipsoid& smaller_body = b_first ? asked.b : asked.a;
   const double of_smaller = b_first ? roundings.of_b : roundings.of_a;
   const ScaledPair s = detail::scaled_pair(asked);
-  const Ordered pair = ordered(s, b_first);
+  const double sign = b_first ? -1.0 : 1.0;
+  const Ordered pair{b_first ? s.b : s.a, b_first ? s.a : s.b, sign * s.d, sign * s.d_low,
+                     roundings.sum()};
   const bool thick = std::min(s.a.smallest_semi_axis(), s.b.smallest_semi_axis()) >
                      detail::kThinnestAxis;
   if (!thick || !(roundings.sum() < 0.01))
     return unknown(smaller_body, of_smaller, s.exponent, pair.first);
-  CircularSections sections = detail::circular_sections(pair.first, pair.second, pair.d);
-  sections.distortion += roundings.sum();
-  const auto [found, usable] = sliced(sections, kBall, tolerance);
-  if (!usable) return unknown(smaller_body, of_smaller, s.exponent, pair.first);
+  const SliceIntegrals found = sliced(pair, tolerance);
+  if (!usable(found)) return unknown(smaller_body, of_smaller, s.exponent, pair.first);
 
   const Product p = product_of_axes(smaller_body);
   const double most = kBall * (1.0 + 8.0 * kU), volume = std::clamp(found.volume, 0.0, most);
   const double volume_error = found.volume_error + 8.0 * kU * volume;
-  const Vec3 in_ball = sections.frame * found.gradient, &a = pair.first.semi_axes();
+  const Vec3 &in_ball = found.gradient, &a = pair.first.semi_axes();
   const Vec3 in_body(a[1] * a[2] * in_ball[0], a[2] * a[0] * in_ball[1], a[0] * a[1] * in_ball[2]);
-  const Vec3 gradient = (b_first ? -1.0 : 1.0) * (pair.first.rotation() * in_body);
+  const Vec3 gradient = sign * (pair.first.rotation() * in_body);
   const double gradient_error = found.gradient_error + 64.0 * kU * found.gradient.norm();
   CommonVolume result{};
   result.volume = std::min(scaled(volume * p.mantissa, p.exponent),
@@ -173,9 +195,7 @@ CommonVolume overlap_volume(const Asked& asked, const Roundings& roundings, doub
   result.volume_error = error_scaled(volume_error * p.mantissa, p.exponent);
   result.gradient = scaled_by_power(gradient, 2 * s.exponent);
   result.gradient_error = error_scaled(1.01 * gradient_error * face(pair.first), 2 * s.exponent);
-  const bool reached =
-      volume_error <= tolerance * kBall && gradient_error <= tolerance * detail::kPi;
-  result.status = reached ? CommonVolumeStatus::ok : CommonVolumeStatus::tolerance_not_reached;
+  result.status = within({volume, volume_error, found.gradient, gradient_error}, tolerance) ? CommonVolumeStatus::ok : CommonVolumeStatus::tolerance_not_reached;
   return result;
 }
 

@@ -10,17 +10,22 @@
 ///     of the second    the circle of radius^2  beta - mu (z - z0)^2   about (x0 + tau z, y0),
 ///
 /// in the unit of the first body's semi-axes: docs/derivations/common-volume.md, section 2.
+///
+/// T is the arithmetic: DoubleDouble, or WideFloat where needles and plates meet whose sections are
+/// larger than the ball by more than double-double can tell.
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
-#include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/vector3.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::detail {
 
+template <class T>
 struct CircularSections {
-  DoubleDouble beta, mu, z0;
-  DoubleDouble half_height;  ///< of the second body: sqrt(beta / mu)
-  DoubleDouble x0, tau, y0;
+  T beta, mu, z0;
+  T half_height;  ///< of the second body: sqrt(beta / mu)
+  T x0, tau, y0;
   Mat3 frame;  ///< unit vectors along x, y and z in its columns, in the ball's body axes
 
   // How far the two solids of these very numbers may be from the true ones: each true body lies
@@ -30,7 +35,6 @@ struct CircularSections {
   double shift;
   double centre_distance;  ///< of the second body's centre from the ball's
   double steepness;        ///< one over the second body's shortest semi-axis
-  double second_volume;    ///< over the ball's
 
   /// How much these may change the volume, over the surface of the common region.
   double layer() const noexcept;
@@ -41,7 +45,8 @@ struct CircularSections {
 /// Requires bodies in one unit, both thick_enough(). Numbers are not finite where something
 /// overflows on the way.
 /// @param d  from the centre of the first to that of the second
-CircularSections circular_sections(const Ellipsoid& first, const Ellipsoid& second,
-                                   const DoubleDoubleVector& d) noexcept;
+template <class T>
+CircularSections<T> circular_sections(const Ellipsoid& first, const Ellipsoid& second,
+                                      const Vector3<T>& d) noexcept;
 
 }  // namespace tangency::detail

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/volume/circular_sections.hpp>
 
 namespace tangency::detail {
@@ -50,9 +51,11 @@ struct SlicePolynomial {
   }
 };
 
-/// In v = (z - base) / step, rounded from double-double.
+/// In v = (z - base) / step, rounded from the arithmetic of the bodies.
 struct SliceExpansion {
-  SliceExpansion(const CircularSections& bodies, const DoubleDouble& base, double step) noexcept;
+  template <class T>
+  SliceExpansion(const CircularSections<T>& bodies, const DoubleDouble& base,
+                 double step) noexcept;
 
   double base, step;
   SlicePolynomial<2> x;  ///< of the second circle's centre; y is constant

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <tangency/geometry/numbers/arc_tangent.hpp>
+#include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/geometry/volume/slice_area.hpp>
 
 namespace tangency::detail {
@@ -27,6 +28,14 @@ struct Range {
   int halvings;
 };
 
+/// Of the sum of two heights: of it and its rounding to double-double.
+constexpr double kOfHeight = 0x1p-98;
+template <class T>
+DoubleDouble rounded_height(const T& z) {
+  const double high = static_cast<double>(z);
+  return {high, static_cast<double>(z - T(high))};
+}
+
 /// Which circle holds the other where they do not cross.
 enum class Inside { none, ball, second };
 Inside inside_at(const SliceExpansion& e, double v) {
@@ -34,9 +43,10 @@ Inside inside_at(const SliceExpansion& e, double v) {
   return e.q2(v) < 0.0 ? Inside::second : Inside::none;
 }
 
+template <class T>
 class SliceSum {
  public:
-  SliceSum(const CircularSections& bodies, double volume_tolerance, double area_tolerance)
+  SliceSum(const CircularSections<T>& bodies, double volume_tolerance, double area_tolerance)
       : bodies_(bodies),
         level_error_(bodies.level_error()),
         volume_tolerance_(volume_tolerance),
@@ -44,12 +54,15 @@ class SliceSum {
 
   SliceIntegrals run() {
     DoubleDouble low(-1.0), high(1.0);
-    const DoubleDouble below = bodies_.z0 - bodies_.half_height;
-    const DoubleDouble above = bodies_.z0 + bodies_.half_height;
+    const DoubleDouble below = rounded_height(bodies_.z0 - bodies_.half_height);
+    const DoubleDouble above = rounded_height(bodies_.z0 + bodies_.half_height);
     if ((below - low).high > 0.0) low = below;
     if ((high - above).high > 0.0) high = above;
-    // By so much the true second body may end above or below.
-    strip_ = 8.0 * kPi * (bodies_.layer() + bodies_.distortion * bodies_.half_height.high);
+    // By so much the second body may end above or below, and then the true one.
+    const double half = static_cast<double>(bodies_.half_height);
+    const double off = kOfHeight * (std::abs(static_cast<double>(bodies_.z0)) + half);
+    sum_.volume_error = 8.0 * kPi * static_cast<double>(bodies_.mu) * (half + off) * off * off;
+    strip_ = 8.0 * kPi * (bodies_.layer() + bodies_.distortion * half + off);
     if ((high - low).high > 0.0) push({low, high, false, false, 0});
     while (count_ > 0) {
       const Range next = open_[--count_];
@@ -70,11 +83,11 @@ class SliceSum {
   /// With what the bodies' own errors make of volume and gradient: section 7.
   SliceIntegrals result() const {
     SliceIntegrals sum;
-    sum.volume = volume_.high, sum.gradient = rounded(gradient_);
+    sum.volume = volume_.high, sum.gradient = bodies_.frame * rounded(gradient_);
     sum.volume_error = 1.01 * (sum_.volume_error + bodies_.layer() * (sum_.surface + strip_)) +
                        (4.0 * kU + 3.1 * bodies_.distortion) * std::abs(sum.volume);
     sum.gradient_error = 1.01 * (sum_.gradient_error + strip_) +
-                         (4.0 * kU + 4.0 * bodies_.distortion) * sum.gradient.norm();
+                         (16.0 * kU + 4.0 * bodies_.distortion) * sum.gradient.norm();
     sum.slices = sum_.slices, sum.ranges = ranges_;
     return sum;
   }
@@ -246,12 +259,16 @@ class SliceSum {
       return share;
     }
     const double off = e.of_square + 16.0 * kU * (b.ball + b.second);
-    const double most = kPi * (std::min(b.ball, b.second) + off);
+    const double smaller = std::min(b.ball, b.second);
+    const double moved = 2.0 * std::sqrt((smaller + off) * (b.distance + off));
+    // Either circles of any radii of the range, or of about the ball's.
     const double radii = std::min(2.0 * e.ball.c[0] - b.ball, 2.0 * e.second.c[0] - b.second) - off;
-    const double moved = 2.0 * std::sqrt(std::min(b.ball, b.second) * (b.distance + off));
-    const double least = std::max(0.0, kPi * radii - moved);
-    share.volume = length * 0.5 * (most + least);
-    share.volume_error = length * (0.5 * (most - least) + 8.0 * kU * most);
+    const double most = kPi * (smaller + off), least = std::max(0.0, kPi * radii - moved);
+    const double of_radii = 0.5 * (most - least) + 8.0 * kU * most;
+    const double of_ball = kPi * (0.5 * (b.q1 + b.q2) + off) + moved;
+    share.volume = length * (of_radii < of_ball ? 0.5 * (most + least)
+                                                : kPi * (e.ball.c[0] + e.ball.c[2] / 3.0));
+    share.volume_error = length * std::min(of_radii, of_ball);
     share.gradient_error = length * 2.0 * kPi;
     return share;
   }
@@ -273,7 +290,7 @@ class SliceSum {
     push({middle, range.high, false, range.touch_high, range.halvings + 1});
   }
 
-  const CircularSections& bodies_;
+  const CircularSections<T>& bodies_;
   const double level_error_, volume_tolerance_, area_tolerance_;
   std::array<Range, 2 * kMostHalvings + 8> open_;
   std::size_t count_ = 0;
@@ -286,9 +303,15 @@ class SliceSum {
 
 }  // namespace
 
-SliceIntegrals slice_integrals(const CircularSections& bodies, double volume_tolerance,
+template <class T>
+SliceIntegrals slice_integrals(const CircularSections<T>& bodies, double volume_tolerance,
                                double area_tolerance) noexcept {
-  return SliceSum(bodies, volume_tolerance, area_tolerance).run();
+  return SliceSum<T>(bodies, volume_tolerance, area_tolerance).run();
 }
+
+template SliceIntegrals slice_integrals(const CircularSections<DoubleDouble>&, double,
+                                        double) noexcept;
+template SliceIntegrals slice_integrals(const CircularSections<WideFloat>&, double,
+                                        double) noexcept;
 
 }  // namespace tangency::detail
