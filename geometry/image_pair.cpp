@@ -123,7 +123,7 @@ ImageSeparation separation(const Vec3& centre_a, const Vec3& centre_b, const Mat
     found = separation_here(kSmall * centre_a, kSmall * centre_b, kSmall * edges, image);
     const Vec3 vector = (found.vector / kSmall).cwiseMin(kMost).cwiseMax(-kMost);
     // Scaling down rounds numbers below 2^-982.
-    const bool in_range = (vector * kSmall).isApprox(found.vector, 0.0);
+    const bool in_range = kSmall * vector == found.vector;
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     return ImageSeparation{vector, in_range ? found.error / kSmall + 0x1p-990 : kInfinite};
   });
@@ -153,8 +153,10 @@ Gap widened_gap(const Gap& rounded, double off, const MatrixEllipsoid& a, const 
   if (off == 0.0 || !std::isfinite(rounded.gap)) return rounded;
   return in_default_environment([&] {
     const Vec3 d = separation(a.ellipsoid().centre(), b.ellipsoid().centre(), edges, image).vector;
-    return detail::widened(rounded, off, ExactImage{a, b, edges, image},
-                           2.0 * d.cwiseAbs().maxCoeff() + off);
+    // gap + gap_error is rounded by no more than this.
+    const double wide = off + 0x1p-52 * std::abs(rounded.gap);
+    return detail::widened(rounded, wide, ExactImage{a, b, edges, image},
+                           2.0 * d.cwiseAbs().maxCoeff() + wide);
   });
 }
 

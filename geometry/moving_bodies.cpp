@@ -30,9 +30,12 @@ void require_poses(const char* call, const PoseColumns& poses, std::size_t bodie
     contract::wrong_column(call, "centres", poses.centres.size(), bodies);
 }
 
+/// In the default environment, for others may read a subnormal float as 0.
 template <class Column, class T>
 void copy(const Column& from, T* to) {
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+  in_default_environment([&] {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+  });
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 
 namespace tangency::tool {
 
-/// Adds --threads, --out, --keep-going and FILE. The options must outlive the parsing.
+/// Adds --threads, --out and FILE. The options must outlive the parsing, here and below.
+void add_table_options(tables::Command& command, tables::RowStreamOptions& options);
+/// And --keep-going.
 void add_row_stream_options(tables::Command& command, tables::RowStreamOptions& options);
 
 /// Adds --mixed-terms half|full: how the coefficients of quadrics are written.
@@ -25,5 +27,6 @@ void add_ellipse_point(tables::Program& program);
 void add_wall(tables::Program& program);
 void add_ray(tables::Program& program);
 void add_time(tables::Program& program);
+void add_neighbours(tables::Program& program);
 
 }  // namespace tangency::tool
