@@ -160,7 +160,8 @@ class SliceSum {
     SliceShare share;
     if (inside != Inside::none) {
       const SlicePolynomial<3>& r2 = inside == Inside::ball ? e.ball : e.second;
-      const double mean = middle ? r2.c[0] + r2.c[2] / 3.0 : r2.c[0] + r2.c[1] / 2.0 + r2.c[2] / 3.0;
+      const double mean =
+          middle ? r2.c[0] + r2.c[2] / 3.0 : r2.c[0] + r2.c[1] / 2.0 + r2.c[2] / 3.0;
       share.volume = kPi * length * mean;
       share.volume_error = kPi * length * (16.0 * kU * r2.most(1.0) + e.of_square);
     }
@@ -194,7 +195,8 @@ class SliceSum {
     const SliceBounds b(e, SliceRange::from_touch, 1.0);
     const double share_1 = most_p / b.least_1, share_2 = most_p / b.least_2;
     if (b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
-      return 4.0 * (b.ball * share_1 * std::sqrt(share_1) + b.second * share_2 * std::sqrt(share_2));
+      return 4.0 *
+             (b.ball * share_1 * std::sqrt(share_1) + b.second * share_2 * std::sqrt(share_2));
     }
     return kPi * std::min(b.ball, b.second);
   }
@@ -254,8 +256,9 @@ class SliceSum {
       const double margin = 2.0 * level_error_ * (2.0 * b.q1 + level_error_);
       const double z = std::abs(e.base) + std::abs(e.step);
       const double off_angle = 1.8 * std::sqrt(share_1 + margin / b.least_1);
-      share.gradient_error = length * (4.0 * z * off_angle + 4.0 * off_angle * (level_error_ > 0.0) +
-                                       std::sqrt(p / b.least_distance) + 16.0 * kPi * kU * z);
+      share.gradient_error =
+          length * (4.0 * z * off_angle + 4.0 * off_angle * (level_error_ > 0.0) +
+                    std::sqrt(p / b.least_distance) + 16.0 * kPi * kU * z);
       return share;
     }
     const double off = e.of_square + 16.0 * kU * (b.ball + b.second);
@@ -277,8 +280,8 @@ class SliceSum {
     const SliceShare share = open_share(about_middle(range));
     const bool little = share.volume_error <= kOfOpen * volume_tolerance_ &&
                         share.gradient_error <= kOfOpen * area_tolerance_;
-    const bool room = range.halvings < kMostHalvings && ranges_ < kMostRanges &&
-                      count_ + 2 <= open_.size();
+    const bool room =
+        range.halvings < kMostHalvings && ranges_ < kMostRanges && count_ + 2 <= open_.size();
     if (little || !room) return add(share);
     halve(range);
   }
