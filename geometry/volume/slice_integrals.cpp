@@ -38,9 +38,13 @@ DoubleDouble rounded_height(const T& z) {
 
 /// Which circle holds the other where they do not cross.
 enum class Inside { none, ball, second };
-Inside inside_at(const SliceExpansion& e, double v) {
-  if (e.q1(v) < 0.0) return Inside::ball;
-  return e.q2(v) < 0.0 ? Inside::second : Inside::none;
+/// Nothing where rounding hides a sign.
+std::optional<Inside> inside_at(const SliceExpansion& e, double v) {
+  const double q1 = e.q1(v), q2 = e.q2(v);
+  const double off = e.of_square + 16.0 * kU * std::max(e.q1.most(1.0), e.q2.most(1.0));
+  if (!(std::min(std::abs(q1), std::abs(q2)) > off)) return std::nullopt;
+  if (q1 < 0.0) return Inside::ball;
+  return q2 < 0.0 ? Inside::second : Inside::none;
 }
 
 template <class T>
@@ -100,10 +104,13 @@ class SliceSum {
       return;
     }
     const SliceExpansion e = about_middle(range);
-    const double known = std::abs(e.p.c[0]) - (e.p.most(1.0) - std::abs(e.p.c[0])) - e.of_p;
+    const double known = e.p.least(1.0) - e.of_p - 24.0 * kU * e.p.most(1.0);
     if (known > 0.0) {
-      if (e.p.c[0] < 0.0) return add_closed(e, SliceRange::about_middle, known);
-      if (add_crossing(e, SliceRange::about_middle)) return;
+      if (e.p.c[0] < 0.0) {
+        if (add_closed(e, SliceRange::about_middle, known)) return;
+      } else if (add_crossing(e, SliceRange::about_middle)) {
+        return;
+      }
     } else if (split_at_touch(range, e)) {
       return;
     }
@@ -122,8 +129,7 @@ class SliceSum {
     const double known = e.p.deflated().least(1.0) - 24.0 * kU * e.p.most(1.0);
     if (!(known > 0.0)) return false;
     if (e.p.c[1] > 0.0) return add_crossing(e, SliceRange::from_touch);
-    add_closed(e, SliceRange::from_touch, known);
-    return true;
+    return add_closed(e, SliceRange::from_touch, known);
   }
 
   bool add_crossing(const SliceExpansion& e, SliceRange range) {
@@ -153,9 +159,10 @@ class SliceSum {
 
   /// Where one circle holds the other, or none meets the other.
   /// @param known  P <= -known, or <= -|v| known
-  void add_closed(const SliceExpansion& e, SliceRange range, double known) {
+  bool add_closed(const SliceExpansion& e, SliceRange range, double known) {
     const bool middle = range == SliceRange::about_middle;
-    const Inside inside = inside_at(e, middle ? 0.0 : 0.5);
+    const std::optional<Inside> inside = inside_at(e, middle ? 0.0 : 0.5);
+    if (!inside) return false;
     const double length = std::abs(e.step) * (middle ? 2.0 : 1.0);
     SliceShare share;
     if (inside != Inside::none) {
@@ -178,6 +185,7 @@ class SliceSum {
     }
     add(share);
     add_strip_of_closed(e, range, known);
+    return true;
   }
 
   void add_strip_of_closed(const SliceExpansion& e, SliceRange range, double known) {
@@ -244,8 +252,8 @@ class SliceSum {
     const double p = e.p.most(1.0) + e.of_p, share_1 = p / b.least_1, share_2 = p / b.least_2;
     SliceShare share;
     share.surface = 2.0 * kPi * length;
-    if (b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
-      const Inside inside = inside_at(e, 0.0);
+    const std::optional<Inside> inside = inside_at(e, 0.0);
+    if (inside && b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
       const SlicePolynomial<3>& r2 = inside == Inside::ball ? e.ball : e.second;
       if (inside != Inside::none) share.volume = kPi * length * (r2.c[0] + r2.c[2] / 3.0);
       share.volume_error =
