@@ -20,8 +20,8 @@
 #include <span>
 
 #include <tangency/geometry/body_array.hpp>
-#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
+#include <tangency/geometry/pair_list.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 
 namespace tangency {
