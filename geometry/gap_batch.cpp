@@ -162,7 +162,7 @@ void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noex
   task.tolerance_of_size = accuracy.of_size;
   task.tolerance = accuracy.length;
   task.polish = accuracy.normals;
-  detail::for_parts(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
+  detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
     in_default_environment([&] { run_here(task, write, first, last); });
   });
 }
@@ -276,7 +276,7 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
   contract::require_length("gap_derivatives", "gaps", gaps.size(), task.count);
   contract::require_length("gap_derivatives", "answers", answers.size(), task.count);
   task.require_indices(0, task.count);
-  detail::for_parts(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
+  detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Ellipsoid &a = task.a(i), &b = task.b(i);
       answers[i] = task.separations != nullptr ? gap_derivatives(a, b, task.separations[i], gaps[i])

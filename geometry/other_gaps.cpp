@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/other_gaps.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <tangency/geometry/bodies/scaled_pair.hpp>
@@ -27,6 +28,10 @@ using UnitPair = detail::UnitPair<Ellipsoid>;
 // what else is rounded, stay below u L / 64 (docs/derivations/other-gaps.md).
 constexpr double kOfSize = 0x1p-61;
 
+// Of the factor and of its root: twice 2^-61, some epsilons and their rounding (section 5).
+constexpr double kOfFactor = (1.0 + 0x1p-6) * kUnitRoundoff;
+constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
+
 constexpr double kTurned = 0x1p7;  // of R'v over |v|, in units of the arithmetic's epsilon
 constexpr double kOfFoot = 1.5;    // of the foot over |z|, for a turn of the line: sqrt(2)
 
@@ -41,7 +46,8 @@ struct Found {
 };
 
 /// What is measured; nothing where it is not known well enough.
-using Measured = std::optional<OtherGap>;
+template <class Measure>
+using Measured = std::optional<typename Measure::Answer>;
 
 OtherGap nothing(OtherGapStatus status) {
   return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status};
@@ -59,9 +65,16 @@ OtherGap rounded(const T& gap, const Vector3<T>& normal, const Vector3<T>& arm_a
           detail::rounded(arm_b), OtherGapStatus::ok};
 }
 
-struct BetweenTangentPlanes {
+/// What both gaps have in common.
+struct AnyGap {
+  using Answer = OtherGap;
+  static Answer of_coinciding_centres() { return nothing(OtherGapStatus::not_applicable); }
+  static Answer not_converged() { return nothing(OtherGapStatus::not_converged); }
+};
+
+struct BetweenTangentPlanes : AnyGap {
   template <class T>
-  Measured operator()(const Found<T>& pair) const {
+  std::optional<OtherGap> operator()(const Found<T>& pair) const {
     using R = Rough<T>;
     const R allowed = R(kOfSize) * pair.size;
     const R of_arm_a = R(pair.a.body.largest_semi_axis()) * pair.at.turn_a;
@@ -77,7 +90,7 @@ struct BetweenTangentPlanes {
   }
 };
 
-struct AlongTheNormal {
+struct AlongTheNormal : AnyGap {
   /// Where the line leaves a body.
   template <class T>
   struct End {
@@ -117,7 +130,7 @@ struct AlongTheNormal {
   }
 
   template <class T>
-  Measured operator()(const Found<T>& pair) const {
+  std::optional<OtherGap> operator()(const Found<T>& pair) const {
     const int unit_exponent = pair.at.exponent;
     const auto at_a = end(pair.a, scaled_by_power(pair.at.y_a, unit_exponent),
                           scaled_by_power(pair.at.off_a, unit_exponent), 1.0, pair);
@@ -133,9 +146,28 @@ struct AlongTheNormal {
   }
 };
 
+/// F is the level of both bodies at the point, |y_a|^2.
+struct OfSizes {
+  using Answer = PerramWertheimFactor;
+  static Answer of_coinciding_centres() { return {0.0, 0.0, 0.0, 0.0, OtherGapStatus::ok}; }
+  static Answer not_converged() { return {0.0, 0.0, 0.0, 0.0, OtherGapStatus::not_converged}; }
+
+  template <class T>
+  std::optional<Answer> operator()(const Found<T>& pair) const {
+    if (!(pair.at.turn_a < Rough<T>(kOfSize))) return std::nullopt;
+    const T level = dot(pair.at.y_a, pair.at.y_a);
+    const int exponent = pair.at.exponent;
+    const auto factor = static_cast<double>(scaled_by_power(level, 2 * exponent));
+    const auto scale = static_cast<double>(scaled_by_power(sqrt(level), exponent));
+    const auto error = [](double value) { return kOfFactor * value + 2.0 * kDenormal; };
+    return Answer{factor, scale, error(factor), error(scale), OtherGapStatus::ok};
+  }
+};
+
 /// @param ratio  l, as find_perram_wertheim_point() takes and leaves it
 template <class Measure, class T>
-Measured measured(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d, double& ratio) {
+Measured<Measure> measured(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d,
+                           double& ratio) {
   const PreciseShape<T> shape_a(a), shape_b(b);
   const auto at = detail::find_perram_wertheim_point<T>(shape_a, shape_b, d, ratio);
   if (!at) return std::nullopt;
@@ -172,6 +204,14 @@ Direction<WideFloat> separation_of(const AskedPair& asked) {
   return detail::direction<WideFloat>({component(0), component(1), component(2)});
 }
 
+/// Are the bodies those that were asked about? Scaling makes the thinnest axes thicker.
+bool as_asked(const UnitPair& pair) {
+  const auto& [a, b, separation] = pair.asked;
+  const double thinnest = std::min(a.smallest_semi_axis(), b.smallest_semi_axis());
+  return pair.in_own_unit() || scaled_by_power(thinnest, -pair.exponent) >= detail::kThinnestAxis;
+}
+
+PerramWertheimFactor scaled_back(const PerramWertheimFactor& found, int) { return found; }
 OtherGap scaled_back(const OtherGap& found, int exponent) {
   return {scaled_by_power(found.gap, exponent), found.normal,
           scaled_by_power(found.arm_a, exponent), scaled_by_power(found.arm_b, exponent),
@@ -179,20 +219,50 @@ OtherGap scaled_back(const OtherGap& found, int exponent) {
 }
 
 template <class Measure>
-OtherGap answer(const AskedPair& asked) {
+typename Measure::Answer answer(const AskedPair& asked) {
   const bool coincide = asked.separation != nullptr ? *asked.separation == Vec3::Zero()
                                                     : asked.a.centre() == asked.b.centre();
-  if (coincide) return nothing(OtherGapStatus::not_applicable);
+  if (coincide) return Measure::of_coinciding_centres();
   double ratio = 0.0;
   const Vec3 d = asked.d();
   const UnitPair pair(asked, d, detail::moderate(asked.a, asked.b, d));
-  if (const auto found = measured<Measure>(pair.a, pair.b, separation_of(pair), ratio))
-    return scaled_back(*found, pair.exponent);
+  if (as_asked(pair)) {
+    if (const auto found = measured<Measure>(pair.a, pair.b, separation_of(pair), ratio))
+      return scaled_back(*found, pair.exponent);
+  }
   return measured<Measure>(asked.a, asked.b, separation_of(asked), ratio)
-      .value_or(nothing(OtherGapStatus::not_converged));
+      .value_or(Measure::not_converged());
 }
 
 }  // namespace
+
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return in_default_environment([&] { return answer<OfSizes>({a, b}); });
+}
+
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
+                                            const Vec3& separation) noexcept {
+  return in_default_environment([&] { return answer<OfSizes>({a, b, &separation}); });
+}
+
+PerramWertheimFactor perram_wertheim_factor(const MatrixEllipsoid& a,
+                                            const MatrixEllipsoid& b) noexcept {
+  PerramWertheimFactor found = perram_wertheim_factor(a.ellipsoid(), b.ellipsoid());
+  const double off = std::max(a.relative_rounding(), b.relative_rounding());
+  if (off == 0.0 || found.status != OtherGapStatus::ok) return found;
+  return in_default_environment([&] {
+    // Section 5; 1.01 is for rounding here, and leaves room for a relative error below 2^-8.
+    if (!(off < 0x1p-8)) {
+      found.factor_error = found.scale_error = std::numeric_limits<double>::infinity();
+      return found;
+    }
+    const double error =
+        1.01 * (found.scale_error + off * (1.0 + found.scale + found.scale_error) / (1.0 - off));
+    found.factor_error += 1.01 * error * (2.0 * (found.scale + found.scale_error) + error);
+    found.scale_error = error + 2.0 * kDenormal;
+    return found;
+  });
+}
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] { return answer<BetweenTangentPlanes>({a, b}); });

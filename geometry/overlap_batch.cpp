@@ -39,7 +39,7 @@ void run_here(const PairTask& task, Answer* answers, const Doubtful& doubtful, s
 template <class Answer, class Doubtful>
 void run(const PairTask& task, std::span<Answer> answers, int threads, const Doubtful& doubtful) {
   contract::require_length(task.call, "answers", answers.size(), task.count);
-  detail::for_parts(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
+  detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
     in_default_environment([&] { run_here(task, answers.data(), doubtful, first, last); });
   });
 }

@@ -72,7 +72,7 @@ struct Asked {
         body_count(bodies),
         other_count(others),
         list(of_list) {
-    if (moving != nullptr || !list.separations.empty())
+    if (!list.separations.empty() || (moving != nullptr && !moving->has_centres()))
       contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
   }
 };
@@ -91,7 +91,7 @@ void put(const Column& column, std::size_t i, const Value& value) {
 /// work(first, last) in the default environment, on so many threads.
 template <class Work>
 void share(const Asked& asked, int threads, const Work& work) {
-  detail::for_parts(asked.list.pairs.size(), threads, kBlock,
+  detail::in_ranges(asked.list.pairs.size(), threads, kBlock,
                     [&](std::size_t first, std::size_t last) {
                       in_default_environment([&] { work(first, last); });
                     });
@@ -289,7 +289,7 @@ void gaps_to_balls(const Bodies& bodies, std::span<const Sphere> balls, const Pa
     put(to.tier, i, found.tier);
     if (to.point.empty()) return;
     const Vec3 apart =
-        d != nullptr ? *d : Vec3(ball.centre - (*asked.array)[list.pairs[i].a].centre());
+        d != nullptr ? *d : Vec3(ball.centre - Vec3::Map(asked.rows[list.pairs[i].a].centre));
     to.point[i] = found.arm_a + 0.5 * ((apart + found.arm_b) - found.arm_a);
   };
   share(asked, threads, [&](std::size_t first, std::size_t last) {

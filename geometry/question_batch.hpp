@@ -52,8 +52,8 @@ struct PointColumns {
   std::span<GapStatus> status = {};
 };
 
-/// signed_gap(body, wall) of every pair. Of moving bodies separations have to be given, here and
-/// below.
+/// signed_gap(body, wall) of every pair. Of moving bodies without centres separations have to be
+/// given, here and below.
 /// @param walls, sheets, balls, points  as the single calls have them
 /// @param threads                       as for the gaps of pairs
 void signed_gaps(const BodyArray& bodies, std::span<const Plane> walls, const PairList& list,

@@ -13,7 +13,6 @@ namespace {
 
 using detail::Filtered;
 using detail::OverlapFilter;
-using exact::Containment;
 using exact::ExactPair;
 using exact::Position;
 using UnitPair = detail::UnitPair<Ellipsoid>;
@@ -72,35 +71,10 @@ Found filter_relation(const Ellipsoid& a, const Ellipsoid& b) {
   return {std::nullopt, true};
 }
 
-RelationAnswer exactly(Relation relation, Inner inner = Inner::none) {
-  return {relation, inner, Tier::exact};
-}
-
-/// For a pair whose interiors meet.
-RelationAnswer exact_containment(const ExactPair& pair) {
-  if (pair.equal()) return exactly(Relation::equal);
-  const Containment a_in_b = pair.containment();
-  if (a_in_b == Containment::interior) return exactly(Relation::a_in_b);
-  if (a_in_b == Containment::touching) return exactly(Relation::internal_touch, Inner::a);
-  const Containment b_in_a = pair.exchanged().containment();
-  if (b_in_a == Containment::interior) return exactly(Relation::b_in_a);
-  if (b_in_a == Containment::touching) return exactly(Relation::internal_touch, Inner::b);
-  return exactly(Relation::overlap);
-}
-
-/// @param interiors_meet  is that known?
-[[gnu::noinline]] RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet) {
-  if (interiors_meet) return exact_containment(pair);
-  const Position position = pair.position();
-  if (position == Position::apart) return exactly(Relation::separate);
-  if (position == Position::touching) return exactly(Relation::external_touch);
-  return exact_containment(pair);
-}
-
 RelationAnswer found_relation(const Ellipsoid& a, const Ellipsoid& b) {
   const Found found = filter_relation(a, b);
   if (found.relation) return {*found.relation, Inner::none, Tier::filter};
-  return exact_relation(ExactPair(a, b), found.interiors_meet);
+  return exact::exact_relation(ExactPair(a, b), found.interiors_meet);
 }
 
 exact::EllipsoidForm form_of(const MatrixEllipsoid& body) {
@@ -194,7 +168,7 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noex
       if (const auto known = relation_within(Margins(a), Margins(b)))
         return RelationAnswer{*known, Inner::none, Tier::filter};
     }
-    return exact_relation(ExactPair(form_of(a), form_of(b)), false);
+    return exact::exact_relation(ExactPair(form_of(a), form_of(b)));
   });
 }
 

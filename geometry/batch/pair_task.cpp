@@ -87,7 +87,8 @@ PairTask::PairTask(const char* of_call, const MovingBodies& of_bodies,
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
       count(list.pairs.size()) {
-  contract::require_length(call, "separations", list.separations.size(), count);
+  if (!list.separations.empty() || !of_bodies.has_centres())
+    contract::require_length(call, "separations", list.separations.size(), count);
 }
 
 PairTask::PairTask(const char* of_call, std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
@@ -103,25 +104,32 @@ PairTask::PairTask(const char* of_call, std::span<const Ellipsoid> a, std::span<
 }
 
 Vec3 PairTask::separation(std::size_t i) const noexcept {
-  return separations != nullptr ? separations[i] : Vec3(b(i).centre() - a(i).centre());
+  if (separations != nullptr) return separations[i];
+  if (!indexed()) return plain_b[i].centre() - plain_a[i].centre();
+  return Vec3::Map(lanes[pairs[i].b].centre) - Vec3::Map(lanes[pairs[i].a].centre);
 }
 
 Gap PairTask::single(std::size_t i, const Vec3* previous_normal) const noexcept {
   require_finite_separation(i);
-  if (moving != nullptr)
-    return single_gap(made(pairs[i].a), made(pairs[i].b), separations + i, previous_normal);
+  if (moving != nullptr) return single(i, made(pairs[i].a), made(pairs[i].b), previous_normal);
+  return single(i, a(i), b(i), previous_normal);
+}
+
+Gap PairTask::single(std::size_t i, const Ellipsoid& a, const Ellipsoid& b,
+                     const Vec3* previous_normal) const noexcept {
   if (separations != nullptr || previous_normal == nullptr)
-    return single_gap(a(i), b(i), separations != nullptr ? separations + i : nullptr,
-                      previous_normal);
-  const Vec3 d = b(i).centre() - a(i).centre();
-  if (!d.allFinite()) return signed_gap(a(i), b(i));  // that of the centres, which overflows
-  return single_gap(a(i), b(i), &d, previous_normal);
+    return single_gap(a, b, separations != nullptr ? separations + i : nullptr, previous_normal);
+  const Vec3 d = b.centre() - a.centre();
+  if (!d.allFinite()) return signed_gap(a, b);  // that of the centres, which overflows
+  return single_gap(a, b, &d, previous_normal);
 }
 
 BoundedGap PairTask::bounded(std::size_t i) const noexcept {
   require_finite_separation(i);
-  if (moving != nullptr) return bounded_gap(made(pairs[i].a), made(pairs[i].b), separations[i]);
-  return separations != nullptr ? bounded_gap(a(i), b(i), separations[i]) : bounded_gap(a(i), b(i));
+  const auto ask = [&](const Ellipsoid& a, const Ellipsoid& b) {
+    return separations != nullptr ? bounded_gap(a, b, separations[i]) : bounded_gap(a, b);
+  };
+  return moving != nullptr ? ask(made(pairs[i].a), made(pairs[i].b)) : ask(a(i), b(i));
 }
 
 bool PairTask::overlaps(std::size_t i) const noexcept {

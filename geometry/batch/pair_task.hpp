@@ -36,8 +36,8 @@ struct PairTask {
   double tolerance_of_size = 0.0, tolerance = 0.0;
   bool polish = false;
 
-  /// Ends the process where separations are not as many as pairs; of moving bodies they have to be
-  /// given.
+  /// Ends the process where separations are not as many as pairs; of moving bodies without centres
+  /// they have to be given.
   PairTask(const char* of_call, const BodyArray& of_bodies, const PairList& list) noexcept;
   PairTask(const char* of_call, const MovingBodies& of_bodies, const PairList& list) noexcept;
   /// a[i] and b[i].
@@ -69,6 +69,8 @@ struct PairTask {
  private:
   void require_finite_separation(std::size_t i) const noexcept;
   Ellipsoid made(std::size_t body) const noexcept;
+  Gap single(std::size_t i, const Ellipsoid& a, const Ellipsoid& b,
+             const Vec3* previous_normal) const noexcept;
   [[noreturn]] void name_outside(std::size_t first, std::size_t n) const noexcept;
 };
 

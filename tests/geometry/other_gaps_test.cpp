@@ -162,6 +162,16 @@ TEST(OtherGaps, DifferFromTheSignedGapByItsSquare) {
   EXPECT_LE(largest, 1);
 }
 
+/// Of F and of its root, over their errors.
+double factor_ratio(const Ellipsoid& a, const Ellipsoid& b,
+                    const verify::PerramWertheimTruth& truth) {
+  const PerramWertheimFactor found = perram_wertheim_factor(a, b);
+  EXPECT_EQ(found.status, OtherGapStatus::ok);
+  const Real& level = truth.contact_function;
+  return std::max(difference(found.factor, level) / found.factor_error,
+                  difference(found.scale, Real(sqrt(level))) / found.scale_error);
+}
+
 /// Largest errors in units of what is promised: u of each number + u L / 64, 8 u for the normal.
 struct Errors {
   double gap = 0, normal = 0, arms = 0;
@@ -185,6 +195,7 @@ void hold_against_oracle(const Ellipsoid& a, const Ellipsoid& b) {
   Errors errors;
   errors.add(planes, truth->tangent_planes, size_of(a, b));
   if (truth->midpoint) errors.add(midpoint, *truth->midpoint, size_of(a, b));
+  EXPECT_LE(factor_ratio(a, b, *truth), 1);
   EXPECT_LE(errors.gap, 1);
   EXPECT_LE(errors.normal, 1);
   EXPECT_LE(errors.arms, 1);
@@ -296,6 +307,7 @@ TEST(OtherGaps, AreRightInEveryRoundingModeAndWithSubnormalsFlushed) {
 template <class Next>
 void hold_against_oracle(const std::string& family, const Next& next) {
   Errors planes, midpoint;
+  double factor = 0;
   int along = 0;
   for (int i = 0; i < kPairs; ++i) {
     const auto pair = next();
@@ -310,6 +322,7 @@ void hold_against_oracle(const std::string& family, const Next& next) {
     }
     ASSERT_EQ(tangent_planes.status, OtherGapStatus::ok) << family << ' ' << i;
     planes.add(tangent_planes, truth->tangent_planes, size_of(a, b));
+    factor = std::max(factor, factor_ratio(a, b, *truth));
     ASSERT_EQ(on_the_line.status == OtherGapStatus::ok, truth->midpoint.has_value())
         << family << ' ' << i;
     if (!truth->midpoint) continue;
@@ -318,8 +331,10 @@ void hold_against_oracle(const std::string& family, const Next& next) {
   }
   std::printf(
       "%-28s tangent planes: gap %.2f normal %.2f arms %.2f; midpoint (%d pairs): "
-      "gap %.2f arms %.2f of what is promised\n",
-      family.c_str(), planes.gap, planes.normal, planes.arms, along, midpoint.gap, midpoint.arms);
+      "gap %.2f arms %.2f; F %.2f of what is promised\n",
+      family.c_str(), planes.gap, planes.normal, planes.arms, along, midpoint.gap, midpoint.arms,
+      factor);
+  EXPECT_LE(factor, 1) << family;
   for (const Errors& errors : {planes, midpoint}) {
     EXPECT_LE(errors.gap, 1) << family;
     EXPECT_LE(errors.normal, 1) << family;

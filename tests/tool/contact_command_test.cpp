@@ -18,6 +18,7 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 #include <tangency/geometry/trace_contact.hpp>
+#include <tangency/tests/tool/help_examples.hpp>
 #include <tangency/tests/tool/process.hpp>
 
 namespace tangency::testing {
@@ -443,22 +444,7 @@ TEST(ContactCommand, HelpSaysWhatTheFilesMeanAndWhatIsEmpty) {
   }
 }
 
-TEST(ContactCommand, HelpExampleIsTrue) {
-  std::string input;
-  std::string output;
-  std::string* target = nullptr;
-  for (const std::string& line : lines_of(run_tool({"contact", "--help"}).out)) {
-    if (line.starts_with("  $ cat")) {
-      target = &input;
-    } else if (line.starts_with("  $ tangency contact")) {
-      target = &output;
-    } else if (target != nullptr && line.size() > 2) {
-      *target += line.substr(2) + "\n";
-    }
-  }
-  ASSERT_NE(input, "");
-  EXPECT_EQ(run_tool({"contact"}, input).out, output);
-}
+TEST(ContactCommand, HelpExamplesAreTrue) { expect_help_examples("contact"); }
 
 TEST(Program, TellsItsVersion) {
   const Finished run = run_tool({"--version"});
