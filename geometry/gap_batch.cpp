@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/gap_lanes.hpp>
@@ -51,13 +50,17 @@ struct Task {
   /// @param previous_normal  null, or 0: the pair is asked afresh
   Gap single(std::size_t i, const Vec3* previous_normal) const {
     require_finite_separation(i);
-    if (moving != nullptr)
-      return single(made(pairs[i].a), made(pairs[i].b), separations + i, previous_normal);
+    if (moving != nullptr) return single(i, made(pairs[i].a), made(pairs[i].b), previous_normal);
+    return single(i, a(i), b(i), previous_normal);
+  }
+
+  Gap single(std::size_t i, const Ellipsoid& a, const Ellipsoid& b,
+             const Vec3* previous_normal) const {
     if (separations != nullptr || previous_normal == nullptr)
-      return single(a(i), b(i), separations ? separations + i : nullptr, previous_normal);
-    const Vec3 d = b(i).centre() - a(i).centre();
-    if (!d.allFinite()) return signed_gap(a(i), b(i));  // that of the centres, which overflows
-    return single(a(i), b(i), &d, previous_normal);
+      return single(a, b, separations ? separations + i : nullptr, previous_normal);
+    const Vec3 d = b.centre() - a.centre();
+    if (!d.allFinite()) return signed_gap(a, b);  // that of the centres, which overflows
+    return single(a, b, &d, previous_normal);
   }
 
   static Gap single(const Ellipsoid& a, const Ellipsoid& b, const Vec3* separation,
@@ -310,10 +313,13 @@ void run(const Task& task, const Write& write) noexcept {
 void bind(Task& task, const BodyArray& bodies) { task.bodies = &bodies; }
 void bind(Task& task, const MovingBodies& bodies) { task.moving = &bodies; }
 
+bool has_centres(const BodyArray&) { return true; }
+bool has_centres(const MovingBodies& bodies) { return bodies.has_centres(); }
+
 template <class Bodies>
 Task task_of(const char* call, const Bodies& bodies, const PairList& list, Accuracy accuracy = {}) {
   assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0);
-  if (!list.separations.empty() || std::is_same_v<Bodies, MovingBodies>) {
+  if (!list.separations.empty() || !has_centres(bodies)) {
     contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
   }
   Task task;

@@ -79,7 +79,8 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns
                  Accuracy accuracy = {}) noexcept;
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
                  Accuracy accuracy = {}) noexcept;
-/// The same for moving bodies. Separations have to be given, here and below.
+/// The same for moving bodies. Separations have to be given where the bodies have no centres, here
+/// and below.
 void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}) noexcept;
 /// The same for a[i] and b[i], at the cost of reading whole bodies.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/other_gaps.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <tangency/geometry/bodies/scaled_pair.hpp>
@@ -27,6 +28,14 @@ using UnitPair = detail::UnitPair<Ellipsoid>;
 // what else is rounded, stay below u L / 64 (docs/derivations/other-gaps.md).
 constexpr double kOfSize = 0x1p-61;
 
+// Of the factor and of its root: twice 2^-61, some epsilons and their rounding (section 5).
+constexpr double kOfFactor = (1.0 + 0x1p-6) * kUnitRoundoff;
+constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
+
+constexpr double kOfValue =
+    0x1p8;  // of L, in units of epsilon: evaluation of a gap (sections 3, 4)
+constexpr double kRoundedUp = 1.0 + 0x1p-40;  // covers the roundings of a bound in doubles
+
 constexpr double kTurned = 0x1p7;  // of R'v over |v|, in units of the arithmetic's epsilon
 constexpr double kOfFoot = 1.5;    // of the foot over |z|, for a turn of the line: sqrt(2)
 
@@ -41,10 +50,11 @@ struct Found {
 };
 
 /// What is measured; nothing where it is not known well enough.
-using Measured = std::optional<OtherGap>;
+template <class Measure>
+using Measured = std::optional<typename Measure::Answer>;
 
 OtherGap nothing(OtherGapStatus status) {
-  return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status};
+  return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status, 0.0};
 }
 
 template <class T>
@@ -52,16 +62,31 @@ Vector3<T> unit(const Vector3<T>& v) {
   return (T(1.0) / length(v)) * v;
 }
 
+/// @param off  bounds |gap - true gap|
 template <class T>
 OtherGap rounded(const T& gap, const Vector3<T>& normal, const Vector3<T>& arm_a,
-                 const Vector3<T>& arm_b) {
-  return {static_cast<double>(gap), detail::rounded(normal), detail::rounded(arm_a),
-          detail::rounded(arm_b), OtherGapStatus::ok};
+                 const Vector3<T>& arm_b, const Rough<T>& off) {
+  const auto value = static_cast<double>(gap);
+  const double error =
+      kRoundedUp * (kUnitRoundoff * std::abs(value) + static_cast<double>(off)) + 2.0 * kDenormal;
+  return {value,
+          detail::rounded(normal),
+          detail::rounded(arm_a),
+          detail::rounded(arm_b),
+          OtherGapStatus::ok,
+          error};
 }
 
-struct BetweenTangentPlanes {
+/// What both gaps have in common.
+struct AnyGap {
+  using Answer = OtherGap;
+  static Answer of_coinciding_centres() { return nothing(OtherGapStatus::not_applicable); }
+  static Answer not_converged() { return nothing(OtherGapStatus::not_converged); }
+};
+
+struct BetweenTangentPlanes : AnyGap {
   template <class T>
-  Measured operator()(const Found<T>& pair) const {
+  std::optional<OtherGap> operator()(const Found<T>& pair) const {
     using R = Rough<T>;
     const R allowed = R(kOfSize) * pair.size;
     const R of_arm_a = R(pair.a.body.largest_semi_axis()) * pair.at.turn_a;
@@ -72,17 +97,19 @@ struct BetweenTangentPlanes {
     const Vector3<T> n = unit(pair.at.v);
     const Vector3<T> y_a = pair.a.stretched(n), y_b = pair.b.stretched(n);
     const T h_a = length(y_a), h_b = length(y_b), one = 1.0;
+    const R off = (pair.at.turn + R(kOfValue * detail::Arithmetic<T>::kEpsilon)) * pair.size;
     return rounded(dot(n, pair.d) - h_a - h_b, n, pair.a.spread((one / h_a) * y_a),
-                   -pair.b.spread((one / h_b) * y_b));
+                   -pair.b.spread((one / h_b) * y_b), off);
   }
 };
 
-struct AlongTheNormal {
+struct AlongTheNormal : AnyGap {
   /// Where the line leaves a body.
   template <class T>
   struct End {
     enum { known, misses, unknown } is = unknown;
     Vector3<T> arm;
+    Rough<T> off;  ///< bounds |the error of arm|
   };
 
   /// In the coordinates that make the body the unit ball the line is z + t e.
@@ -106,18 +133,16 @@ struct AlongTheNormal {
         of_v * rough(length(pair.at.v)) / (R(body.body.smallest_semi_axis()) * rough(length_w));
     const R of_foot = slack * (off + R(kOfFoot) * rough(length(z)) * turn);
     const R of_room = of_foot * (two * sqrt(rough(square)) + of_foot);
-    if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}};
-    if (static_cast<double>(room) < 0.0) return {End<T>::misses, {}};
+    if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}, {}};
+    if (static_cast<double>(room) < 0.0) return {End<T>::misses, {}, {}};
     const T cosine = sqrt(room);
-    const R error = of_foot + turn + of_room / rough(cosine);
-    if (!(R(body.body.largest_semi_axis()) * error < R(kOfSize) * pair.size)) {
-      return {End<T>::unknown, {}};
-    }
-    return {End<T>::known, body.spread(foot + T(sign) * cosine * e)};
+    const R error = R(body.body.largest_semi_axis()) * (of_foot + turn + of_room / rough(cosine));
+    if (!(error < R(kOfSize) * pair.size)) return {End<T>::unknown, {}, {}};
+    return {End<T>::known, body.spread(foot + T(sign) * cosine * e), error};
   }
 
   template <class T>
-  Measured operator()(const Found<T>& pair) const {
+  std::optional<OtherGap> operator()(const Found<T>& pair) const {
     const int unit_exponent = pair.at.exponent;
     const auto at_a = end(pair.a, scaled_by_power(pair.at.y_a, unit_exponent),
                           scaled_by_power(pair.at.off_a, unit_exponent), 1.0, pair);
@@ -129,13 +154,35 @@ struct AlongTheNormal {
       return std::nullopt;
     }
     const Vector3<T> n = unit(pair.at.v);
-    return rounded(dot(n, pair.d + at_b.arm + -at_a.arm), n, at_a.arm, at_b.arm);
+    using R = Rough<T>;
+    const R of_value = R(kOfValue * detail::Arithmetic<T>::kEpsilon);
+    const R off = at_a.off + at_b.off + (pair.at.turn * pair.at.turn + of_value) * pair.size;
+    return rounded(dot(n, pair.d + at_b.arm + -at_a.arm), n, at_a.arm, at_b.arm, off);
+  }
+};
+
+/// F is the level of both bodies at the point, |y_a|^2.
+struct OfSizes {
+  using Answer = PerramWertheimFactor;
+  static Answer of_coinciding_centres() { return {0.0, 0.0, 0.0, 0.0, OtherGapStatus::ok}; }
+  static Answer not_converged() { return {0.0, 0.0, 0.0, 0.0, OtherGapStatus::not_converged}; }
+
+  template <class T>
+  std::optional<Answer> operator()(const Found<T>& pair) const {
+    if (!(pair.at.turn_a < Rough<T>(kOfSize))) return std::nullopt;
+    const T level = dot(pair.at.y_a, pair.at.y_a);
+    const int exponent = pair.at.exponent;
+    const auto factor = static_cast<double>(scaled_by_power(level, 2 * exponent));
+    const auto scale = static_cast<double>(scaled_by_power(sqrt(level), exponent));
+    const auto error = [](double value) { return kOfFactor * value + 2.0 * kDenormal; };
+    return Answer{factor, scale, error(factor), error(scale), OtherGapStatus::ok};
   }
 };
 
 /// @param ratio  l, as find_perram_wertheim_point() takes and leaves it
 template <class Measure, class T>
-Measured measured(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d, double& ratio) {
+Measured<Measure> measured(const Ellipsoid& a, const Ellipsoid& b, const Direction<T>& d,
+                           double& ratio) {
   const PreciseShape<T> shape_a(a), shape_b(b);
   const auto at = detail::find_perram_wertheim_point<T>(shape_a, shape_b, d, ratio);
   if (!at) return std::nullopt;
@@ -172,27 +219,70 @@ Direction<WideFloat> separation_of(const AskedPair& asked) {
   return detail::direction<WideFloat>({component(0), component(1), component(2)});
 }
 
+/// Are the bodies those that were asked about? Scaling makes the thinnest axes thicker.
+bool as_asked(const UnitPair& pair) {
+  const auto& [a, b, separation] = pair.asked;
+  const double thinnest = std::min(a.smallest_semi_axis(), b.smallest_semi_axis());
+  return pair.in_own_unit() || scaled_by_power(thinnest, -pair.exponent) >= detail::kThinnestAxis;
+}
+
+PerramWertheimFactor scaled_back(const PerramWertheimFactor& found, int) { return found; }
 OtherGap scaled_back(const OtherGap& found, int exponent) {
-  return {scaled_by_power(found.gap, exponent), found.normal,
-          scaled_by_power(found.arm_a, exponent), scaled_by_power(found.arm_b, exponent),
-          found.status};
+  // In the caller's unit gap and error may be subnormal, and so rounded.
+  const double error = scaled_by_power(found.gap_error, exponent);
+  return {scaled_by_power(found.gap, exponent),
+          found.normal,
+          scaled_by_power(found.arm_a, exponent),
+          scaled_by_power(found.arm_b, exponent),
+          found.status,
+          exponent == 0 || found.status != OtherGapStatus::ok ? error : error + 2.0 * kDenormal};
 }
 
 template <class Measure>
-OtherGap answer(const AskedPair& asked) {
+typename Measure::Answer answer(const AskedPair& asked) {
   const bool coincide = asked.separation != nullptr ? *asked.separation == Vec3::Zero()
                                                     : asked.a.centre() == asked.b.centre();
-  if (coincide) return nothing(OtherGapStatus::not_applicable);
+  if (coincide) return Measure::of_coinciding_centres();
   double ratio = 0.0;
   const Vec3 d = asked.d();
   const UnitPair pair(asked, d, detail::moderate(asked.a, asked.b, d));
-  if (const auto found = measured<Measure>(pair.a, pair.b, separation_of(pair), ratio))
-    return scaled_back(*found, pair.exponent);
+  if (as_asked(pair)) {
+    if (const auto found = measured<Measure>(pair.a, pair.b, separation_of(pair), ratio))
+      return scaled_back(*found, pair.exponent);
+  }
   return measured<Measure>(asked.a, asked.b, separation_of(asked), ratio)
-      .value_or(nothing(OtherGapStatus::not_converged));
+      .value_or(Measure::not_converged());
 }
 
 }  // namespace
+
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b) noexcept {
+  return in_default_environment([&] { return answer<OfSizes>({a, b}); });
+}
+
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
+                                            const Vec3& separation) noexcept {
+  return in_default_environment([&] { return answer<OfSizes>({a, b, &separation}); });
+}
+
+PerramWertheimFactor perram_wertheim_factor(const MatrixEllipsoid& a,
+                                            const MatrixEllipsoid& b) noexcept {
+  PerramWertheimFactor found = perram_wertheim_factor(a.ellipsoid(), b.ellipsoid());
+  const double off = std::max(a.relative_rounding(), b.relative_rounding());
+  if (off == 0.0 || found.status != OtherGapStatus::ok) return found;
+  return in_default_environment([&] {
+    // Section 5; 1.01 is for rounding here, and leaves room for a relative error below 2^-8.
+    if (!(off < 0x1p-8)) {
+      found.factor_error = found.scale_error = std::numeric_limits<double>::infinity();
+      return found;
+    }
+    const double error =
+        1.01 * (found.scale_error + off * (1.0 + found.scale + found.scale_error) / (1.0 - off));
+    found.factor_error += 1.01 * error * (2.0 * (found.scale + found.scale_error) + error);
+    found.scale_error = error + 2.0 * kDenormal;
+    return found;
+  });
+}
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return in_default_environment([&] { return answer<BetweenTangentPlanes>({a, b}); });

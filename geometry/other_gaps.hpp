@@ -18,6 +18,9 @@
 /// (4) For two spheres it is the signed gap; in general it differs from it by O(gap^2 / radius of
 ///     curvature).
 ///
+/// (5) F > 1, = 1 and < 1, known to its error, where the solids are apart, touch and overlap.
+/// (6) F is that of the scaled bodies after a common scaling, and F(b, a) is F(a, b).
+///
 /// Every number of an `ok` is within u of itself + u L / 64, u = 2^-53, L = |d| + both largest
 /// semi-axes (the normal within 8 u), at any aspect ratio: a bound is computed beside the numbers,
 /// in double-double and, where that does not suffice, in 512 bits; where that does not either the
@@ -26,6 +29,7 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 
 namespace tangency {
 
@@ -35,6 +39,26 @@ enum class OtherGapStatus {
   not_converged,   ///< not known well enough: aspect ratios far beyond 1e20, or a line that touches
 };
 
+/// The Perram-Wertheim contact function and what it says of sizes. The numbers are 0 unless `ok`.
+struct PerramWertheimFactor {
+  double factor;        ///< F >= 0, without a unit; infinite beyond the range of doubles
+  double scale;         ///< mu = sqrt F: both bodies, scaled by mu about their centres, touch
+  double factor_error;  ///< proven: |factor - F| is at most this
+  double scale_error;   ///< proven: |scale - mu| is at most this
+  OtherGapStatus status;
+};
+
+/// Both numbers to 1.02 u of themselves + 2^-1073; 0 without error where the centres coincide.
+/// `not_converged` far beyond aspect ratios of 1e20, else `ok`.
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+/// The same with the separation d = c_B - c_A given, in place of the centres.
+PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
+                                            const Vec3& separation) noexcept;
+/// Of bodies given by matrices: of MatrixEllipsoid::ellipsoid() of each, with their roundings in
+/// both errors.
+PerramWertheimFactor perram_wertheim_factor(const MatrixEllipsoid& a,
+                                            const MatrixEllipsoid& b) noexcept;
+
 /// As Gap, by another definition. The numbers are 0 unless `ok`.
 struct OtherGap {
   double gap;   ///< in the unit of length of the bodies; infinite beyond the range of doubles
@@ -42,6 +66,10 @@ struct OtherGap {
   Vec3 arm_a;   ///< A's witness point relative to its centre
   Vec3 arm_b;   ///< B's
   OtherGapStatus status;
+  /// Proven: |gap - the true gap by this definition| is at most this, which is at most 1.01 (u
+  /// |gap|
+  /// + u L / 64) + 2^-1072 and mostly little above u |gap|.
+  double gap_error;
 };
 
 /// gap = (1 - 1/sqrt F) n.d = n.d - h_A(n) - h_B(n), h the support functions: how far apart are the

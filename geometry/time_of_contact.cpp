@@ -10,7 +10,6 @@
 #include <tangency/geometry/bodies/moving_pair.hpp>
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/closest_point.hpp>
-#include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -23,7 +22,6 @@ using detail::PairAt;
 
 constexpr int kMaxSteps = 2000;  // chosen: docs/derivations/time-of-contact.md, section 5
 constexpr int kProbes = 24;      // chosen: moments looked at for an overlap that is soon over
-constexpr double kNear = 0.5;    // of the tolerance: steps shorter than that look for the overlap
 
 /// Is a ball of radius `depth` around the point inside both solids? The point is relative to A.
 bool both_hold(const PairAt& now, const Vec3& point, double depth) {
@@ -41,12 +39,6 @@ bool proven_overlap(const MovingPair& pair, double t) {
   const Vec3 middle = 0.5 * (gap.arm_a + now.d + gap.arm_b);
   return both_hold(now, middle, error) || both_hold(now, Vec3::Zero(), error) ||
          both_hold(now, now.d, error);
-}
-
-/// The greatest double that is no more than from + by, both >= 0; infinite where that overflows.
-double at_most_after(double from, double by) {
-  const detail::DoubleDouble sum = detail::two_sum(from, by);
-  return sum.low < 0.0 ? std::nextafter(sum.high, 0.0) : sum.high;
 }
 
 /// A moment of (from, to] at which they are proven to overlap, or -1: the ends of ever shorter
@@ -121,17 +113,19 @@ TimeOfContact answer(const MovingPair& pair, ContactTimeStatus status, double ti
   return {status, time, latest, 2.0 * pair.rounding(time), signed_gap(now.a, now.b, now.d), steps};
 }
 
-TimeOfContact advance(const MovingPair& pair, double horizon, double tolerance) {
+/// @param start, gap  of the pair at t = 0
+TimeOfContact advance(const MovingPair& pair, const PairAt& start, const Gap& start_gap,
+                      double horizon, double tolerance) {
   double t = 0.0;
   for (int step = 1; step <= kMaxSteps; ++step) {
-    const PairAt now = pair.at(t);
-    const Gap gap = signed_gap(now.a, now.b, now.d);
+    const PairAt now = step == 1 ? start : pair.at(t);
+    const Gap gap = step == 1 ? start_gap : signed_gap(now.a, now.b, now.d);
     const double move = pair.safe_step(now, gap.normal, horizon - t);
     if (t + move >= horizon) return answer(pair, ContactTimeStatus::none, horizon, horizon, step);
     const bool lost = gap.gap <= 2.0 * pair.rounding(t) || t + move == t;
     t += move;
-    if (move > kNear * tolerance) continue;
-    const double end = std::min(at_most_after(t, tolerance), horizon);
+    if (move > detail::kNearContact * tolerance) continue;
+    const double end = std::min(detail::at_most_after(t, tolerance), horizon);
     if (proven_overlap(pair, end)) return answer(pair, ContactTimeStatus::contact, t, end, step);
     if (!lost) continue;
     const double overlap = overlap_within(pair, t, end);
@@ -152,7 +146,7 @@ TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellip
   const bool in_doubt = gap.gap <= pair.rounding(0.0);
   TimeOfContact found = in_doubt && relation(a, b).relation != Relation::separate
                             ? answer(pair, ContactTimeStatus::touching_at_start, 0.0, 0.0, 1)
-                            : advance(pair, horizon, tolerance);
+                            : advance(pair, start, gap, horizon, tolerance);
   found.gap.gap = std::scalbn(found.gap.gap, exponent);
   found.gap.gap_error = std::scalbn(found.gap.gap_error, exponent);
   found.gap.arm_a = scaled_by_power(found.gap.arm_a, exponent);

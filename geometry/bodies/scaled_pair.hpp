@@ -120,6 +120,21 @@ class UnitPair {
   const int exponent;
 };
 
+/// What is looked for among the unit normals n of a pair: the greatest
+///
+///     f(n) = n.d - h_A(n) - h_B(n), the gap, or
+///     f(n) = n.d - h_A(n) + h_B(n), minus the clearance of B in A.
+enum class Sought { gap, clearance };
+
+/// A lower bound of minus f'' + f along a great circle of normals: radii of curvature of A are at
+/// least a_min^2/a_max, those of B too, and at most b_max^2/b_min.
+template <class Body>
+double least_radius_of(const Body& a, const Body& b, Sought sought) noexcept {
+  if (sought == Sought::gap) return (1.0 - 0x1p-40) * (a.least_radius() + b.least_radius());
+  const double most = b.largest_semi_axis() * (b.largest_semi_axis() / b.smallest_semi_axis());
+  return (1.0 - 0x1p-40) * a.least_radius() - (1.0 + 0x1p-40) * most;
+}
+
 /// May the polynomials of the Perram-Wertheim form be used as they are?
 template <class Body, class Vector>
 [[gnu::always_inline]] inline bool moderate(const Body& a, const Body& b,

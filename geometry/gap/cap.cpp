@@ -114,6 +114,108 @@ Hessian hessian_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcep
           side_hessian(b, of_b, root_e, root_m, 3, turned, tangent)};
 }
 
+namespace {
+
+/// e' (Hess h) e, e' (Hess h) m and m' (Hess h) m of one body, within `error`.
+struct Bending {
+  DoubleDouble ee, em, mm;
+  double error;
+
+  Bending(const DoubleDoubleSide& side, const Roots& roots) {
+    const DoubleDouble h3 = side.support * side.support * side.support;
+    ee = dot(roots.e, roots.e) / h3;
+    em = dot(roots.e, roots.m) / h3;
+    mm = dot(roots.m, roots.m) / h3;
+    const double most = std::max(ee.high, mm.high), thin = roots.largest / side.support.high;
+    error = kMore * (roots.error * (2.0 * std::sqrt(most) + roots.error) +
+                     4.0 * kSupportError * thin * most);
+  }
+};
+
+SideHessian side_hessian(const SideAt& at, const Roots& roots, const Bending& bending,
+                         const Vec3 tangent[2]) {
+  const double h = at.side.support.high, reach = roots.largest;
+  const double off = kTurnError * reach + std::min(kPointError * reach * (reach / h), 2.0 * reach);
+  SideHessian hessian{h - kSupportError * reach, {}, {}};
+  for (int i = 0; i < 2; ++i) {
+    hessian.curvature[i] = kMore * (i == 0 ? bending.ee : bending.mm).high + bending.error;
+    hessian.stretch[i] =
+        h * hessian.curvature[i] + square(std::abs(tangent[i].dot(at.point)) + off);
+  }
+  return hessian;
+}
+
+/// Does the region that holds the maximum lie in the chart of one body?
+bool holds(const Cap& cap, double eta2, const SideHessian& side) {
+  const double spread = in_inverse_norm(cap, side.stretch[0], side.stretch[1]);
+  const double width = cap.width * side.h;
+  return 4.0 * kMore * eta2 * spread <= width * width;
+}
+
+/// What the cap proves, its width and `least` given.
+void prove(Cap& cap, const Hessian& hessian, const Gradient& gradient) {
+  const double r0 = std::abs(gradient.rest[0]) + gradient.error;
+  const double r1 = std::abs(gradient.rest[1]) + gradient.error;
+  const double eta2 = kMore * in_inverse_norm(cap, r0 * r0, r1 * r1);
+  cap.eta = std::sqrt(eta2);
+  cap.height = 0.5 * kMore * eta2;
+  const double tilt = in_inverse_norm(cap, 1.0, 1.0);
+  cap.proven = holds(cap, eta2, hessian.a) && holds(cap, eta2, hessian.b) &&
+               (gradient.value <= 0.0 || kMore * eta2 * tilt <= cap.width);
+}
+
+}  // namespace
+
+Hessian difference_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept {
+  Vec3 e = normal.unitOrthogonal(), m = normal.cross(e).normalized();
+  Roots of_a(a.side, e, m), of_b(b.side, e, m);
+  DoubleDouble off;
+  const auto turn = [&] {
+    const Bending bend_a(a.side, of_a), bend_b(b.side, of_b);
+    off = bend_a.em - bend_b.em;
+    const double difference =
+        0.5 * ((bend_a.ee - bend_b.ee) - (bend_a.mm - bend_b.mm)).high;
+    const double angle = 0.5 * std::atan2(off.high, difference);
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    of_a.turn(cosine, sine), of_b.turn(cosine, sine);
+    const Vec3 before = e;
+    e = cosine * before + sine * m;
+    m = cosine * m - sine * before;
+  };
+  // The first turn leaves of what is off the diagonal a rounding, the second next to nothing.
+  turn(), turn();
+  const Bending bend_a(a.side, of_a), bend_b(b.side, of_b);
+  const Vec3 tangent[2] = {e, m};
+  Hessian found{{e, m},
+                {(bend_a.ee - bend_b.ee).high, (bend_a.mm - bend_b.mm).high},
+                0.0,
+                side_hessian(a, of_a, bend_a, tangent),
+                side_hessian(b, of_b, bend_b, tangent)};
+  found.off = kMore * (std::abs((bend_a.em - bend_b.em).high) +
+                       2.0 * (bend_a.error + bend_b.error) +
+                       kTurnError * std::max(std::abs(found.curvature[0]),
+                                             std::abs(found.curvature[1])));
+  return found;
+}
+
+Cap cap_within(const Hessian& hessian, const Gradient& gradient, double widest) noexcept {
+  const double f = gradient.value;
+  Cap cap;
+  cap.width = std::min(widest, 0.5);
+  double slack[2];
+  for (int i = 0; i < 2; ++i) {
+    // (N): of G without its width; what the width takes is half of it at most.
+    slack[i] = (hessian.curvature[i] + f) - (hessian.off + 2.0 * kTurnError * std::abs(f));
+    const double taken =
+        hessian.a.curvature[i] + 2.0 * hessian.b.curvature[i] + 0.5 * std::max(f, 0.0);
+    if (!(slack[i] > 0.0)) return cap;
+    cap.width = std::min(cap.width, kLess * 0.25 * (slack[i] / taken));
+  }
+  for (int i = 0; i < 2; ++i) cap.least[i] = 0.5 * kLess * slack[i];
+  if (cap.width > 0.0) prove(cap, hessian, gradient);
+  return cap;
+}
+
 Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) noexcept {
   const double f = gradient.value;
   const double keep = kLess - hessian.loss;
@@ -126,19 +228,7 @@ Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) 
                    kMore * std::min(f, 0.0);
     if (!(cap.least[i] > 0.0)) return cap;
   }
-  const double r0 = std::abs(gradient.rest[0]) + gradient.error;
-  const double r1 = std::abs(gradient.rest[1]) + gradient.error;
-  const double eta2 = kMore * in_inverse_norm(cap, r0 * r0, r1 * r1);
-  cap.eta = std::sqrt(eta2);
-  cap.height = 0.5 * kMore * eta2;
-  const auto holds = [&](const SideHessian& side) {
-    const double spread = in_inverse_norm(cap, side.stretch[0], side.stretch[1]);
-    const double width = cap.width * side.h;
-    return 4.0 * kMore * eta2 * spread <= width * width;
-  };
-  const double tilt = in_inverse_norm(cap, 1.0, 1.0);
-  cap.proven =
-      holds(hessian.a) && holds(hessian.b) && (f <= 0.0 || kMore * eta2 * tilt <= cap.width);
+  prove(cap, hessian, gradient);
   return cap;
 }
 

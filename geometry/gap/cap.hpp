@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// How the value f(n) = n.d - h_A(n) - h_B(n) bends at a normal, and the cap of normals around it
-/// in which that bounds f: docs/derivations/gap-certificate.md, section 3.
+/// in which that bounds f: docs/derivations/gap-certificate.md, section 3. For a clearance, where
+/// f(n) = n.d - h_A(n) + h_B(n): docs/derivations/containment.md, section 3.
 #pragma once
 
 #include <tangency/geometry/bodies/double_double_body.hpp>
@@ -14,19 +15,22 @@ namespace tangency::detail {
 struct Pair : UnitPair<Ellipsoid> {
   Vec3 d_low;   ///< c_B - c_A = d + d_low; each component at most u times that of d
   double size;  ///< |d| + a_A + a_B, the L of every bound
+  Sought sought;
 
-  [[gnu::always_inline]] explicit Pair(const AskedPair<Ellipsoid>& pair) noexcept
-      : Pair(pair, pair.d()) {}
-  /// rho: a ball of this radius rolls inside A + (-B). Rounded down.
-  double least_radius() const noexcept {
-    return (1.0 - 0x1p-40) * (a.least_radius() + b.least_radius());
-  }
+  [[gnu::always_inline]] explicit Pair(const AskedPair<Ellipsoid>& pair,
+                                       Sought wanted = Sought::gap) noexcept
+      : Pair(pair, pair.d(), wanted) {}
+  /// rho: f'' + f <= -rho along every great circle; for a gap a ball of this radius rolls inside
+  /// A + (-B). Rounded down.
+  double least_radius() const noexcept { return least_radius_of(a, b, sought); }
 
  private:
-  [[gnu::always_inline]] Pair(const AskedPair<Ellipsoid>& pair, const Vec3& given) noexcept
+  [[gnu::always_inline]] Pair(const AskedPair<Ellipsoid>& pair, const Vec3& given,
+                              Sought wanted) noexcept
       : UnitPair(pair, given, moderate_size(pair.a, pair.b, given) && thick_enough(pair.a, pair.b)),
         d_low(rest_of_d()),
-        size(d.norm() + (a.largest_semi_axis() + b.largest_semi_axis())) {}
+        size(d.norm() + (a.largest_semi_axis() + b.largest_semi_axis())),
+        sought(wanted) {}
 };
 
 /// (S) of the derivation: generously the rounding of curvatures and lengths in double, but for what
@@ -48,6 +52,7 @@ struct Hessian {
   double curvature[2];  ///< c_i: H >= (1 - loss) (c_1 e1 e1' + c_2 e2 e2') in the tangent plane
   double loss;          ///< (S) of the derivation: rounding, which thin bodies amplify
   SideHessian a, b;
+  double off = 0.0;     ///< of a difference: its rounding
 };
 
 /// A body at a normal, as evaluated in double-double.
@@ -58,6 +63,10 @@ struct SideAt {
 
 /// @param normal  unit: what both sides were evaluated at
 Hessian hessian_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept;
+
+/// The same for a clearance: H = Hess(h_A - h_B), in the tangent plane within `off` of diag(c_1,
+/// c_2), which may be of any sign; no `loss`.
+Hessian difference_at(const SideAt& a, const SideAt& b, const Vec3& normal) noexcept;
 
 /// What is known of f at a normal to first order.
 struct Gradient {
@@ -79,6 +88,9 @@ struct Cap {
 
 /// @param widest  the largest width wanted, > 0 and at most 1
 Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) noexcept;
+
+/// The same for a clearance, with the Hessian of difference_at().
+Cap cap_within(const Hessian& hessian, const Gradient& gradient, double widest) noexcept;
 
 /// v_1 / G_1 + v_2 / G_2
 inline double in_inverse_norm(const Cap& cap, double v1, double v2) noexcept {

@@ -81,12 +81,14 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
   const DoubleDoubleSide a(pair.a, n), b(pair.b, n);
   const Vector point_a = a.support_point(), point_b = b.support_point();
   const DoubleDouble square = dot(n, n);
+  const bool nested = pair.sought == Sought::clearance;
   Vector rest;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<int>(i);
-    rest[i] = DoubleDouble(pair.d[k], pair.d_low[k]) - point_a[i] - point_b[i];
+    const DoubleDouble beyond_a = DoubleDouble(pair.d[k], pair.d_low[k]) - point_a[i];
+    rest[i] = nested ? beyond_a + point_b[i] : beyond_a - point_b[i];
   }
-  // n . rest is n.d - h_A - h_B.
+  // n . rest is n.d - h_A -+ h_B.
   const DoubleDouble along = dot(rest, n), part = along / square;
   const DoubleDouble f = along / sqrt(square);
   Vec3 r;
@@ -94,7 +96,9 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
   const auto radius = [](const Ellipsoid& body, const DoubleDoubleSide& side) {
     return body.largest_semi_axis() * (body.largest_semi_axis() / side.support.high);
   };
-  const Hessian hessian = hessian_at({a, rounded(point_a)}, {b, rounded(point_b)}, normal);
+  const SideAt at_a{a, rounded(point_a)}, at_b{b, rounded(point_b)};
+  const Hessian hessian =
+      nested ? difference_at(at_a, at_b, normal) : hessian_at(at_a, at_b, normal);
   // A support point is never further off than its body is long.
   const double across = std::min(kRestError * (radius(pair.a, a) + radius(pair.b, b)),
                                  2.0 * (pair.a.largest_semi_axis() + pair.b.largest_semi_axis()));
@@ -107,11 +111,18 @@ Local evaluate(const Pair& pair, const Vec3& normal) {
           rounded(point_b)};
 }
 
-/// Newton's step towards the maximum; zero where f is not concave.
-Vec3 step(const Local& at) {
+Cap cap_of(const Pair& pair, const Local& at, double widest) {
+  return pair.sought == Sought::clearance ? cap_within(at.hessian, at.gradient, widest)
+                                          : cap_around(at.hessian, at.gradient, widest);
+}
+
+/// Newton's step towards the maximum; zero where f is not concave. Of a clearance, whose maxima
+/// ascents in double find but roughly, by absolute curvatures instead.
+Vec3 step(const Local& at, bool anywhere) {
   Vec3 move = Vec3::Zero();
   for (int i = 0; i < 2; ++i) {
-    const double curvature = at.hessian.curvature[i] + at.gradient.value;
+    double curvature = at.hessian.curvature[i] + at.gradient.value;
+    if (anywhere) curvature = std::max(std::abs(curvature), 8.0 * std::abs(at.gradient.rest[i]));
     if (!(curvature > 0.0)) return Vec3::Zero();
     move += at.gradient.rest[i] / curvature * at.hessian.tangent[i];
   }
@@ -124,7 +135,7 @@ Local ascend(const Pair& pair, const Vec3& normal, double error) {
   Local at = evaluate(pair, normal);
   int halvings = 0;
   for (int move = 0; move < kMoves && halvings <= kHalvings; ++move) {
-    Vec3 delta = step(at);
+    Vec3 delta = step(at, pair.sought == Sought::clearance);
     for (halvings = 0; halvings <= kHalvings; ++halvings, delta *= 0.5) {
       if (!(delta.norm() > 0x1p-54)) return at;
       const Local next = evaluate(pair, (at.normal + delta).normalized());
@@ -146,7 +157,7 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
                                     double cap_width) noexcept {
   const double error = kValueError * pair.size;
   const Local at = ascend(pair, normal, error);
-  const Cap cap = cap_around(at.hessian, at.gradient, cap_width);
+  const Cap cap = cap_of(pair, at, cap_width);
   CapProof proof;
   proof.cap = cap;
   proof.low = sum_down(at.f.high, at.f.low - error);
@@ -164,7 +175,7 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
   proof.gap = narrow ? (at.f + DoubleDouble(0.5 * height)).high : at.f.high;
   proof.normal = at.normal;
   proof.arm_a = at.point_a;
-  proof.arm_b = -at.point_b;
+  proof.arm_b = pair.sought == Sought::clearance ? at.point_b : Vec3(-at.point_b);
   return proof;
 }
 

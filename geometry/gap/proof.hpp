@@ -3,7 +3,8 @@
 /// What a normal proves about the gap of a pair: docs/derivations/gap-certificate.md, whose names
 /// for the bounds stand at each.
 ///
-/// For a unit n the value f(n) = n.d - h_A(n) - h_B(n) is never above the gap. How much the gap may
+/// For a unit n the value f(n) = n.d - h_A(n) - h_B(n) is never above the gap (for a clearance, f(n) =
+/// n.d - h_A(n) + h_B(n) never above minus that: containment.md, in double-double alone). How much the gap may
 /// be above it follows from the tangential rest r = d - x_A(n) - x_B(n) - f n and the curvatures.
 #pragma once
 
@@ -21,7 +22,7 @@ struct GapProof {
   bool global;  ///< is high never below the global gap either?
   Vec3 normal;
   Vec3 arm_a;  ///< x_A(n), from A's centre
-  Vec3 arm_b;  ///< -x_B(n), from B's centre
+  Vec3 arm_b;  ///< -x_B(n), from B's centre; x_B(n) for a clearance
 
   static constexpr double kUnproven = std::numeric_limits<double>::infinity();
 };
@@ -33,7 +34,7 @@ struct ContactShift {
   double shift_b;
 };
 
-/// In double, by the ball of radius rho that rolls inside A + (-B). `global` where f > -rho is
+/// Of a gap. In double, by the ball of radius rho that rolls inside A + (-B). `global` where f > -rho is
 /// proven; else high is infinite. Assumes rounding to nearest. Allocates nothing.
 /// @param normal  unit, as Eigen normalises it
 /// @param proof   what is proven; filled in place, which the fast path is measurably quicker for
@@ -51,7 +52,7 @@ struct CapProof : GapProof {
 CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
                                     double cap_width = 1.0 / 16) noexcept;
 
-/// The same without moving the normal: the distance to the maximum.
+/// Of a gap, and without moving the normal: the distance to the maximum.
 ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept;
 
 }  // namespace tangency::detail

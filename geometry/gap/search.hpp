@@ -12,6 +12,9 @@
 
 namespace tangency::detail {
 
+// What is searched is f(n) = n.d - h_A(n) - h_B(n), or that of a clearance, n.d - h_A(n) + h_B(n):
+// docs/derivations/containment.md, section 4. Both calls take a FactoredPair of the same kind.
+
 inline constexpr double kTieOfSize = 2 * kUnitRoundoff;    ///< chosen: the rounding of two values
 inline constexpr double kPlaneError = 32 * kUnitRoundoff;  ///< (G) of the derivation, of the size
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <tangency/geometry/gap/chart_bound.hpp>
 #include <tangency/geometry/gap/search.hpp>
 
 namespace tangency::detail {
@@ -23,10 +24,15 @@ constexpr double kCrossError = 2.2 * kUnitRoundoff;
 constexpr double kBeyondEquator = -0x1p-20;
 constexpr double kValueError = 0x1p-92;  // (V2)
 constexpr double kSlopeError = 0x1p-48;  // (A), of the terms of the slope
+constexpr double kBendError = 0x1p-46;   // of the terms of the slope's own slope, of a difference
 constexpr double kOnAxis = 0x1p-50;    // rad; chosen: nearer it is the axis, stationary by symmetry
 constexpr std::size_t kMostPeaks = 8;  // chosen: 1 to 3 are common
 constexpr std::size_t kMostPending = 64;  // a depth of 60 halvings is beyond doubles
-constexpr int kBudget = 2000;             // arcs: chosen, ten times what aspect 1000 needs
+constexpr int kBudget = 2000;  // arcs: chosen, ten times what aspect 1000 needs
+// Arcs for a clearance, and those after which it is sought roughly: chosen.
+constexpr int kClearanceBudget = 4000, kFineBudget = 1000;
+// Of the size: what arcs may be above the best by. Chosen; with (A) below kWidestOk.
+constexpr double kFine = 0x1p-58, kRough = 80 * kUnitRoundoff;
 
 /// A direction along and one across an axis of revolution, unit.
 struct Axes {
@@ -90,11 +96,15 @@ std::optional<Coaxial> coaxial(const Pair& pair) {
 class Meridian {
  public:
   Meridian(const Pair& pair, const FactoredPair& factored, const Coaxial& ideal)
-      : pair_(pair), factored_(factored), ideal_(ideal) {}
+      : pair_(pair),
+        factored_(factored),
+        ideal_(ideal),
+        nested_(pair.sought == Sought::clearance) {}
 
   bool climb(double t) {
     const Stationary found = factored_.climb(normal(t));
-    if (!found.accepted || count_ == kMostPeaks) return false;
+    const bool kept = found.accepted || (nested_ && count_ == 0 && found.normal.allFinite());
+    if (!kept || count_ == kMostPeaks) return false;
     GapProof proof = prove_gap_in_double_double(pair_, found.normal);
     const Vec3& axis = ideal_.axes.along;
     double along = proof.normal.dot(axis);
@@ -113,9 +123,11 @@ class Meridian {
     constexpr double kQuarter = 0x1.921fb54442d19p+0;  // pi / 2, rounded up
     pending_[waiting_++] = {0.0, kQuarter};
     for (int arcs = 0; waiting_ != 0; ++arcs) {
-      if (arcs == kBudget || waiting_ + 2 > kMostPending) return false;
+      const int budget = nested_ ? kClearanceBudget : kBudget;
+      if (arcs == budget || waiting_ + 2 > kMostPending) return false;
       const auto [from, to] = pending_[--waiting_];
-      if (in_a_cap(from, to) || below_best(from, to)) continue;
+      if (in_a_cap(from, to)) continue;
+      if (nested_ ? no_rise(from, to, arcs > kFineBudget) : below_best(from, to)) continue;
       const double middle = 0.5 * (from + to);
       pending_[waiting_++] = {from, middle};
       pending_[waiting_++] = {middle, to};
@@ -125,12 +137,20 @@ class Meridian {
 
   GapProof result() const {
     GapProof answer = peaks_[best_].proof;
+    if (better_) {
+      const GapProof proof = prove_gap_in_double_double(pair_, normal(*better_));
+      if (proof.low > answer.low) answer = proof, answer.gap = answer.low;
+    }
     answer.global = true;
     answer.high = answer.gap;
     for (std::size_t i = 0; i < count_; ++i) {
       const Peak& peak = peaks_[i];
       if (peak.needed || i == best_)
         answer.high = std::max(answer.high, peak.highest + ideal_.error);
+    }
+    if (nested_) {
+      const double high = ((reference_ + above_) + kFine * pair_.size) + ideal_.error;
+      answer.high = std::max(answer.high, high);
     }
     return answer;
   }
@@ -167,7 +187,8 @@ class Meridian {
     };
     const DoubleDouble a = length(ideal_.a.along, ideal_.a.across);
     const DoubleDouble b = length(ideal_.b.along, ideal_.b.across);
-    return (ideal_.d * c - a - b) / sqrt(c * c + s * s);
+    const DoubleDouble beyond_a = ideal_.d * c - a;
+    return (nested_ ? beyond_a + b : beyond_a - b) / sqrt(c * c + s * s);
   }
 
   /// The cap of cap.cpp along one tangent only.
@@ -182,18 +203,25 @@ class Meridian {
     const double f = at.high;
     peak.highest = std::nextafter(f, GapProof::kUnproven);
     peak.width = 0.0;
-    double radius = 0.0, slope = -ideal_.d.high * n.s, terms = std::abs(slope);
+    double radius = 0.0, of_b = 0.0, slope = -ideal_.d.high * n.s, terms = std::abs(slope);
     double reach = std::numeric_limits<double>::infinity();
     for (const Profile* body : {&ideal_.a, &ideal_.b}) {
       const double p = body->along, q = body->across, h = support(*body, n);
       const double root = p * (q / h), turn = (p - q) * ((p + q) / h) * (n.s * n.c);
-      radius += root * (root / h);
-      slope += turn, terms += std::abs(turn);
+      const bool taken = nested_ && body == &ideal_.b;
+      (taken ? of_b : radius) += root * (root / h);
+      slope += taken ? -turn : turn, terms += std::abs(turn);
       reach = std::min(reach, h / std::hypot(p * n.s, q * n.c));
     }
-    const double kappa = std::min(1.0, std::sqrt(radius * kLess / -f) - 1.0);
-    const double least = radius * kLess / (1.0 + kappa) + f;
-    if (f < 0.0 && kappa > 64.0 * kRoundings) {
+    double kappa = std::min(1.0, std::sqrt(radius * kLess / -f) - 1.0);
+    double least = radius * kLess / (1.0 + kappa) + f;
+    if (nested_) {
+      // (N) along one tangent.
+      const double slack = ((radius - of_b) + f) - kBendError * (radius + of_b + std::abs(f));
+      kappa = std::min(0.5, kLess * 0.5 * slack / (radius + 2.0 * of_b));
+      least = 0.5 * slack;
+    }
+    if (f < 0.0 && kappa > (nested_ ? 0.0 : 64.0 * kRoundings)) {
       const double steep = std::abs(slope) + kSlopeError * terms;
       peak.highest = std::nextafter(f + 0.5 * steep * (steep / least) * kMore, GapProof::kUnproven);
       // Less what t and the ends of arcs are rounded by.
@@ -230,9 +258,37 @@ class Meridian {
     return std::max(along(Direction(from)), along(Direction(to))) <= enough && enough < 0.0;
   }
 
+  /// For a clearance: by the second order of f in the chart of the middle.
+  bool no_rise(double from, double to, bool roughly) {
+    const double middle = 0.5 * (from + to);
+    reference_ = std::max(reference_, peaks_[best_].highest);
+    const DoubleDouble here = value(Direction(middle));
+    if ((here - DoubleDouble(reference_)).high > 0.0) reference_ = here.high, better_ = middle;
+    const auto at = [](double t) {
+      const Direction n(t);
+      return DoubleDouble2{n.c, n.s};
+    };
+    const auto stretch = [](const Profile& body) {
+      return [&body](const DoubleDouble2& v) {
+        return DoubleDouble2{DoubleDouble(body.along) * v.x, DoubleDouble(body.across) * v.y};
+      };
+    };
+    const Chart<DoubleDouble, 2> chart(DoubleDouble2{ideal_.d, 0.0}, normalised(at(middle)),
+                                       std::array{at(from), at(to)}, stretch(ideal_.a),
+                                       stretch(ideal_.b));
+    const double rise = chart.excess(reference_, kChartNoiseInDoubleDouble * pair_.size);
+    if (rise > (roughly ? kRough : kFine) * pair_.size) return false;
+    above_ = std::max(above_, rise);
+    return true;
+  }
+
   const Pair& pair_;
   const FactoredPair& factored_;
   const Coaxial& ideal_;
+  bool nested_;
+  // f is at most reference + above on arcs that are in no cap.
+  double reference_ = -std::numeric_limits<double>::infinity(), above_ = 0.0;
+  std::optional<double> better_;  ///< angle of the best middle of an arc
   std::array<Peak, kMostPeaks> peaks_;
   std::size_t count_ = 0, best_ = 0;
   std::array<std::pair<double, double>, kMostPending> pending_;

@@ -44,7 +44,7 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Vec3& n) {
 
 }  // namespace
 
-/// The function n.d - h_A - h_B near a normal: slope along two principal directions of the tangent
+/// The function f near a normal: slope along two principal directions of the tangent
 /// plane, and minus its second derivatives along them, the larger first.
 struct FactoredPair::Tangent {
   double gap;
@@ -54,15 +54,17 @@ struct FactoredPair::Tangent {
   double curvature_noise;
 };
 
-FactoredPair::FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
+FactoredPair::FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
+                           bool nested) noexcept
     : factor_a_(a.rotation() * a.semi_axes().asDiagonal()),
       factor_b_(b.rotation() * b.semi_axes().asDiagonal()),
       d_(d),
-      size_(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()) {}
+      size_(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()),
+      sign_b_(nested ? -1.0 : 1.0) {}
 
 double FactoredPair::value(const Vec3& normal) const noexcept {
   return normal.dot(d_) - length(factor_a_.transpose() * normal) -
-         length(factor_b_.transpose() * normal);
+         sign_b_ * length(factor_b_.transpose() * normal);
 }
 
 Vec3 FactoredPair::axis(int i) const noexcept {
@@ -100,9 +102,9 @@ Vec3 FactoredPair::perram_wertheim_normal() const noexcept {
 
 FactoredPair::Tangent FactoredPair::tangent(const Vec3& n) const noexcept {
   const Bodyside a = side(factor_a_, n), b = side(factor_b_, n);
-  const Vec3 rest = d_ - a.point - b.point;
+  const Vec3 rest = d_ - a.point - sign_b_ * b.point;
   Tangent t;
-  t.gap = n.dot(d_) - a.h - b.h;
+  t.gap = n.dot(d_) - a.h - sign_b_ * b.h;
   // Hess h = (A P A')/h with P = I - y y'; on the tangent basis E that is |P A' E|^2 / h, which
   // keeps its relative accuracy where M/h - x x'/h would cancel.
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(n);
@@ -111,7 +113,8 @@ FactoredPair::Tangent FactoredPair::tangent(const Vec3& n) const noexcept {
     e -= s.y * (s.y.transpose() * e).eval();
     return Eigen::Matrix2d(e.transpose() * e / s.h);
   };
-  const Eigen::Matrix2d hessian = hessian_of(factor_a_, a) + hessian_of(factor_b_, b);
+  const Eigen::Matrix2d of_a = hessian_of(factor_a_, a), of_b = hessian_of(factor_b_, b);
+  const Eigen::Matrix2d hessian = of_a + sign_b_ * of_b;
   const double mean = 0.5 * hessian.trace();
   const double difference = 0.5 * (hessian(0, 0) - hessian(1, 1));
   const double spread = std::hypot(difference, hessian(0, 1));
@@ -121,7 +124,8 @@ FactoredPair::Tangent FactoredPair::tangent(const Vec3& n) const noexcept {
   t.direction[1] = c * basis.col(1) - s * basis.col(0);
   t.curvature[0] = mean + spread + t.gap;
   t.curvature[1] = mean - spread + t.gap;
-  t.curvature_noise = 16.0 * kUnitRoundoff * (2.0 * mean + std::abs(t.gap));
+  const double bend = sign_b_ > 0.0 ? 2.0 * mean : of_a.trace() + of_b.trace();
+  t.curvature_noise = 16.0 * kUnitRoundoff * (bend + std::abs(t.gap));
   for (int i = 0; i < 2; ++i) t.slope[i] = t.direction[i].dot(rest);
   return t;
 }

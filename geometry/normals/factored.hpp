@@ -13,9 +13,10 @@ namespace tangency::detail {
 /// A pair whose size |d| + a_A + a_B is within [2^-60, 2^62].
 class FactoredPair {
  public:
-  FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept;
+  /// @param nested  is f(n) = n.d - h_A + h_B, for a clearance, what is evaluated and climbed?
+  FactoredPair(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, bool nested = false) noexcept;
 
-  /// n.d - h_A - h_B at a unit normal; within 12 u of the size.
+  /// f(n) = n.d - h_A - h_B, or that of a clearance, at a unit normal; within 12 u of the size.
   double value(const Vec3& normal) const noexcept;
 
   /// R diag(a) of A, and of B.
@@ -40,6 +41,7 @@ class FactoredPair {
   Mat3 factor_a_, factor_b_;
   Vec3 d_;
   double size_;
+  double sign_b_;  ///< f = n.d - h_A - sign_b h_B
 };
 
 }  // namespace tangency::detail

@@ -13,16 +13,21 @@ namespace tangency::detail {
 /// A pair in a unit in which nothing overflows or underflows: the largest of semi-axes and d within
 /// [2^-60, 2^62], no semi-axis below 2^-300.
 struct PlanePair : UnitPair<Ellipse> {
-  Vec2 d_low;   ///< c_B - c_A = d + d_low
-  double size;  ///< L = |d| + largest semi-axis of A + that of B, rounded
+  Vec2 d_low;    ///< c_B - c_A = d + d_low
+  double size;   ///< L = |d| + largest semi-axis of A + that of B, rounded
+  Sought sought;
 
-  explicit PlanePair(const AskedPair<Ellipse>& pair) noexcept : PlanePair(pair, pair.d()) {}
+  explicit PlanePair(const AskedPair<Ellipse>& pair, Sought wanted = Sought::gap) noexcept
+      : PlanePair(pair, pair.d(), wanted) {}
+  /// rho: f'' + f <= -rho along the circle of normals. Rounded down.
+  double least_radius() const noexcept { return least_radius_of(a, b, sought); }
 
  private:
-  PlanePair(const AskedPair<Ellipse>& pair, const Vec2& given) noexcept
+  PlanePair(const AskedPair<Ellipse>& pair, const Vec2& given, Sought wanted) noexcept
       : UnitPair(pair, given, moderate_size(pair.a, pair.b, given) && thick_enough(pair.a, pair.b)),
         d_low(rest_of_d()),
-        size(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()) {}
+        size(d.norm() + a.largest_semi_axis() + b.largest_semi_axis()),
+        sought(wanted) {}
 };
 
 /// An enclosure of the gap of the branch that a normal is on, with what was evaluated there.

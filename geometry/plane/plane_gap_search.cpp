@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <tangency/geometry/gap/chart_bound.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/plane/plane_gap.hpp>
 
@@ -20,6 +21,7 @@ constexpr double kCoarse = 0x1p-52;     // of L: what a search that is slow sett
 constexpr int kFineBudget = 400;        // arcs; chosen: above what kPlaneBudget says of extremes
 constexpr double kShortest = 0x1p-200;  // of L; far below the noise
 constexpr int kDeepest = 256;           // halvings
+constexpr double kBendError = 0x1p-48;  // of the terms of a difference of radii of curvature
 
 struct Body {
   DoubleDouble2 axis;
@@ -51,9 +53,10 @@ Side side(const Body& body, const DoubleDouble2& n) noexcept {
 /// f and what bounds it near a unit normal.
 struct Sample {
   DoubleDouble2 n;
-  DoubleDouble2 rest;  ///< d - x_A - x_B: the gradient of f's homogeneous extension
+  DoubleDouble2 rest;  ///< d - x_A -+ x_B: the gradient of f's homogeneous extension
   DoubleDouble f, r;   ///< value and slope
   double curvature;    ///< -f''
+  double bend_error;   ///< of it, beside kSlack
   Side a, b;
 };
 
@@ -64,7 +67,8 @@ class Circle {
         b_(pair.b),
         d_(exactly(pair.d) + exactly(pair.d_low)),
         size_(pair.size),
-        rho_(pair.a.least_radius() + pair.b.least_radius()) {}
+        rho_(pair.least_radius()),
+        nested_(pair.sought == Sought::clearance) {}
 
   double size() const noexcept { return size_; }
   const DoubleDouble2& d() const noexcept { return d_; }
@@ -74,10 +78,12 @@ class Circle {
     s.n = n;
     s.a = side(a_, n);
     s.b = side(b_, n);
-    s.rest = (d_ - s.a.point) - s.b.point;
+    const DoubleDouble2 beyond_a = d_ - s.a.point;
+    s.rest = nested_ ? beyond_a + s.b.point : beyond_a - s.b.point;
     s.f = dot(n, s.rest);
     s.r = cross(n, s.rest);
-    s.curvature = s.f.high + s.a.radius + s.b.radius;
+    s.curvature = s.f.high + s.a.radius + (nested_ ? -s.b.radius : s.b.radius);
+    s.bend_error = kBendError * (nested_ ? size_ + s.a.radius + s.b.radius : size_);
     return s;
   }
 
@@ -99,10 +105,14 @@ class Circle {
     return kNoise * (size_ + radius(a_, s.a) + radius(b_, s.b));
   }
   double third_derivative(const Sample& c, double reach) const noexcept;
+  /// excess() of a clearance.
+  double nested_excess(const DoubleDouble2& low, const DoubleDouble2& c, const DoubleDouble2& high,
+                       const DoubleDouble& best) const noexcept;
 
   Body a_, b_;
   DoubleDouble2 d_;
   double size_, rho_;
+  bool nested_;
 };
 
 DoubleDouble2 turned_by(const DoubleDouble2& n, double turn) noexcept {
@@ -141,8 +151,9 @@ Sample Circle::climb(const DoubleDouble2& start) const noexcept {
 PlaneProof Circle::proof(const Sample& s) const noexcept {
   const double value_error = kNoise * size_ + kUnitRoundoff * std::abs(s.f.high);
   const double reach = (std::abs(s.r.high) + slope_error(s)) * kSlack;
-  PlaneProof proof{s.f.high,     s.f.high - value_error, kInfinity,          false,
-                   rounded(s.n), rounded(s.a.point),     -rounded(s.b.point)};
+  const Vec2 point_b = rounded(s.b.point);
+  PlaneProof proof{s.f.high,     s.f.high - value_error, kInfinity, false, rounded(s.n),
+                   rounded(s.a.point), nested_ ? point_b : Vec2(-point_b)};
   // The rolling ball: sqrt(x^2 + y^2) - x is at most y, and y^2 / (2x).
   const double ball = proof.low + rho_ * (1.0 - 4.0 * kUnitRoundoff);
   if (ball > 0.0) {
@@ -151,9 +162,10 @@ PlaneProof Circle::proof(const Sample& s) const noexcept {
     return proof;
   }
   // The branch alone: while the slope's own slope stays above half of what it is at n.
-  const double width = 4.0 * reach / s.curvature;
-  if (s.curvature > 0.0 && third_derivative(s, width) * width <= 0.5 * s.curvature) {
-    proof.high = s.f.high + value_error + reach * reach / s.curvature;
+  const double curvature = nested_ ? s.curvature - s.bend_error : s.curvature;
+  const double width = 4.0 * reach / curvature;
+  if (curvature > 0.0 && third_derivative(s, width) * width <= 0.5 * curvature) {
+    proof.high = s.f.high + value_error + reach * reach / curvature;
   }
   return proof;
 }
@@ -197,8 +209,21 @@ double corner_excess(const Sample& low, const Sample& high, const DoubleDouble& 
                                   linear_excess(high.rest, m, high.n, best)));
 }
 
+double Circle::nested_excess(const DoubleDouble2& low, const DoubleDouble2& c,
+                             const DoubleDouble2& high, const DoubleDouble& best) const noexcept {
+  const auto stretch = [](const Body& body) {
+    return [&body](const DoubleDouble2& v) {
+      const DoubleDouble2 t = turned_back(body.axis, v);
+      return DoubleDouble2{DoubleDouble(body.a1) * t.x, DoubleDouble(body.a2) * t.y};
+    };
+  };
+  const Chart<DoubleDouble, 2> chart(d_, c, std::array{low, high}, stretch(a_), stretch(b_));
+  return chart.excess(best, kChartNoiseInDoubleDouble * size_);
+}
+
 double Circle::excess(const Sample& low, const Sample& c, const Sample& high,
                       const Sample& best) const noexcept {
+  if (nested_) return nested_excess(low.n, c.n, high.n, best.f);
   const double noise = kNoise * size_;
   const double corners = std::max(corner_excess(low, c, best.f), corner_excess(c, high, best.f));
   // Taylor's formula about c, the rest by the third derivative.
@@ -206,7 +231,7 @@ double Circle::excess(const Sample& low, const Sample& c, const Sample& high,
   const double third = third_derivative(c, reach);
   const double slope = std::abs(c.r.high) + slope_error(c);
   const double curvature =
-      c.curvature * (c.curvature > 0.0 ? 1.0 / kSlack : kSlack) - 0x1p-48 * size_;
+      c.curvature * (c.curvature > 0.0 ? 1.0 / kSlack : kSlack) - c.bend_error;
   const double above = (c.f - best.f).high;
   const double parabola = curvature > 0.0 && slope < curvature * reach
                               ? 0.5 * slope * slope / curvature

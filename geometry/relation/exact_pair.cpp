@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -91,15 +93,49 @@ bool is_binomial(const IntegerPolynomial& p) {
   return c[0] == p.leading();
 }
 
+/// The unit of length of edges that an image counts.
+int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise) {
+  int unit = otherwise;
+  for (int k = 0; k < 3; ++k) {
+    if (image[static_cast<std::size_t>(k)] == 0 || edges.col(k).isZero(0.0)) continue;
+    unit = std::min(unit, common_exponent(std::span(edges.col(k).data(), 3)));
+  }
+  return unit;
+}
+
+RelationAnswer exactly(Relation relation, Inner inner = Inner::none) {
+  return {relation, inner, Tier::exact};
+}
+
+/// For a pair whose interiors meet.
+RelationAnswer exact_containment(const ExactPair& pair) {
+  if (pair.equal()) return exactly(Relation::equal);
+  const Containment a_in_b = pair.containment();
+  if (a_in_b == Containment::interior) return exactly(Relation::a_in_b);
+  if (a_in_b == Containment::touching) return exactly(Relation::internal_touch, Inner::a);
+  const Containment b_in_a = pair.exchanged().containment();
+  if (b_in_a == Containment::interior) return exactly(Relation::b_in_a);
+  if (b_in_a == Containment::touching) return exactly(Relation::internal_touch, Inner::b);
+  return exactly(Relation::overlap);
+}
+
 }  // namespace
 
-ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b) {
-  const int unit = std::min(length_exponent(a), length_exponent(b));
+ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b)
+    : ExactPair(a, b, Mat3::Identity(), LatticeImage{}) {}
+
+ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
+                     const LatticeImage& image) {
+  const int unit = length_exponent(edges, image, std::min(length_exponent(a), length_exponent(b)));
   const Body ba = body(a, unit), bb = body(b, unit);
   std::array<mpz_class, 3> d;
   for (int i = 0; i < 3; ++i) {
-    d[static_cast<std::size_t>(i)] =
-        to_integer(b.centre()[i], unit) - to_integer(a.centre()[i], unit);
+    mpz_class& along = d[static_cast<std::size_t>(i)];
+    along = to_integer(b.centre()[i], unit) - to_integer(a.centre()[i], unit);
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t edge = image[static_cast<std::size_t>(k)];
+      if (edge != 0) along += edge * to_integer(edges(i, k), unit);
+    }
   }
   const Symmetric dd = {d[0] * d[0], d[1] * d[1], d[2] * d[2],
                         d[1] * d[2], d[2] * d[0], d[0] * d[1]};
@@ -181,5 +217,13 @@ Containment ExactPair::containment() const {
 }
 
 bool ExactPair::equal() const { return is_binomial(shapes_) && is_binomial(quartic_); }
+
+RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet) {
+  if (interiors_meet) return exact_containment(pair);
+  const Position position = pair.position();
+  if (position == Position::apart) return exactly(Relation::separate);
+  if (position == Position::touching) return exactly(Relation::external_touch);
+  return exact_containment(pair);
+}
 
 }  // namespace tangency::exact

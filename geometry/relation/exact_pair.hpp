@@ -15,8 +15,11 @@
 #pragma once
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
+#include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency::exact {
 
@@ -28,6 +31,8 @@ enum class Containment { none, touching, interior };
 class ExactPair {
  public:
   ExactPair(const Ellipsoid& a, const Ellipsoid& b);
+  /// Of A, and B moved by edges * image without rounding.
+  ExactPair(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges, const LatticeImage& image);
   /// Of solids by their forms, in the same coordinates; the denominators take part, so that equal
   /// solids are seen.
   ExactPair(const SolidForm<4>& a, const SolidForm<4>& b);
@@ -66,5 +71,8 @@ class ExactPair {
 
   IntegerPolynomial quartic_, shapes_;
 };
+
+/// Where the caller knows that the interiors meet, `interiors_meet` saves the asking.
+RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet = false);
 
 }  // namespace tangency::exact

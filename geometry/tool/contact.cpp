@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
@@ -14,6 +15,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
+#include <tangency/geometry/tool/contact_columns.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
 namespace tangency::tool {
@@ -38,9 +40,15 @@ Output columns, in this order:
   pb.x pb.y pb.z   witness point on b; pb - pa = gap n
   gap_error        proven: the true gap is this near to gap; on a local row it bounds the
                    distance to the local value, and the true gap is at least
-                   gap - gap_error; empty for the methods other than common-normal
+                   gap - gap_error. Of perram-wertheim and midpoint-potential it bounds the
+                   distance to the gap by that definition, and is empty where a body is given
+                   by a matrix; empty for trace
   status           see below
   inner            a or b, the body inside, for internal_touch; else empty
+and those that --columns names, in the order of the names; empty where a row has none:
+)";
+
+constexpr const char* kStatusHelp = R"(
   Numbers read back to the same double. Their last digits may depend on the processor,
   within gap_error, but never on the number of threads.
 
@@ -82,6 +90,9 @@ Example, a unit sphere and an ellipsoid that it touches:
   $ tangency contact pairs.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
   0,external_touch,0,1,0,0,1,0,0,1,0,0,0,ok,
+  $ tangency contact --columns mu,curvature_min,curvature_max pairs.csv
+  row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner,mu,curvature_min,curvature_max
+  0,external_touch,0,1,0,0,1,0,0,1,0,0,0,ok,,1,3,3
 )";
 
 /// What is known about a pair: one row of the output.
@@ -94,11 +105,13 @@ struct Answer {
   Vec3 point_a;
   Vec3 point_b;
   std::optional<double> gap_error;
+  std::optional<Gap> common_normal;  ///< where it is by that method
 };
 
 /// The answer that says nothing but why it is empty.
 Answer without_numbers(const RelationAnswer& relation, std::string_view status) {
-  return {relation, status, false, 0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), std::nullopt};
+  const Vec3 none = Vec3::Zero();
+  return {relation, status, false, 0, none, none, none, std::nullopt, std::nullopt};
 }
 
 /// The answer with the numbers of a Gap or OtherGap, unless one is beyond the range of a double.
@@ -112,15 +125,22 @@ Answer with_numbers(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const An
                              point_a.allFinite() && point_b.allFinite() &&
                              std::isfinite(gap_error.value_or(0.0));
   if (!representable) return without_numbers(exact, "not_applicable");
-  return {exact, status, true, found.gap, found.normal, point_a, point_b, gap_error};
+  Answer answer{exact,   status,  true,      found.gap,   found.normal,
+                point_a, point_b, gap_error, std::nullopt};
+  if constexpr (std::is_same_v<AnyGap, Gap>) answer.common_normal = found;
+  return answer;
 }
 
 template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>
 Answer by_other_definition(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
   const OtherGap found = find(a.ellipsoid(), b.ellipsoid());
   switch (found.status) {
-    case OtherGapStatus::ok:
-      return with_numbers(a, b, found, "ok", std::nullopt);
+    case OtherGapStatus::ok: {
+      // What the rounding of a matrix to semi-axes does to these gaps is not bounded.
+      const bool by_axes = a.exact() == nullptr && b.exact() == nullptr;
+      const auto error = by_axes ? std::optional(found.gap_error) : std::nullopt;
+      return with_numbers(a, b, found, "ok", error);
+    }
     case OtherGapStatus::not_applicable:
       return without_numbers(relation(a, b), "not_applicable");
     case OtherGapStatus::not_converged:
@@ -135,7 +155,9 @@ Answer by_trace(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
   return with_numbers(a, b, found, "ok", std::nullopt);
 }
 
-tables::RowOutcome write_answer(const Answer& answer, tables::RowText& out) {
+tables::RowOutcome write_answer(const Answer& answer, const MatrixEllipsoid& a,
+                                const MatrixEllipsoid& b, const ContactColumns& further,
+                                tables::RowText& out) {
   out.text(to_string(answer.relation.relation));
   if (answer.has_numbers) {
     out.number(answer.gap);
@@ -151,16 +173,14 @@ tables::RowOutcome write_answer(const Answer& answer, tables::RowText& out) {
     out.empty(11);
   }
   out.text(answer.status);
-  switch (answer.relation.inner) {
-    case Inner::none:
-      out.empty();
-      break;
-    case Inner::a:
-      out.text("a");
-      break;
-    case Inner::b:
-      out.text("b");
-      break;
+  write_inner(answer.relation.inner, out);
+  if (!further.names().empty()) {
+    const ContactRow row{.a = a,
+                         .b = b,
+                         .relation = answer.relation,
+                         .normal = answer.has_numbers ? &answer.normal : nullptr,
+                         .gap = answer.common_normal ? &*answer.common_normal : nullptr};
+    further.write(row, out);
   }
   return answer.has_numbers ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
 }
@@ -175,7 +195,8 @@ Answer by_common_normal(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
 /// The same of bodies by their axes, for all rows that are read in one call.
 class CommonNormalRows : public tables::Rows {
  public:
-  CommonNormalRows(const BodyColumns& a, const BodyColumns& b) : columns_a_(a), columns_b_(b) {}
+  CommonNormalRows(const BodyColumns& a, const BodyColumns& b, const ContactColumns& further)
+      : columns_a_(a), columns_b_(b), further_(further) {}
 
   void read(const tables::RowCursor& row) override {
     const MatrixEllipsoid a = columns_a_.read(row), b = columns_b_.read(row);
@@ -187,12 +208,15 @@ class CommonNormalRows : public tables::Rows {
   }
   tables::RowOutcome write(std::size_t i, tables::RowText& out) const override {
     const Gap& gap = gaps_[i];
-    return write_answer(with_numbers(a_[i], b_[i], gap, status_of(gap), gap.gap_error), out);
+    const MatrixEllipsoid a = a_[i], b = b_[i];
+    const Answer answer = with_numbers(a, b, gap, status_of(gap), gap.gap_error);
+    return write_answer(answer, a, b, further_, out);
   }
   void clear() override { a_.clear(), b_.clear(); }
 
  private:
   BodyColumns columns_a_, columns_b_;
+  ContactColumns further_;
   std::vector<Ellipsoid> a_, b_;
   std::vector<Gap> gaps_;
 };
@@ -210,24 +234,27 @@ constexpr std::array<Method, 4> kMethods{
      {"midpoint-potential", by_other_definition<midpoint_potential_gap>},
      {"trace", by_trace}}};
 
-tables::BindRows one_by_one(OneAnswer answer, MixedTerms mixed_terms) {
+tables::BindRows one_by_one(OneAnswer answer, MixedTerms mixed_terms,
+                            const ContactColumns& further) {
   return tables::row_by_row([=](const tables::Header& header) -> tables::RowFunction {
-    return [answer, a = BodyColumns(header, "a", mixed_terms),
-            b = BodyColumns(header, "b", mixed_terms)](const tables::RowCursor& row,
-                                                       tables::RowText& out) {
-      return write_answer(answer(a.read(row), b.read(row)), out);
+    return [answer, further, columns_a = BodyColumns(header, "a", mixed_terms),
+            columns_b = BodyColumns(header, "b", mixed_terms)](const tables::RowCursor& row,
+                                                               tables::RowText& out) {
+      const MatrixEllipsoid a = columns_a.read(row), b = columns_b.read(row);
+      return write_answer(answer(a, b), a, b, further, out);
     };
   });
 }
 
 /// @param name  one that check_method() accepts
-tables::BindRows bind_method(std::string_view name, MixedTerms mixed_terms) {
+tables::BindRows bind_method(std::string_view name, MixedTerms mixed_terms,
+                             const ContactColumns& further) {
   const Method& method = *std::ranges::find(kMethods, name, &Method::name);
   return [=](const tables::Header& header) -> tables::MakeRows {
     const BodyColumns a(header, "a", mixed_terms), b(header, "b", mixed_terms);
     if (method.answer == by_common_normal && a.has_axes() && b.has_axes())
-      return [a, b] { return std::make_unique<CommonNormalRows>(a, b); };
-    return one_by_one(method.answer, mixed_terms)(header);
+      return [a, b, further] { return std::make_unique<CommonNormalRows>(a, b, further); };
+    return one_by_one(method.answer, mixed_terms, further)(header);
   };
 }
 
@@ -240,30 +267,38 @@ std::string check_method(const std::string& name) {
 }  // namespace
 
 void add_contact(tables::Program& program) {
-  struct Options {
+  struct Options : QuadricOptions {
     std::string method{kMethods.front().name};
-    std::string mixed_terms = "half";
-    tables::RowStreamOptions rows;
+    std::string columns;
   };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command =
-      program.subcommand("contact", "Signed gap, normal and witness points of pairs of ellipsoids");
-  command
-      .option("--method", options->method,
-              "How contact is defined: common-normal (default), perram-wertheim, "
-              "midpoint-potential or trace")
-      .check(check_method)
-      .type_name("M");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, options->rows);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp);
-  command.runs([options] {
-    const tables::RowTask task{
+  const auto describe = [](tables::Command& command, Options& own) {
+    command
+        .option("--method", own.method,
+                "How contact is defined: common-normal (default), perram-wertheim, "
+                "midpoint-potential or trace")
+        .check(check_method)
+        .type_name("M");
+    command.option("--columns", own.columns, "Further columns at the end of each row; see below")
+        .check(refused_columns)
+        .type_name("NAME,...");
+  };
+  const auto task = [](const Options& options) {
+    const ContactColumns further(options.columns);
+    tables::RowTask rows{
         .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
         .verdict_column = "status",
-        .bind = bind_method(options->method, mixed_terms_named(options->mixed_terms))};
-    return tables::run_row_stream(task, options->rows);
-  });
+        .bind = bind_method(options.method, mixed_terms_named(options.mixed_terms), further)};
+    rows.output_columns.insert(rows.output_columns.end(), further.names().begin(),
+                               further.names().end());
+    return rows;
+  };
+  add_row_command<Options>(
+      program,
+      {.name = "contact",
+       .description = "Signed gap, normal and witness points of pairs of ellipsoids",
+       .help = std::string(kBodyColumnsHelp) + kHelp + contact_columns_help() + kStatusHelp,
+       .describe = describe,
+       .task = task});
 }
 
 }  // namespace tangency::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Holds the time of first contact against the interval oracle on as many motions as asked for, by
-// family, and the tolerance of many more that spin, exactly. The merge gate runs a part of it;
-// docs/guide.md names the whole.
+// Holds the time of first contact, of the single call and of the batch, against the interval oracle
+// on as many motions as asked for, by family, and the tolerance of many more that spin, exactly.
+// The merge gate runs a part of it; docs/guide.md names the whole.
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <tangency/geometry/time_batch.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 #include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/conversions.hpp>
@@ -204,7 +206,8 @@ void print_row(const Case& c) {
   std::printf("%a,%a\n", c.horizon, c.tolerance);
 }
 
-bool exceeds(const tangency::TimeOfContact& found, double tolerance) {
+template <class Found>
+bool exceeds(const Found& found, double tolerance) {
   return mpq_class(found.latest) - mpq_class(found.time) > mpq_class(tolerance);
 }
 
@@ -242,12 +245,34 @@ bool check_spins(long count, std::uint64_t seed) {
   return kept;
 }
 
-void compare(const Case& c, Tally& tally) {
-  const auto clock = std::chrono::steady_clock::now();
+/// An answer by either call.
+struct Answer {
+  ContactTimeStatus status;
+  double time, latest;
+  bool hidden;  ///< is the gap at `time` within the resolution?
+  int steps;
+};
+
+Answer single(const Case& c) {
   const auto found =
       time_of_contact(c.a.body, c.a.motion, c.b.body, c.b.motion, c.horizon, c.tolerance);
-  tally.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-  const FirstContact truth = first_contact(raw(c.a), raw(c.b), c.horizon, 0x1p-10 * c.tolerance);
+  return {found.status, found.time, found.latest, found.gap.gap <= found.resolution, found.steps};
+}
+
+/// By the batch, which says `grazing` where the single call does.
+Answer of_many(const Case& c) {
+  const std::array bodies{c.a.body, c.b.body};
+  const std::array motions{c.a.motion, c.b.motion};
+  const std::array pairs{tangency::IndexedPair{0, 1}};
+  const tangency::BodyArray array{std::span<const Ellipsoid>(bodies)};
+  ContactTimeStatus status{};
+  double time = 0, latest = 0;
+  times_of_contact(array, motions, {pairs, {}}, c.horizon, c.tolerance,
+                   {.status = {&status, 1}, .time = {&time, 1}, .latest = {&latest, 1}});
+  return {status, time, latest, true, 0};
+}
+
+void compare(const Case& c, const FirstContact& truth, const Answer& found, Tally& tally) {
   ++tally.motions;
   tally.steps += found.steps;
   tally.most_steps = std::max<long>(tally.most_steps, found.steps);
@@ -268,9 +293,8 @@ void compare(const Case& c, Tally& tally) {
                       found.status == ContactTimeStatus::touching_at_start;
   const bool apart = truth.status == FirstContact::Status::none || truth.from > found.latest;
   // A pass too close to call is one whose gap is within the resolution.
-  const bool hidden = found.gap.gap <= found.resolution;
   const bool early = (claims && apart) || exceeds(found, c.tolerance) ||
-                     (found.status == ContactTimeStatus::grazing && !hidden);
+                     (found.status == ContactTimeStatus::grazing && !found.hidden);
   if (touches && found.status == ContactTimeStatus::contact)
     tally.earliest = std::max(tally.earliest, (truth.from - found.time) / c.tolerance);
   tally.late += late;
@@ -286,6 +310,23 @@ void compare(const Case& c, Tally& tally) {
   }
 }
 
+void print(const std::string& name, const Tally& t) {
+  std::printf("%-22s %8ld %8ld %8ld %8ld %5ld %5ld %9ld %6ld %9ld %5ld %9.3g %6.1f (%5ld) %8.1f\n",
+              name.c_str(), t.motions, t.contacts, t.none, t.at_start, t.late, t.early, t.too_close,
+              t.not_converged, t.undecided, t.wide, t.earliest,
+              static_cast<double>(t.steps) / static_cast<double>(t.motions), t.most_steps,
+              1e6 * t.seconds / static_cast<double>(t.motions));
+  std::fflush(stdout);
+}
+
+template <class Ask>
+Answer timed(const Case& c, Tally& tally, const Ask& ask) {
+  const auto clock = std::chrono::steady_clock::now();
+  const Answer found = ask(c);
+  tally.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  return found;
+}
+
 bool agree(std::uint64_t seed, long count, long spins) {
   std::printf("%-22s %8s %8s %8s %8s %5s %5s %9s %6s %9s %5s %9s %14s %8s\n", "family", "motions",
               "contact", "none", "at start", "late", "early", "too close", "open", "undecided",
@@ -293,16 +334,17 @@ bool agree(std::uint64_t seed, long count, long spins) {
   bool kept = true;
   for (const Family family : kFamilies) {
     Source source(seed + static_cast<std::uint64_t>(family));
-    Tally t;
-    for (long i = 0; i < count / 6; ++i) compare(source.next(family), t);
-    std::printf(
-        "%-22s %8ld %8ld %8ld %8ld %5ld %5ld %9ld %6ld %9ld %5ld %9.3g %6.1f (%5ld) %8.1f\n",
-        kNames[static_cast<int>(family)], t.motions, t.contacts, t.none, t.at_start, t.late,
-        t.early, t.too_close, t.not_converged, t.undecided, t.wide, t.earliest,
-        static_cast<double>(t.steps) / static_cast<double>(t.motions), t.most_steps,
-        1e6 * t.seconds / static_cast<double>(t.motions));
-    std::fflush(stdout);
-    kept = kept && t.kept();
+    Tally one, many;
+    for (long i = 0; i < count / 6; ++i) {
+      const Case c = source.next(family);
+      const FirstContact truth =
+          first_contact(raw(c.a), raw(c.b), c.horizon, 0x1p-10 * c.tolerance);
+      compare(c, truth, timed(c, one, single), one);
+      compare(c, truth, timed(c, many, of_many), many);
+    }
+    print(kNames[static_cast<int>(family)], one);
+    print("  by the batch", many);
+    kept = kept && one.kept() && many.kept();
   }
   kept = check_spins(spins, seed) && kept;
   return kept;

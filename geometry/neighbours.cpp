@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/geometry/neighbours.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tangency/geometry/batch/near_answers.hpp>
+#include <tangency/geometry/batch/parts.hpp>
+#include <tangency/geometry/near_pairs.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+
+namespace tangency {
+namespace {
+
+/// Bodies that are searched around in one go. Chosen: their pairs stay in the processor's cache,
+/// and many such parts are there to be shared among threads.
+constexpr std::size_t kPart = 512;
+
+/// Parts that a thread does before blocks are handed over. Chosen: a thread takes 20 us to start.
+constexpr std::size_t kPartsAtOnce = 8;
+
+/// The radius within which a body looks for others, half of the reach of each: not below the exact
+/// sum, and as much above as the gap_error of what lies at the reach.
+double searched_radius(double semi_axis, double reach) {
+  if (reach == 0.0) return semi_axis;
+  return (semi_axis + 0.5 * reach) * (1.0 + 0x1p-40) + 0x1p-1074;
+}
+
+/// What is asked, ready to be asked part by part. Parts may be asked by different threads.
+template <class Bodies>
+class Search {
+ public:
+  Search(const Bodies& bodies, const NeighbourQuestion& question)
+      : bodies_(bodies), question_(question), search_(searched(bodies, question)) {}
+
+  std::size_t parts() const { return (search_.size() + kPart - 1) / kPart; }
+
+  /// What the bodies of one part find, in no order.
+  Neighbours find(std::size_t part) const {
+    return in_default_environment([&] {
+      Neighbours found;
+      std::vector<NearPair> candidates;
+      search_.find(part * kPart, (part + 1) * kPart, candidates);
+      detail::answer_candidates(bodies_, question_, candidates, found);
+      return found;
+    });
+  }
+
+ private:
+  static NearPairSearch searched(const Bodies& bodies, const NeighbourQuestion& question) {
+    const double reach = question.reach;
+    if (!(reach >= 0.0) || !std::isfinite(reach))
+      throw std::invalid_argument("reach = " + std::to_string(reach) + ": must be finite and >= 0");
+    std::vector<Vec3> centres(bodies.size());
+    std::vector<double> radii(bodies.size());
+    return in_default_environment([&] {
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        centres[i] = bodies.centre(i);
+        radii[i] = searched_radius(bodies.largest_semi_axis(i), reach);
+        if (!std::isfinite(radii[i]))
+          throw std::invalid_argument("reach = " + std::to_string(reach) +
+                                      ": that and a semi-axis of body " + std::to_string(i) +
+                                      " are beyond the range of doubles");
+      }
+      return NearPairSearch(centres, radii, question.lattice);
+    });
+  }
+
+  const Bodies& bodies_;
+  const NeighbourQuestion& question_;
+  NearPairSearch search_;
+};
+
+/// Where a pair stands among what the parts found.
+struct Place {
+  NearPair pair;
+  std::uint32_t part, at;
+};
+
+bool before(const Place& x, const Place& y) { return x.pair < y.pair; }
+
+/// All places in ascending order of their pairs.
+std::vector<Place> sorted_places(std::span<const Neighbours> parts, std::size_t bodies) {
+  std::vector<std::size_t> next(bodies + 1, 0);
+  for (const Neighbours& part : parts)
+    for (const NearPair& pair : part.pairs) ++next[pair.a + std::size_t{1}];
+  for (std::size_t i = 0; i < bodies; ++i) next[i + 1] += next[i];
+  std::vector<Place> places(next.back());
+  for (std::uint32_t k = 0; k < parts.size(); ++k)
+    for (std::uint32_t i = 0; i < parts[k].size(); ++i)
+      places[next[parts[k].pairs[i].a]++] = {parts[k].pairs[i], k, i};
+  std::size_t first = 0;  // next[i] is now where the pairs of i end
+  for (std::size_t i = 0; i < bodies; first = next[i++])
+    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first),
+              places.begin() + static_cast<std::ptrdiff_t>(next[i]), before);
+  return places;
+}
+
+/// The columns of all parts in the order of `places`, and those of the parts freed.
+Neighbours gathered(std::span<Neighbours> parts, std::span<const Place> places) {
+  Neighbours all;
+  detail::for_each_column([&](auto column) {
+    const auto asked_for = [&](const Neighbours& part) { return !(part.*column).empty(); };
+    if (std::none_of(parts.begin(), parts.end(), asked_for)) return;
+    (all.*column).resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      (all.*column)[i] = (parts[places[i].part].*column)[places[i].at];
+    for (Neighbours& part : parts) part.*column = {};
+  });
+  return all;
+}
+
+Neighbours merged(std::span<Neighbours> parts, std::size_t bodies, NeighbourAnswers answers) {
+  if (answers != NeighbourAnswers::pairs) return gathered(parts, sorted_places(parts, bodies));
+  std::vector<std::vector<NearPair>> pairs(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) pairs[k] = std::move(parts[k].pairs);
+  Neighbours all;
+  all.pairs = sorted_pairs(pairs, bodies);
+  return all;
+}
+
+/// One part's pairs in ascending order.
+Neighbours sorted(Neighbours part) {
+  std::vector<Place> places(part.size());
+  for (std::uint32_t i = 0; i < part.size(); ++i) places[i] = {part.pairs[i], 0, i};
+  std::sort(places.begin(), places.end(), before);
+  return gathered(std::span(&part, 1), places);
+}
+
+template <class Bodies>
+Neighbours listed(const Bodies& bodies, const NeighbourQuestion& question) {
+  const Search<Bodies> search(bodies, question);
+  std::vector<Neighbours> parts(search.parts());
+  detail::in_parts(parts.size(), question.threads,
+                   [&](std::size_t k) { parts[k] = search.find(k); });
+  return merged(parts, bodies.size(), question.answers);
+}
+
+template <class Bodies>
+void handed_over(const Bodies& bodies, const NeighbourQuestion& question,
+                 const std::function<void(const NeighbourBlock&)>& take) {
+  const Search<Bodies> search(bodies, question);
+  const auto threads = static_cast<std::size_t>(std::max(question.threads, 1));
+  std::vector<Neighbours> blocks(threads > 1 ? kPartsAtOnce * threads : 1);
+  for (std::size_t first = 0; first < search.parts(); first += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), search.parts() - first);
+    detail::in_parts(count, question.threads,
+                     [&](std::size_t k) { blocks[k] = sorted(search.find(first + k)); });
+    for (std::size_t k = 0; k < count; ++k) take(blocks[k].all());
+  }
+}
+
+}  // namespace
+
+Neighbours neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question) {
+  return listed(detail::NearEllipsoids(bodies), question);
+}
+
+Neighbours neighbours(const MovingBodies& bodies, const NeighbourQuestion& question) {
+  return listed(detail::NearMovingBodies(bodies), question);
+}
+
+void for_each_neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question,
+                         const std::function<void(const NeighbourBlock&)>& take) {
+  handed_over(detail::NearEllipsoids(bodies), question, take);
+}
+
+void for_each_neighbours(const MovingBodies& bodies, const NeighbourQuestion& question,
+                         const std::function<void(const NeighbourBlock&)>& take) {
+  handed_over(detail::NearMovingBodies(bodies), question, take);
+}
+
+}  // namespace tangency
