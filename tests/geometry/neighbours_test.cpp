@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
@@ -116,7 +116,7 @@ TEST(Neighbours, AreTheSameToTheBitForEveryNumberOfThreads) {
       EXPECT_TRUE(std::is_sorted(block.pairs.begin(), block.pairs.end()));
       blocks_of_one.insert(blocks_of_one.end(), block.pairs.begin(), block.pairs.end());
     });
-    for (const unsigned threads : {0u, 2u, 5u}) {
+    for (const int threads : {0, 2, 5}) {
       question.threads = threads;
       const Neighbours many = neighbours(bodies, question);
       ASSERT_EQ(many.size(), one.size());
