@@ -10,8 +10,8 @@
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/numbers/arc_tangent.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
-#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/geometry/power_of_two.hpp>

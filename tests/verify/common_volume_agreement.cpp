@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <ratio>
 #include <string>
 #include <thread>
 #include <vector>
