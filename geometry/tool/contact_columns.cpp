@@ -68,8 +68,7 @@ std::optional<Inner> nested(const RelationAnswer& relation) {
 void clearances(const ContactRow& row, Cells cells) {
   const std::optional<Inner> inner = nested(row.relation);
   if (!inner) return;
-  const Clearance found =
-      *inner == Inner::a ? clearance(row.a, row.b) : clearance(row.b, row.a);
+  const Clearance found = *inner == Inner::a ? clearance(row.a, row.b) : clearance(row.b, row.a);
   cells[0] = found.clearance, cells[1] = found.clearance_error;
 }
 
@@ -113,16 +112,18 @@ constexpr std::array kGroups{
           "                   by semi-axes, of bodies that are given by them. All empty where\n"
           "                   normals tie, so that the gap has no derivative\n",
           derivatives},
-    Group{kClearances,
-          "  clearance        of a body that lies in the other, by the relation: the least distance\n"
-          "                   between the two surfaces\n"
-          "  clearance_error  proven: the true clearance is this near\n",
-          clearances},
-    Group{kMargins,
-          "  margin           of a body that lies in the other: the largest factor, >= 1, by which\n"
-          "                   it can be scaled about its centre and still lies there\n"
-          "  margin_error     proven: the true margin is this near\n",
-          margins},
+    Group{
+        kClearances,
+        "  clearance        of a body that lies in the other, by the relation: the least distance\n"
+        "                   between the two surfaces\n"
+        "  clearance_error  proven: the true clearance is this near\n",
+        clearances},
+    Group{
+        kMargins,
+        "  margin           of a body that lies in the other: the largest factor, >= 1, by which\n"
+        "                   it can be scaled about its centre and still lies there\n"
+        "  margin_error     proven: the true margin is this near\n",
+        margins},
 };
 
 constexpr std::size_t kMostInAGroup = std::ranges::max_element(kGroups, {}, [](const Group& g) {
