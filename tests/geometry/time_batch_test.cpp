@@ -168,7 +168,7 @@ TEST(TimeBatch, SeparationStandsInPlaceOfCentresAlsoOfMovingBodies) {
   for (const auto [a, b] : s.pairs)
     separations.push_back(s.bodies[b].centre() - s.bodies[a].centre());
   for (const Ellipsoid& body : s.bodies) {
-    elsewhere.push_back(body.moved_to({1e9, 2, 3}));
+    elsewhere.push_back(body.moved_to(Vec3(7, 2, 3) - 0.5 * body.centre()));
     axes.push_back(body.semi_axes());
     turns.push_back(body.orientation());
   }
