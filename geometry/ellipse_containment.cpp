@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_containment.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

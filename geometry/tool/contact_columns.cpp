@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include <tangency/geometry/common_volume.hpp>
 #include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
@@ -80,9 +81,15 @@ void margins(const ContactRow& row, Cells cells) {
   cells[0] = found.margin, cells[1] = found.margin_error;
 }
 
+void volumes(const ContactRow& row, Cells cells) {
+  const CommonVolume found = common_volume(row.a, row.b);
+  cells[0] = found.volume, cells[1] = found.volume_error;
+}
+
 constexpr std::array<std::string_view, 3> kSizes{"F", "mu", "F_error"};
 constexpr std::array<std::string_view, 2> kClearances{"clearance", "clearance_error"};
 constexpr std::array<std::string_view, 2> kMargins{"margin", "margin_error"};
+constexpr std::array<std::string_view, 2> kVolumes{"volume", "volume_error"};
 constexpr std::array<std::string_view, 2> kCurvatures{"curvature_min", "curvature_max"};
 // In the order of GapGradient.
 constexpr std::array<std::string_view, 18> kDerivatives{
@@ -124,6 +131,10 @@ constexpr std::array kGroups{
         "                   it can be scaled about its centre and still lies there\n"
         "  margin_error     proven: the true margin is this near\n",
         margins},
+    Group{kVolumes,
+          "  volume           that the bodies have in common: length^3\n"
+          "  volume_error     proven: the true volume is this near\n",
+          volumes},
 };
 
 constexpr std::size_t kMostInAGroup = std::ranges::max_element(kGroups, {}, [](const Group& g) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/common_volume.hpp>
 #include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
@@ -193,6 +194,23 @@ TEST(ContactColumns, AreAllInTheHelp) {
     EXPECT_NE(help.out.find(' ' + word), std::string::npos) << word;
   }
   EXPECT_GT(count, 5);
+}
+
+TEST(ContactColumns, OfTheCommonVolumeAreThoseOfTheLibrary) {
+  const std::string text =
+      kHeader + "0,0,0,1,2,3,.5,1,0,2,3,1\n" + kConcentric +
+      "0,0,0,1,1,1,2,0,0,1,1,1\n0,0,0,1e110,1e110,1e110,0,0,0,2e110,2e110,2e110\n";
+  const std::string out = run_tool({"contact", "--columns", "volume,volume_error"}, text).out;
+  const CommonVolume overlap =
+      common_volume(Ellipsoid({0, 0, 0}, {1, 2, 3}), Ellipsoid({0.5, 1, 0}, {2, 3, 1}));
+  const Cells row = cells_of(out, 1), nested = cells_of(out, 2), huge = cells_of(out, 4);
+  ASSERT_EQ(row.size(), 17U);
+  EXPECT_EQ(number(row[15]), overlap.volume);
+  EXPECT_EQ(number(row[16]), overlap.volume_error);
+  EXPECT_NEAR(number(nested[15]), 25.132741228718345, 1e-14);
+  const Cells touching = cells_of(out, 3);
+  EXPECT_EQ(Cells(touching.begin() + 15, touching.end()), (Cells{"0", "0"}));
+  EXPECT_EQ(Cells(huge.begin() + 15, huge.end()), Cells(2));
 }
 
 }  // namespace
