@@ -10,8 +10,8 @@
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/numbers/arc_tangent.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
-#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -175,8 +175,8 @@ CommonVolume overlap_volume(const Asked& asked, const Roundings& roundings, doub
   const double sign = b_first ? -1.0 : 1.0;
   const Ordered pair{b_first ? s.b : s.a, b_first ? s.a : s.b, sign * s.d, sign * s.d_low,
                      roundings.sum()};
-  const bool thick = std::min(s.a.smallest_semi_axis(), s.b.smallest_semi_axis()) >
-                     detail::kThinnestAxis;
+  const bool thick =
+      std::min(s.a.smallest_semi_axis(), s.b.smallest_semi_axis()) > detail::kThinnestAxis;
   if (!thick || !(roundings.sum() < 0.01))
     return unknown(smaller_body, of_smaller, s.exponent, pair.first);
   const SliceIntegrals found = sliced(pair, tolerance);
@@ -190,12 +190,14 @@ CommonVolume overlap_volume(const Asked& asked, const Roundings& roundings, doub
   const Vec3 gradient = sign * (pair.first.rotation() * in_body);
   const double gradient_error = found.gradient_error + 64.0 * kU * found.gradient.norm();
   CommonVolume result{};
-  result.volume = std::min(scaled(volume * p.mantissa, p.exponent),
-                           scaled(kBall * p.mantissa, p.exponent));
+  result.volume =
+      std::min(scaled(volume * p.mantissa, p.exponent), scaled(kBall * p.mantissa, p.exponent));
   result.volume_error = error_scaled(volume_error * p.mantissa, p.exponent);
   result.gradient = scaled_by_power(gradient, 2 * s.exponent);
   result.gradient_error = error_scaled(1.01 * gradient_error * face(pair.first), 2 * s.exponent);
-  result.status = within({volume, volume_error, found.gradient, gradient_error}, tolerance) ? CommonVolumeStatus::ok : CommonVolumeStatus::tolerance_not_reached;
+  result.status = within({volume, volume_error, found.gradient, gradient_error}, tolerance)
+                      ? CommonVolumeStatus::ok
+                      : CommonVolumeStatus::tolerance_not_reached;
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <tangency/geometry/bodies/surface_projection.hpp>
+#include <tangency/geometry/bodies/wall_form.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap/nesting.hpp>
 #include <tangency/geometry/gap/proof.hpp>

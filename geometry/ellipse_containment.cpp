@@ -27,13 +27,27 @@ struct Solved {
   GapTier tier;
 };
 
+/// M = (a1^2 u u' + a2^2 v v') / |u|^2
+RationalSolid<2> rational_solid(const Ellipse& e) {
+  using exact::to_rational;
+  const mpq_class x = to_rational(e.direction()[0]), y = to_rational(e.direction()[1]);
+  const mpq_class a = to_rational(e.semi_axes()[0]), b = to_rational(e.semi_axes()[1]);
+  const mpq_class square = x * x + y * y, aa = a * a / square, bb = b * b / square;
+  const mpq_class mixed = (aa - bb) * x * y;
+  RationalSolid<2> solid;
+  solid.centre = {to_rational(e.centre()[0]), to_rational(e.centre()[1])};
+  solid.shape[0] = {aa * x * x + bb * y * y, mixed};
+  solid.shape[1] = {mixed, aa * y * y + bb * x * x};
+  return solid;
+}
+
 RationalSolid<2> solid_of(const MatrixEllipse& body) {
-  return body.exact() != nullptr ? *body.exact() : exact::rational_solid(body.ellipse());
+  return body.exact() != nullptr ? *body.exact() : rational_solid(body.ellipse());
 }
 
 exact::MarginEnclosure margin_of(const AskedPair<Ellipse>& asked) {
   const auto [outer, inner] = asked.placed();
-  return exact::margin(exact::rational_solid(inner), exact::rational_solid(outer));
+  return exact::margin(rational_solid(inner), rational_solid(outer));
 }
 
 ContainmentMargin finished(const exact::MarginEnclosure& margin, int side) {

@@ -10,7 +10,15 @@ namespace tangency::detail {
 namespace {
 
 /// atan(k / 8), rounded to double from 60 digits.
-constexpr std::array<double, 9> kEighths{0.0, 0x1.fd5ba9aac2f6ep-4, 0x1.f5b75f92c80ddp-3, 0x1.6f61941e4def1p-2, 0x1.dac670561bb4fp-2, 0x1.1e00babdefeb4p-1, 0x1.4978fa3269ee1p-1, 0x1.700a7c5784634p-1, 0x1.921fb54442d18p-1};
+constexpr std::array<double, 9> kEighths{0.0,
+                                         0x1.fd5ba9aac2f6ep-4,
+                                         0x1.f5b75f92c80ddp-3,
+                                         0x1.6f61941e4def1p-2,
+                                         0x1.dac670561bb4fp-2,
+                                         0x1.1e00babdefeb4p-1,
+                                         0x1.4978fa3269ee1p-1,
+                                         0x1.700a7c5784634p-1,
+                                         0x1.921fb54442d18p-1};
 
 /// t - t^3/3 + ... - t^15/15, for |t| <= 1/16: what is left out is below 2^-70 of t.
 double arc_tangent_series(double t) noexcept {

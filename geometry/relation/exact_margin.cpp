@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
 
@@ -192,35 +192,6 @@ MarginEnclosure root(const mpq_class& low, const mpq_class& high) {
 }
 
 }  // namespace
-
-RationalSolid<3> rational_solid(const Ellipsoid& e) {
-  const ScaledRotation rotation = scaled_rotation(e.orientation());
-  const mpz_class square = rotation.squared_length * rotation.squared_length;
-  RationalSolid<3> solid;
-  for (std::size_t i = 0; i < 3; ++i) {
-    solid.centre[i] = to_rational(e.centre()[static_cast<int>(i)]);
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const mpq_class a = to_rational(e.semi_axes()[static_cast<int>(k)]);
-        solid.shape[i][j] += a * a * rotation.matrix[i][k] * rotation.matrix[j][k];
-      }
-      solid.shape[i][j] /= square;
-    }
-  }
-  return solid;
-}
-
-RationalSolid<2> rational_solid(const Ellipse& e) {
-  const mpq_class x = to_rational(e.direction()[0]), y = to_rational(e.direction()[1]);
-  const mpq_class a = to_rational(e.semi_axes()[0]), b = to_rational(e.semi_axes()[1]);
-  const mpq_class square = x * x + y * y, aa = a * a / square, bb = b * b / square;
-  RationalSolid<2> solid;
-  solid.centre = {to_rational(e.centre()[0]), to_rational(e.centre()[1])};
-  const mpq_class mixed = (aa - bb) * x * y;
-  solid.shape[0] = {aa * x * x + bb * y * y, mixed};
-  solid.shape[1] = {mixed, aa * y * y + bb * x * x};
-  return solid;
-}
 
 template <std::size_t N>
 MarginEnclosure margin(const RationalSolid<N>& inner, const RationalSolid<N>& outer) {

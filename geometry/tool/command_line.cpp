@@ -38,11 +38,20 @@ void add_row_stream_options(tables::Command& command, tables::RowStreamOptions& 
                "them on standard error, and go on");
 }
 
-void add_mixed_terms_option(tables::Command& command, std::string& mixed_terms) {
+void add_mixed_terms_option(tables::Command& command, QuadricOptions& options) {
   command
-      .option("--mixed-terms", mixed_terms,
+      .option("--mixed-terms", options.mixed_terms,
               "What D, E, F, G, H and J of a quadric are of the factors of their terms: half "
               "(default), or full")
+      .one_of({"half", "full"})
+      .type_name("half|full");
+}
+
+void add_mixed_terms_option(tables::Command& command, ConicOptions& options) {
+  command
+      .option("--mixed-terms", options.mixed_terms,
+              "What B, D and E of a conic are of the factors of their terms: full (default), or "
+              "half, as the entries of its matrix are")
       .one_of({"half", "full"})
       .type_name("half|full");
 }

@@ -68,8 +68,8 @@ Example, three balls in a cell, of which the first meets an image of the last:
   1,2,0,0,0
 )";
 
-struct Options : tables::RowStreamOptions {
-  std::string mixed_terms = "half", reach, periodic;
+struct Options : QuadricOptions {
+  std::string reach, periodic;
   bool contacts = false;
 };
 
@@ -273,7 +273,7 @@ void add_neighbours(tables::Program& program) {
       })
       .type_name("LX,LY,LZ");
   command.flag("--contacts", options->contacts, "Add the columns of `tangency contact`");
-  add_mixed_terms_option(command, options->mixed_terms);
+  add_mixed_terms_option(command, *options);
   add_table_options(command, *options);
   command.footer(kHelp);
   command.runs([options] {

@@ -28,8 +28,8 @@ double rough(const T& v) {
 
 // In units of the arithmetic's epsilon: section 3.
 
-constexpr double kOfMatrix = 0x1p10;     // a product of rotations, a scaled column
-constexpr double kOfCircles = 0x1p8;     // k, the frame, the circles' numbers
+constexpr double kOfMatrix = 0x1p12;     // of the columns, turned, over A's aspect ratio
+constexpr double kOfCircles = 0x1p10;    // k, the frame, the circles' numbers
 constexpr double kOfSeparation = 0x1p5;  // d in body axes, over |d|_1
 constexpr double kOrthogonal = 0x1p4;    // the cosine between two columns at which sweeps end
 
@@ -172,7 +172,9 @@ Circles<T> circles(Columns<T>& c, const Vector3<T>& centre) {
     of.n1 = T(0.0), of.n3 = T(1.0);
     return of;
   }
-  of.n1 = sqrt((of.k[1] - of.k[0]) / range), of.n3 = sqrt((of.k[2] - of.k[1]) / range);
+  const T n1 = sqrt((of.k[1] - of.k[0]) / range), n3 = sqrt((of.k[2] - of.k[1]) / range);
+  const T norm = sqrt(n1 * n1 + n3 * n3);
+  of.n1 = n1 / norm, of.n3 = n3 / norm;
   const bool back = rough(dot(of.axes[0], centre)) < 0.0;
   if (back == (rough(dot(of.axes[2], centre)) < 0.0)) of.n3 = -of.n3;
   return of;
@@ -213,12 +215,12 @@ CircularSections<T> circular_sections(const Ellipsoid& first, const Ellipsoid& s
   result.half_height = sqrt(result.beta / result.mu);
   result.tau = n1 * n3 * (k3 - k1) / k2;
   result.z0 = n1 * s1 + n3 * s3;
-  result.x0 = n3 * s1 - n1 * s3 - result.tau * result.z0;
+  result.x0 = n3 * s1 - n1 * s3;
   result.y0 = dot(of.axes[1], centre);
   const Vector3<T> x = n3 * of.axes[0] + -(n1 * of.axes[2]);
   const Vector3<T> z = n1 * of.axes[0] + n3 * of.axes[2];
   result.frame << rounded(x), rounded(of.axes[1]), rounded(z);
-  result.distortion = turned + epsilon<T>(kOfMatrix) * std::min(aspect(first), aspect(second));
+  result.distortion = turned + epsilon<T>(kOfMatrix) * aspect(first);
   result.centre_distance = rough(length(centre));
   double sum_of_d = 0.0;
   for (const T& component : d) sum_of_d += std::abs(rough(component));

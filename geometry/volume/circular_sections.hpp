@@ -7,7 +7,8 @@
 /// longest and shortest axes. With z along that direction a section at height z is
 ///
 ///     of the ball      the circle of radius^2  1 - z^2                about 0,
-///     of the second    the circle of radius^2  beta - mu (z - z0)^2   about (x0 + tau z, y0),
+///     of the second    the circle of radius^2  beta - mu (z - z0)^2   about (x0 + tau (z - z0),
+///     y0),
 ///
 /// in the unit of the first body's semi-axes: docs/derivations/common-volume.md, section 2.
 ///

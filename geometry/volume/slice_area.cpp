@@ -16,10 +16,34 @@ struct Node {
   double at, weight;
 };
 // Positive zeros of Legendre polynomials and their weights, rounded from 60 digits.
-constexpr std::array<Node, 4> kEight{{{0x1.77ac94f3c7345p-3, 0x1.736360b199343p-2}, {0x1.0d129583284b4p-1, 0x1.413c50a255615p-2}, {0x1.97e4ab249f41ep-1, 0x1.c76fb531d2b96p-3}, {0x1.ebab1cb0acc67p-1, 0x1.9ea1d04ca0374p-4}}};
-constexpr std::array<Node, 6> kTwelve{{{0x1.007a5f8f630e4p-3, 0x1.fe40ce6d4f025p-3}, {0x1.78a8d20a8b19dp-2, 0x1.de3155c256ab5p-3}, {0x1.2cb4f05c077f9p-1, 0x1.a0163e6b1ab72p-3}, {0x1.8a30aeed88f36p-1, 0x1.47d7258f22d8fp-3}, {0x1.cee874ffb88b4p-1, 0x1.b60602bce6181p-4}, {0x1.f68f1d8e42e81p-1, 0x1.8275d9dea6d8fp-5}}};
-constexpr std::array<Node, 8> kSixteen{{{0x1.852bd6676a9f9p-4, 0x1.83feae80e4dfcp-3}, {0x1.205cae642337cp-2, 0x1.75f8c77e0c00fp-3}, {0x1.d50259a43a772p-2, 0x1.5a6ebbb5a75fcp-3}, {0x1.3c5a466d5e8b8p-1, 0x1.325f61bca3cbfp-3}, {0x1.82c45dda4726bp-1, 0x1.fe7af2bad386ap-4}, {0x1.bb3403514e483p-1, 0x1.85c4ee79cc258p-4}, {0x1.e39f56616f9b0p-1, 0x1.fdfb1a2c1265dp-5}, {0x1.fa92c264d787ep-1, 0x1.bcddab4b7c211p-6}}};
-constexpr std::array<Node, 10> kTwenty{{{0x1.3973df98b86b0p-4, 0x1.38d6c490a3370p-3}, {0x1.d281636928bc0p-3, 0x1.31819b52c5992p-3}, {0x1.7eaccf15652c4p-2, 0x1.230348f34a535p-3}, {0x1.05905c13f7ff7p-1, 0x1.0db2c5db26dffp-3}, {0x1.45a8d3fa710dbp-1, 0x1.e41ff31573b48p-4}, {0x1.7e1f37346a54ep-1, 0x1.a1817a317a821p-4}, {0x1.ada0bd5efd6e7p-1, 0x1.5519fe196e24ap-4}, {0x1.d31064173fd92p-1, 0x1.00b467df7e475p-4}, {0x1.ed8dba7bd769fp-1, 0x1.4c9b5ea53b67fp-5}, {0x1.fc7b5a0c71ce0p-1, 0x1.209680274e8afp-6}}};
+constexpr std::array<Node, 4> kEight{{{0x1.77ac94f3c7345p-3, 0x1.736360b199343p-2},
+                                      {0x1.0d129583284b4p-1, 0x1.413c50a255615p-2},
+                                      {0x1.97e4ab249f41ep-1, 0x1.c76fb531d2b96p-3},
+                                      {0x1.ebab1cb0acc67p-1, 0x1.9ea1d04ca0374p-4}}};
+constexpr std::array<Node, 6> kTwelve{{{0x1.007a5f8f630e4p-3, 0x1.fe40ce6d4f025p-3},
+                                       {0x1.78a8d20a8b19dp-2, 0x1.de3155c256ab5p-3},
+                                       {0x1.2cb4f05c077f9p-1, 0x1.a0163e6b1ab72p-3},
+                                       {0x1.8a30aeed88f36p-1, 0x1.47d7258f22d8fp-3},
+                                       {0x1.cee874ffb88b4p-1, 0x1.b60602bce6181p-4},
+                                       {0x1.f68f1d8e42e81p-1, 0x1.8275d9dea6d8fp-5}}};
+constexpr std::array<Node, 8> kSixteen{{{0x1.852bd6676a9f9p-4, 0x1.83feae80e4dfcp-3},
+                                        {0x1.205cae642337cp-2, 0x1.75f8c77e0c00fp-3},
+                                        {0x1.d50259a43a772p-2, 0x1.5a6ebbb5a75fcp-3},
+                                        {0x1.3c5a466d5e8b8p-1, 0x1.325f61bca3cbfp-3},
+                                        {0x1.82c45dda4726bp-1, 0x1.fe7af2bad386ap-4},
+                                        {0x1.bb3403514e483p-1, 0x1.85c4ee79cc258p-4},
+                                        {0x1.e39f56616f9b0p-1, 0x1.fdfb1a2c1265dp-5},
+                                        {0x1.fa92c264d787ep-1, 0x1.bcddab4b7c211p-6}}};
+constexpr std::array<Node, 10> kTwenty{{{0x1.3973df98b86b0p-4, 0x1.38d6c490a3370p-3},
+                                        {0x1.d281636928bc0p-3, 0x1.31819b52c5992p-3},
+                                        {0x1.7eaccf15652c4p-2, 0x1.230348f34a535p-3},
+                                        {0x1.05905c13f7ff7p-1, 0x1.0db2c5db26dffp-3},
+                                        {0x1.45a8d3fa710dbp-1, 0x1.e41ff31573b48p-4},
+                                        {0x1.7e1f37346a54ep-1, 0x1.a1817a317a821p-4},
+                                        {0x1.ada0bd5efd6e7p-1, 0x1.5519fe196e24ap-4},
+                                        {0x1.d31064173fd92p-1, 0x1.00b467df7e475p-4},
+                                        {0x1.ed8dba7bd769fp-1, 0x1.4c9b5ea53b67fp-5},
+                                        {0x1.fc7b5a0c71ce0p-1, 0x1.209680274e8afp-6}}};
 constexpr std::array<std::span<const Node>, 4> kRules{kEight, kTwelve, kSixteen, kTwenty};
 
 /// A Bernstein ellipse: the sum of its semi-axes, the larger of them, and 1/rho^(2N - 1) for the
@@ -75,7 +99,8 @@ Section section(const SliceExpansion& e, double v, double p) {
   return {area, first, root};
 }
 
-/// Sums of a rule: of the area, of the angle, of z times it, of the chord along the line of centres.
+/// Sums of a rule: of the area, of the angle, of z times it, of the chord along the line of
+/// centres.
 struct Sums {
   double area = 0.0, angle = 0.0, moment = 0.0, x = 0.0, y = 0.0, of_chord = 0.0;
 };
@@ -141,18 +166,18 @@ SectionErrors section_errors(const SliceExpansion& e, SliceRange range) {
   const double root_here = range == SliceRange::about_middle ? std::sqrt(e.p.c[0]) : 0.0;
   const double base_1 = angle_of(root_here, e.q1.c[0]), base_2 = angle_of(root_here, e.q2.c[0]);
   const double most_1 = std::min(kPi, base_1 + b.rate_1), most_2 = std::min(kPi, base_2 + b.rate_2);
-  const double area =
-      most_segment(most_1, most_1) * of_ball + most_segment(most_2, most_2) * of_second +
-      2.0 * root_p *
-          (b.ball * (b.q1 * off_p + b.p * of_q1) / (b.least_1 * b.least_1) +
-           b.second * (b.q2 * off_p + b.p * of_q2) / (b.least_2 * b.least_2));
+  const double area = most_segment(most_1, most_1) * of_ball +
+                      most_segment(most_2, most_2) * of_second +
+                      2.0 * root_p *
+                          (b.ball * (b.q1 * off_p + b.p * of_q1) / (b.least_1 * b.least_1) +
+                           b.second * (b.q2 * off_p + b.p * of_q2) / (b.least_2 * b.least_2));
   const double of_angle = (b.q1 * of_root + root_p * of_q1) / b.least_1;
   const double z = std::abs(e.base) + std::abs(e.step);
   const double of_x = kOfCoefficients * e.x.most(1.0) + e.of_x;
   const double of_distance = kOfCoefficients * 3.0 * b.distance + e.of_square;
   const double root_distance = std::sqrt(b.least_distance);
-  const double chord = of_root / root_distance +
-                       root_p * (of_x + of_distance / root_distance) / b.least_distance;
+  const double chord =
+      of_root / root_distance + root_p * (of_x + of_distance / root_distance) / b.least_distance;
   return {length * area, length * (2.0 * z * of_angle + chord)};
 }
 

@@ -29,9 +29,9 @@ enum class SliceRange { about_middle, from_touch };
 struct SliceBounds {
   double ball, second, distance, q1, q2;  ///< most
   double least_distance;
-  double p, least_p;            ///< of P, or of P / v
-  double least_1, least_2;      ///< of q_1^2 + P = 4 D r_1^2, of q_2^2 + P
-  double rate_1, rate_2;        ///< of |d angle / dv|, or d angle / d sqrt(v)
+  double p, least_p;        ///< of P, or of P / v
+  double least_1, least_2;  ///< of q_1^2 + P = 4 D r_1^2, of q_2^2 + P
+  double rate_1, rate_2;    ///< of |d angle / dv|, or d angle / d sqrt(v)
 
   SliceBounds(const SliceExpansion& e, SliceRange range, double r) noexcept;
   /// Is there no point where an angle is not analytic?

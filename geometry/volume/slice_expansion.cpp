@@ -28,6 +28,12 @@ Quartic<T> product(const Quadratic<T>& a, const Quadratic<T>& b) {
 // square of a sum of three, and of the eleven products of P. Section 4.
 constexpr double kOfSquares = 32.0, kOfDiscriminant = 128.0;
 
+/// Is a difference of numbers of one sign within a few epsilon of itself, and not only of them?
+template <class T>
+constexpr bool kSharpDifference = false;
+template <>
+constexpr bool kSharpDifference<DoubleDouble> = true;  // [JoldesMullerPopescu2017, theorem 3.1]
+
 }  // namespace
 
 template <class T>
@@ -35,7 +41,7 @@ SliceExpansion::SliceExpansion(const CircularSections<T>& s, const DoubleDouble&
                                double by) noexcept
     : base(from.high), step(by), y(static_cast<double>(s.y0)) {
   const T h(by), at = T(from.high) + T(from.low), two(2.0), four(4.0);
-  const T at_x = s.x0 + s.tau * at, up_x = s.tau * h, at_z = at - s.z0;
+  const T at_z = at - s.z0, at_x = s.x0 + s.tau * at_z, up_x = s.tau * h;
   const Quadratic<T> of_ball{T(1.0) - at * at, -(two * at * h), -(h * h)};
   const Quadratic<T> of_second{s.beta - s.mu * at_z * at_z, -(two * s.mu * at_z * h),
                                -(s.mu * h * h)};
@@ -54,15 +60,16 @@ SliceExpansion::SliceExpansion(const CircularSections<T>& s, const DoubleDouble&
   distance = coefficients(of_distance), p = coefficients(discriminant);
   q1 = coefficients(less), q2 = coefficients(more);
 
-  const double reach = std::abs(base) + kFarthest * std::abs(by);
-  const double far_x =
-      std::abs(static_cast<double>(s.x0)) + std::abs(static_cast<double>(s.tau)) * reach;
-  const double far_z = reach + std::abs(static_cast<double>(s.z0));
+  constexpr double epsilon = Arithmetic<T>::kEpsilon;
+  const double tau = std::abs(static_cast<double>(s.tau)), away = kFarthest * std::abs(by);
+  const double reach = std::abs(base) + away, z0 = std::abs(static_cast<double>(s.z0));
+  const double far_z =
+      std::abs(static_cast<double>(at_z)) + away + (kSharpDifference<T> ? 0.0 : reach + z0);
+  const double far_x = std::abs(static_cast<double>(s.x0)) + tau * far_z;
   const double most_distance = far_x * far_x + y * y, most_ball = 1.0 + reach * reach;
   const double most_second =
       static_cast<double>(s.beta) + static_cast<double>(s.mu) * far_z * far_z;
   const double most = most_distance + most_ball + most_second;
-  constexpr double epsilon = Arithmetic<T>::kEpsilon;
   of_x = kOfSquares * epsilon * far_x;
   of_square = kOfSquares * epsilon * most;
   of_p = kOfDiscriminant * epsilon * (4.0 * most_distance * most_ball + most * most);

@@ -5,7 +5,8 @@
 ///
 /// With r_1^2, r_2^2 the squares of the radii, D that of the distance of the centres and
 ///
-///     q_1 = D + r_1^2 - r_2^2,  q_2 = D + r_2^2 - r_1^2,  P = 4 D r_1^2 - q_1^2 = 4 D r_2^2 - q_2^2
+///     q_1 = D + r_1^2 - r_2^2,  q_2 = D + r_2^2 - r_1^2,  P = 4 D r_1^2 - q_1^2 = 4 D r_2^2 -
+///     q_2^2
 ///
 /// the circles cross where P > 0, in a chord of length sqrt(P / D), whose half is seen from the
 /// centres under the angles whose tangents are sqrt(P) / q_1 and sqrt(P) / q_2.
@@ -54,8 +55,7 @@ struct SlicePolynomial {
 /// In v = (z - base) / step, rounded from the arithmetic of the bodies.
 struct SliceExpansion {
   template <class T>
-  SliceExpansion(const CircularSections<T>& bodies, const DoubleDouble& base,
-                 double step) noexcept;
+  SliceExpansion(const CircularSections<T>& bodies, const DoubleDouble& base, double step) noexcept;
 
   double base, step;
   SlicePolynomial<2> x;  ///< of the second circle's centre; y is constant

@@ -38,9 +38,13 @@ DoubleDouble rounded_height(const T& z) {
 
 /// Which circle holds the other where they do not cross.
 enum class Inside { none, ball, second };
-Inside inside_at(const SliceExpansion& e, double v) {
-  if (e.q1(v) < 0.0) return Inside::ball;
-  return e.q2(v) < 0.0 ? Inside::second : Inside::none;
+/// Nothing where rounding hides a sign.
+std::optional<Inside> inside_at(const SliceExpansion& e, double v) {
+  const double q1 = e.q1(v), q2 = e.q2(v);
+  const double off = e.of_square + 16.0 * kU * std::max(e.q1.most(1.0), e.q2.most(1.0));
+  if (!(std::min(std::abs(q1), std::abs(q2)) > off)) return std::nullopt;
+  if (q1 < 0.0) return Inside::ball;
+  return q2 < 0.0 ? Inside::second : Inside::none;
 }
 
 template <class T>
@@ -100,10 +104,13 @@ class SliceSum {
       return;
     }
     const SliceExpansion e = about_middle(range);
-    const double known = std::abs(e.p.c[0]) - (e.p.most(1.0) - std::abs(e.p.c[0])) - e.of_p;
+    const double known = e.p.least(1.0) - e.of_p - 24.0 * kU * e.p.most(1.0);
     if (known > 0.0) {
-      if (e.p.c[0] < 0.0) return add_closed(e, SliceRange::about_middle, known);
-      if (add_crossing(e, SliceRange::about_middle)) return;
+      if (e.p.c[0] < 0.0) {
+        if (add_closed(e, SliceRange::about_middle, known)) return;
+      } else if (add_crossing(e, SliceRange::about_middle)) {
+        return;
+      }
     } else if (split_at_touch(range, e)) {
       return;
     }
@@ -122,8 +129,7 @@ class SliceSum {
     const double known = e.p.deflated().least(1.0) - 24.0 * kU * e.p.most(1.0);
     if (!(known > 0.0)) return false;
     if (e.p.c[1] > 0.0) return add_crossing(e, SliceRange::from_touch);
-    add_closed(e, SliceRange::from_touch, known);
-    return true;
+    return add_closed(e, SliceRange::from_touch, known);
   }
 
   bool add_crossing(const SliceExpansion& e, SliceRange range) {
@@ -153,14 +159,16 @@ class SliceSum {
 
   /// Where one circle holds the other, or none meets the other.
   /// @param known  P <= -known, or <= -|v| known
-  void add_closed(const SliceExpansion& e, SliceRange range, double known) {
+  bool add_closed(const SliceExpansion& e, SliceRange range, double known) {
     const bool middle = range == SliceRange::about_middle;
-    const Inside inside = inside_at(e, middle ? 0.0 : 0.5);
+    const std::optional<Inside> inside = inside_at(e, middle ? 0.0 : 0.5);
+    if (!inside) return false;
     const double length = std::abs(e.step) * (middle ? 2.0 : 1.0);
     SliceShare share;
     if (inside != Inside::none) {
       const SlicePolynomial<3>& r2 = inside == Inside::ball ? e.ball : e.second;
-      const double mean = middle ? r2.c[0] + r2.c[2] / 3.0 : r2.c[0] + r2.c[1] / 2.0 + r2.c[2] / 3.0;
+      const double mean =
+          middle ? r2.c[0] + r2.c[2] / 3.0 : r2.c[0] + r2.c[1] / 2.0 + r2.c[2] / 3.0;
       share.volume = kPi * length * mean;
       share.volume_error = kPi * length * (16.0 * kU * r2.most(1.0) + e.of_square);
     }
@@ -177,6 +185,7 @@ class SliceSum {
     }
     add(share);
     add_strip_of_closed(e, range, known);
+    return true;
   }
 
   void add_strip_of_closed(const SliceExpansion& e, SliceRange range, double known) {
@@ -194,7 +203,8 @@ class SliceSum {
     const SliceBounds b(e, SliceRange::from_touch, 1.0);
     const double share_1 = most_p / b.least_1, share_2 = most_p / b.least_2;
     if (b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
-      return 4.0 * (b.ball * share_1 * std::sqrt(share_1) + b.second * share_2 * std::sqrt(share_2));
+      return 4.0 *
+             (b.ball * share_1 * std::sqrt(share_1) + b.second * share_2 * std::sqrt(share_2));
     }
     return kPi * std::min(b.ball, b.second);
   }
@@ -242,8 +252,8 @@ class SliceSum {
     const double p = e.p.most(1.0) + e.of_p, share_1 = p / b.least_1, share_2 = p / b.least_2;
     SliceShare share;
     share.surface = 2.0 * kPi * length;
-    if (b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
-      const Inside inside = inside_at(e, 0.0);
+    const std::optional<Inside> inside = inside_at(e, 0.0);
+    if (inside && b.least_1 > 0.0 && b.least_2 > 0.0 && share_1 < 0.05 && share_2 < 0.05) {
       const SlicePolynomial<3>& r2 = inside == Inside::ball ? e.ball : e.second;
       if (inside != Inside::none) share.volume = kPi * length * (r2.c[0] + r2.c[2] / 3.0);
       share.volume_error =
@@ -254,8 +264,9 @@ class SliceSum {
       const double margin = 2.0 * level_error_ * (2.0 * b.q1 + level_error_);
       const double z = std::abs(e.base) + std::abs(e.step);
       const double off_angle = 1.8 * std::sqrt(share_1 + margin / b.least_1);
-      share.gradient_error = length * (4.0 * z * off_angle + 4.0 * off_angle * (level_error_ > 0.0) +
-                                       std::sqrt(p / b.least_distance) + 16.0 * kPi * kU * z);
+      share.gradient_error =
+          length * (4.0 * z * off_angle + 4.0 * off_angle * (level_error_ > 0.0) +
+                    std::sqrt(p / b.least_distance) + 16.0 * kPi * kU * z);
       return share;
     }
     const double off = e.of_square + 16.0 * kU * (b.ball + b.second);
@@ -277,8 +288,8 @@ class SliceSum {
     const SliceShare share = open_share(about_middle(range));
     const bool little = share.volume_error <= kOfOpen * volume_tolerance_ &&
                         share.gradient_error <= kOfOpen * area_tolerance_;
-    const bool room = range.halvings < kMostHalvings && ranges_ < kMostRanges &&
-                      count_ + 2 <= open_.size();
+    const bool room =
+        range.halvings < kMostHalvings && ranges_ < kMostRanges && count_ + 2 <= open_.size();
     if (little || !room) return add(share);
     halve(range);
   }

@@ -78,7 +78,7 @@ struct Balls {
 };
 
 // 3 L - 2 is exact for L in [4/3, 5/3) that is a multiple of 2^-51, and 3 L has a bit more than it.
-// geometry/relation.hpp (7)
+// geometry/relation.hpp (8)
 TEST(ImagePair, RelationIsExactWhereTheCentreOfTheImageIsNoDouble) {
   Draw draw;
   for (int k = 0; k < 50; ++k) {
@@ -102,7 +102,7 @@ TEST(ImagePair, RelationIsExactWhereTheCentreOfTheImageIsNoDouble) {
   EXPECT_EQ(relation(here.a, here.a, here.edges, {0, 0, 0}).relation, Relation::equal);
 }
 
-// geometry/relation.hpp (8)
+// geometry/relation.hpp (9)
 TEST(ImagePair, ExchangesItsBodies) {
   Draw draw;
   int meet = 0;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <ratio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -168,8 +169,10 @@ void see(Tally& tally, const EllipsoidPair& pair, double tolerance) {
   tally.not_reached += found.status != CommonVolumeStatus::ok;
   tally.share_volume = std::max(tally.share_volume, share);
   tally.share_gradient = std::max(tally.share_gradient, share_gradient);
-  tally.volume_error = std::max(tally.volume_error, over(Real(found.volume_error), static_cast<double>(volume)));
-  if (found.volume > 0.0) tally.relative = std::max(tally.relative, found.volume_error / found.volume);
+  tally.volume_error =
+      std::max(tally.volume_error, over(Real(found.volume_error), static_cast<double>(volume)));
+  if (found.volume > 0.0)
+    tally.relative = std::max(tally.relative, found.volume_error / found.volume);
   const Vec3& r = smaller.semi_axes();
   const double face = 3.14159 * std::max({r[0] * r[1], r[1] * r[2], r[2] * r[0]});
   tally.gradient_error = std::max(tally.gradient_error, found.gradient_error / face);
@@ -202,11 +205,13 @@ bool agree(std::uint64_t seed, long count, double tolerance, const std::string& 
       all.microseconds.insert(all.microseconds.end(), t.microseconds.begin(), t.microseconds.end());
     }
     std::sort(all.microseconds.begin(), all.microseconds.end());
-    const double median = all.microseconds.empty() ? 0 : all.microseconds[all.microseconds.size() / 2];
+    const double median =
+        all.microseconds.empty() ? 0 : all.microseconds[all.microseconds.size() / 2];
     const double most = all.microseconds.empty() ? 0 : all.microseconds.back();
     std::printf("%-24s %7ld %8ld %6ld %8ld %9.2g %9.2g %9.2g %9.2g %9.2g %7.1f %7.0f\n",
                 family.name, all.pairs, all.overlaps, all.wrong, all.not_reached, all.share_volume,
-                all.share_gradient, all.volume_error, all.relative, all.gradient_error, median, most);
+                all.share_gradient, all.volume_error, all.relative, all.gradient_error, median,
+                most);
     std::fflush(stdout);
     kept = kept && all.wrong == 0 && all.overlaps > 0;
   }

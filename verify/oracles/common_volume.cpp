@@ -214,7 +214,8 @@ Section integrated(const FastCircles& circles, const Digits80& low, const Digits
     bool settled = level > 2;
     for (std::size_t k = 0; k < 4; ++k) {
       now[k] = sum[k] * rule.step[level] * width;
-      const Digits80 scale = k == 0 ? abs(now[0]) : Digits80(abs(now[1]) + abs(now[2]) + abs(now[3]));
+      const Digits80 scale =
+          k == 0 ? abs(now[0]) : Digits80(abs(now[1]) + abs(now[2]) + abs(now[3]));
       settled = settled && abs(now[k] - before[k]) <= Digits80(1e-18) * scale;
     }
     if (settled) return now;
@@ -237,9 +238,9 @@ InBall in_ball(const Circles& c) {
   Coefficients<Real> slope;
   for (std::size_t k = 1; k < p.size(); ++k) slope.push_back(static_cast<int>(k) * p[k]);
   std::vector<Real> cuts{c.low, c.high};
-  for (const auto& more : {roots(p, c.low, c.high), roots(slope, c.low, c.high),
-                           roots(c.difference, c.low, c.high),
-                           roots({c.distance[1], 2 * c.distance[2]}, c.low, c.high)}) {
+  for (const auto& more :
+       {roots(p, c.low, c.high), roots(slope, c.low, c.high), roots(c.difference, c.low, c.high),
+        roots({c.distance[1], 2 * c.distance[2]}, c.low, c.high)}) {
     cuts.insert(cuts.end(), more.begin(), more.end());
   }
   std::sort(cuts.begin(), cuts.end());
@@ -256,7 +257,7 @@ InBall in_ball(const Circles& c) {
     }
     const Real q1 = value(c.difference, middle);
     const bool ball_inside = q1 <= 0,  // = 0: equal
-                other_inside = 2 * value(c.distance, middle) < q1;
+        other_inside = 2 * value(c.distance, middle) < q1;
     if (!ball_inside && !other_inside) continue;
     const Coefficients<Real>& r = ball_inside ? c.ball : c.other;
     const auto primitive = [&](const Real& z) -> Real {
@@ -302,7 +303,8 @@ struct PlainForm {
       centre[i] = static_cast<double>(c[i]);
       for (std::size_t j = 0; j < 3; ++j) {
         for (std::size_t k = 0; k < 3; ++k) {
-          const Real product = s.axes[k][i] * s.axes[k][j], square = s.semi_axes[k] * s.semi_axes[k];
+          const Real product = s.axes[k][i] * s.axes[k][j],
+                     square = s.semi_axes[k] * s.semi_axes[k];
           q[i][j] += static_cast<double>(Real(product / square));
           shape[i][j] += static_cast<double>(Real(product * square));
         }
@@ -339,8 +341,7 @@ Vector inner_point(const PlainForm& a, const PlainForm& b) {
     const double s = 0.5 * (low + high);
     std::array<Vector, 3> mixed{};
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j)
-        mixed[i][j] = (1 - s) * a.shape[i][j] + s * b.shape[i][j];
+      for (std::size_t j = 0; j < 3; ++j) mixed[i][j] = (1 - s) * a.shape[i][j] + s * b.shape[i][j];
     }
     const Vector to = times(a.shape, solved(mixed, minus(b.centre, a.centre)));
     for (std::size_t i = 0; i < 3; ++i) x[i] = a.centre[i] + (1 - s) * to[i];
