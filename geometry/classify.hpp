@@ -21,6 +21,7 @@
 
 namespace tangency {
 
+/// Allocates only where integers decide, tier `exact`; where memory ends then, the process does.
 Classification classify(const Quadric& quadric) noexcept;
 
 }  // namespace tangency

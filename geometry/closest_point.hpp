@@ -49,8 +49,11 @@ ClosestPoint closest_point(const Ellipsoid& body, const Vec3& point) noexcept;
 /// distance_error.
 ClosestPoint closest_point(const MatrixEllipsoid& body, const Vec3& point) noexcept;
 
-/// With the separation d = p - c given, in place of point and centre: for periodic images.
+/// With the separation d = p - c given, in place of point and centre: for periodic images. A name
+/// of its own, as intersect_from_centre() has: a point and a separation are both three numbers.
 /// @param separation  finite
 ClosestPoint closest_point_from_centre(const Ellipsoid& body, const Vec3& separation) noexcept;
+ClosestPoint closest_point_from_centre(const MatrixEllipsoid& body,
+                                       const Vec3& separation) noexcept;
 
 }  // namespace tangency

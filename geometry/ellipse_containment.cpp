@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_containment.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -27,13 +28,27 @@ struct Solved {
   GapTier tier;
 };
 
+/// M = (a1^2 u u' + a2^2 v v') / |u|^2
+RationalSolid<2> rational_solid(const Ellipse& e) {
+  using exact::to_rational;
+  const mpq_class x = to_rational(e.direction()[0]), y = to_rational(e.direction()[1]);
+  const mpq_class a = to_rational(e.semi_axes()[0]), b = to_rational(e.semi_axes()[1]);
+  const mpq_class square = x * x + y * y, aa = a * a / square, bb = b * b / square;
+  const mpq_class mixed = (aa - bb) * x * y;
+  RationalSolid<2> solid;
+  solid.centre = {to_rational(e.centre()[0]), to_rational(e.centre()[1])};
+  solid.shape[0] = {aa * x * x + bb * y * y, mixed};
+  solid.shape[1] = {mixed, aa * y * y + bb * x * x};
+  return solid;
+}
+
 RationalSolid<2> solid_of(const MatrixEllipse& body) {
-  return body.exact() != nullptr ? *body.exact() : exact::rational_solid(body.ellipse());
+  return body.exact() != nullptr ? *body.exact() : rational_solid(body.ellipse());
 }
 
 exact::MarginEnclosure margin_of(const AskedPair<Ellipse>& asked) {
   const auto [outer, inner] = asked.placed();
-  return exact::margin(exact::rational_solid(inner), exact::rational_solid(outer));
+  return exact::margin(rational_solid(inner), rational_solid(outer));
 }
 
 ContainmentMargin finished(const exact::MarginEnclosure& margin, int side) {
@@ -50,10 +65,7 @@ Solved solve(const PlanePair& pair) {
   Solved solved{detail::search_plane_gap(pair, start), GapTier::search};
   const double widest = detail::kWidestOk * kUnitRoundoff * pair.size;
   if (!solved.proof.global || solved.proof.high - solved.proof.low > widest) {
-    const double high =
-        solved.proof.global ? solved.proof.high : std::numeric_limits<double>::infinity();
-    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair.b, distance_of(pair));
-    solved.proof.high = std::min(solved.proof.high, high);
+    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair, distance_of(pair));
   }
   return solved;
 }
@@ -99,11 +111,12 @@ PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer,
 PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer) noexcept {
   return in_default_environment([&] {
     PlaneGap gap = found_gap({outer.ellipse(), inner.ellipse()});
-    const double off = inner.rounding() + outer.rounding();
+    double off = inner.rounding() + outer.rounding();
     if (off != 0.0 && std::isfinite(gap.gap)) {
       const Ellipse &a = outer.ellipse(), &b = inner.ellipse();
-      const double most = 2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() +
-                                 b.largest_semi_axis());
+      const double most =
+          2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
+      off += 4.0 * kUnitRoundoff * (off + std::abs(gap.gap));  // what sums round
       gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
     }
     return detail::as_clearance<PlaneClearance>(gap, gap.arm_b);

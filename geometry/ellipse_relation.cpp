@@ -37,6 +37,10 @@ EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept {
   return {found.answer.relation, found.answer.inner, crossings(found.answer.meeting), found.tier};
 }
 
+EllipseRelation relation(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
+  return relation(a.moved_to(Vec2::Zero()), b.moved_to(separation));
+}
+
 EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcept {
   if (a.exact() == nullptr && b.exact() == nullptr) return relation(a.ellipse(), b.ellipse());
   const exact::ConicAnswer found =
@@ -48,6 +52,10 @@ bool overlaps(const Ellipse& a, const Ellipse& b) noexcept {
   const Relation found =
       in_default_environment([&] { return detail::ellipse_meeting(a, b).answer.relation; });
   return found != Relation::separate && found != Relation::external_touch;
+}
+
+bool overlaps(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept {
+  return overlaps(a.moved_to(Vec2::Zero()), b.moved_to(separation));
 }
 
 }  // namespace tangency

@@ -33,11 +33,16 @@ struct EllipseRelation {
 
 /// The exact tier allocates; the filter does not.
 EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept;
+/// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// Exact for d as it is given.
+/// @param separation  finite
+EllipseRelation relation(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
 /// Of ellipses given by matrices: exact for the numbers as they were given. Allocates.
 EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcept;
 
 /// Do the interiors meet?
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept;
+bool overlaps(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
 }  // namespace tangency

@@ -29,6 +29,27 @@ Symmetric3 with_eigenvalues(const Mat3& r, const Vec3& e) {
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(2, 0), entry(0, 1)};
 }
 
+// docs/derivations/bounding-box.md: the most that one operation errs relative to its result, what
+// roots of the stored shape are off, and entries of the rotation, over the largest semi-axis.
+constexpr double kEpsilon = 0x1p-52, kOfRoot = 10 * kEpsilon, kOfEntry = 0x1p-93;
+
+/// h(e_i) = sqrt(M_ii), outwards by more than its rounding.
+Vec3 beyond_roots(const Symmetric3& m) {
+  const Vec3 root = Vec3(m.xx, m.yy, m.zz).cwiseSqrt();
+  return root + kOfRoot * root;
+}
+
+/// Where squares of semi-axes leave the range of doubles. Apart from the others, whose box costs
+/// what its arithmetic costs.
+[[gnu::noinline, gnu::cold]] Vec3 half_widths_by_own_unit(const Ellipsoid& e) {
+  const int power = exponent_of(e.largest_semi_axis());
+  const Vec3 axes = scaled_by_power(e.semi_axes(), -power);
+  const Vec3 unit = beyond_roots(with_eigenvalues(e.rotation(), axes.cwiseAbs2()));
+  return unit.unaryExpr([power](double h) {
+    return scaled_by_power(h + 2.0 * kOfEntry, power) + std::numeric_limits<double>::denorm_min();
+  });
+}
+
 }  // namespace
 
 InvalidEllipsoid::InvalidEllipsoid(const EllipsoidFault& fault)
@@ -117,27 +138,10 @@ double Ellipsoid::level(const Vec3& point) const noexcept {
   });
 }
 
-// h(e_i) = sqrt(M_ii), outwards by more than rounding: docs/derivations/bounding-box.md.
 Eigen::AlignedBox3d Ellipsoid::bounding_box() const noexcept {
-  constexpr double kEpsilon = 0x1p-52, kShape = 10 * kEpsilon, kEntry = 0x1p-93;
-  const auto widened = [&](const Symmetric3& m) {
-    const Vec3 half = Vec3(m.xx, m.yy, m.zz).cwiseSqrt();
-    return Vec3(half + kShape * half);
-  };
   return in_default_environment([&]() -> Eigen::AlignedBox3d {
-    Vec3 half;
-    if (moderate_) {
-      half = widened(shape_) + Vec3::Constant(kEntry * largest_);
-    } else {
-      const int power = exponent_of(largest_);
-      const auto scaled = [&](double axis) { return scaled_by_power(axis, -power); };
-      const Vec3 axes = semi_axes_.unaryExpr(scaled);
-      const Vec3 unit = widened(with_eigenvalues(rotation_, axes.cwiseAbs2()));
-      const auto back = [&](double h) {
-        return scaled_by_power(h + 2.0 * kEntry, power) + std::numeric_limits<double>::denorm_min();
-      };
-      half = unit.unaryExpr(back);
-    }
+    Vec3 half = moderate_ ? Vec3(beyond_roots(shape_) + Vec3::Constant(kOfEntry * largest_))
+                          : half_widths_by_own_unit(*this);
     half += 2.0 * kEpsilon * centre_.cwiseAbs();
     return {centre_ - half, centre_ + half};
   });

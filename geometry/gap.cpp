@@ -41,13 +41,16 @@ struct Exact {
   const detail::AskedPair<Ellipsoid>& asked;
 
   Relation relation() const {
-    const auto [a, b] = asked.placed();
-    return tangency::relation(a, b).relation;
+    const auto& [a, b, separation] = asked;
+    return (separation != nullptr ? tangency::relation(a, b, *separation)
+                                  : tangency::relation(a, b))
+        .relation;
   }
   /// Sets the tier to `exact` where that is what it took.
   bool overlaps(GapTier& tier) const {
-    const auto [a, b] = asked.placed();
-    const OverlapAnswer answer = overlap_answer(a, b);
+    const auto& [a, b, separation] = asked;
+    const OverlapAnswer answer =
+        separation != nullptr ? overlap_answer(a, b, *separation) : overlap_answer(a, b);
     if (answer.tier == Tier::exact) tier = GapTier::exact;
     return answer.overlaps;
   }
@@ -220,14 +223,26 @@ Gap finished(Solved solved, const Pair& pair) {
 struct ExactMatrices {
   const MatrixEllipsoid& a;
   const MatrixEllipsoid& b;
+  const Vec3* separation = nullptr;  ///< in place of the centres, if it is given
 
-  Relation relation() const { return tangency::relation(a, b).relation; }
+  RelationAnswer answer() const {
+    return separation != nullptr ? tangency::relation(a, b, *separation) : tangency::relation(a, b);
+  }
+  Relation relation() const { return answer().relation; }
   bool overlaps(GapTier& tier) const {
-    const RelationAnswer answer = tangency::relation(a, b);
+    const RelationAnswer answer = this->answer();
     if (answer.tier == Tier::exact) tier = GapTier::exact;
     return answer.relation != Relation::separate && answer.relation != Relation::external_touch;
   }
 };
+
+/// @param gap  that of the bodies by semi-axes, whose centres are d apart
+Gap of_matrices(const Gap& gap, const ExactMatrices& exact, const Vec3& d) {
+  const double off = exact.a.rounding() + exact.b.rounding();
+  if (off == 0.0 || !std::isfinite(gap.gap)) return gap;
+  return in_default_environment(
+      [&] { return detail::widened(gap, off, exact, 2.0 * d.cwiseAbs().maxCoeff() + off); });
+}
 
 /// Is the pair that is solved the one that was asked about? Scaling changes a d that underflows and
 /// the thinnest axes.
@@ -275,12 +290,13 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept {
   const Gap gap = signed_gap(a.ellipsoid(), b.ellipsoid());
-  const double off = a.rounding() + b.rounding();
-  if (off == 0.0 || !std::isfinite(gap.gap)) return gap;
-  return in_default_environment([&] {
-    const Vec3 d = b.ellipsoid().centre() - a.ellipsoid().centre();
-    return detail::widened(gap, off, ExactMatrices{a, b}, 2.0 * d.cwiseAbs().maxCoeff() + off);
-  });
+  return of_matrices(gap, {a, b}, b.ellipsoid().centre() - a.ellipsoid().centre());
+}
+
+Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
+               const Vec3& separation) noexcept {
+  const Gap gap = signed_gap(a.ellipsoid(), b.ellipsoid(), separation);
+  return of_matrices(gap, {a, b, &separation}, separation);
 }
 
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,

@@ -45,7 +45,8 @@ struct Gap {
 /// tie (concentric pairs, symmetric deep overlaps) the answer is the first of them in the order of
 /// the search: the Perram-Wertheim direction, then the axes of A, then those of B, each pointing
 /// with d (or along its positive body axis where d is normal to it). Coaxial bodies of revolution:
-/// along their axis, then across it along the first equal axis of A (of B, if A is a sphere).
+/// along their axis, then across it along the first equal axis of A (of B, if A is a sphere). Two
+/// concentric spheres: along A's first axis.
 ///
 /// `ok` wherever the gap is above -rho, rho = a_min^2/a_max of A plus that of B, and gap_error at
 /// most 100 u L; deeper pairs are searched, and `ok` where the search over all normals finished
@@ -64,6 +65,7 @@ Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) n
 /// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with the sign
 /// of the true bodies' relation, and their roundings in gap_error, which `ok` bounds no longer.
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
+Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Vec3& separation) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
 /// and stays with the stationary answer it leads to. `ok` where that is known to be global, and

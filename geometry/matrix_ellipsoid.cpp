@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include <tangency/geometry/bodies/classify_coefficients.hpp>
+#include <tangency/geometry/bodies/given_matrix.hpp>
 #include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
@@ -21,12 +23,8 @@ using exact::to_rational;
 /// Semi-axes may be off a right angle by so much of their lengths. Chosen: files of 13 digits pass.
 constexpr double kRightAngle = 0x1p-40;
 
-constexpr const char* kFinite = "an entry of a matrix must be finite";
-constexpr const char* kPositive = "the smallest eigenvalue must be > 0";
-constexpr const char* kInRange = "the semi-axes of the body must be within the range of doubles";
-
 [[noreturn]] void refuse(const char* field, double value, const char* rule) {
-  throw InvalidEllipsoid({field, value, rule});
+  exact::refuse<InvalidEllipsoid>(field, value, rule);
 }
 
 void require_finite(const Vec3& centre) {
@@ -52,8 +50,7 @@ RationalMatrix<3> rational(const Mat3& m, const EntryNames& names) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const double entry = m(static_cast<int>(i), static_cast<int>(j));
-      if (!std::isfinite(entry)) refuse(names[i][j], entry, kFinite);
-      result[i][j] = to_rational(entry);
+      result[i][j] = exact::rational_entry<InvalidEllipsoid>(entry, names[i][j]);
     }
   }
   return result;
@@ -69,35 +66,16 @@ RationalMatrix<3> definite(const Mat3& m, const EntryNames& names, const char* f
                "the matrix must be symmetric, and its other entry is not equal");
     }
   }
-  if (!exact::is_positive_definite(result))
-    refuse(field, exact::smallest_eigenvalue(result), kPositive);
+  exact::require_definite<InvalidEllipsoid>(result, field);
   return result;
 }
 
-mpq_class rational_level(double level) {
-  if (!std::isfinite(level) || !(level > 0.0))
-    refuse("level", level, "a level must be finite and > 0");
-  return to_rational(level);
-}
-
-RationalMatrix<3> scaled(RationalMatrix<3> m, const mpq_class& factor) {
-  for (auto& row : m) {
-    for (mpq_class& entry : row) entry *= factor;
-  }
-  return m;
-}
-
 Ellipsoid nearest_ellipsoid(const exact::NearestSolid<3>& s, const char* field) {
-  const Vec3 axes(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2]);
-  if (!axes.allFinite()) refuse(field, axes.maxCoeff(), kInRange);
-  if (!std::isfinite(s.relative)) refuse(field, axes.minCoeff(), kInRange);
+  exact::require_in_range<InvalidEllipsoid>(s, s.relative, field);
   return Ellipsoid(
-      Vec3(s.centre[0], s.centre[1], s.centre[2]), axes,
+      Vec3(s.centre[0], s.centre[1], s.centre[2]),
+      Vec3(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2]),
       Quaternion(s.orientation[0], s.orientation[1], s.orientation[2], s.orientation[3]));
-}
-
-std::shared_ptr<const RationalSolid<3>> shared(RationalSolid<3> solid) {
-  return std::make_shared<const RationalSolid<3>>(std::move(solid));
 }
 
 RationalMatrix<3> quadric_block(const Quadric::Coefficients& c) {
@@ -105,6 +83,10 @@ RationalMatrix<3> quadric_block(const Quadric::Coefficients& c) {
            {to_rational(c[3]), to_rational(c[1]), to_rational(c[4])},
            {to_rational(c[5]), to_rational(c[4]), to_rational(c[2])}}};
 }
+
+// Of level_of_confidence(). Newton's method takes at most 14 steps (measured, for confidences of
+// every size). Halvings take a bracket with ends in a ratio of 8 to 2^-77 of x, whatever those did.
+constexpr int kNewtonSteps = 60, kHalvings = 80;
 
 /// Both tails of chi-squared with three degrees of freedom, and its density, at x > 0. With
 /// y = x/2 the lower one is density (4/3) y (1 + y/(5/2) + y^2/((5/2)(7/2)) + ...): all terms are
@@ -141,16 +123,20 @@ MatrixEllipsoid::MatrixEllipsoid(std::shared_ptr<const RationalSolid<3>> exact, 
 
 MatrixEllipsoid MatrixEllipsoid::from_shape(const Vec3& centre, const Mat3& shape, double level) {
   require_finite(centre);
-  const mpq_class factor = rational_level(level);
-  return {shared({rational(centre), scaled(definite(shape, kShapeNames, "m"), factor)}), "m"};
+  const mpq_class factor = exact::rational_level<InvalidEllipsoid>(level);
+  return {exact::shared(RationalSolid<3>{rational(centre),
+                                         exact::scaled(definite(shape, kShapeNames, "m"), factor)}),
+          "m"};
 }
 
 MatrixEllipsoid MatrixEllipsoid::from_precision(const Vec3& centre, const Mat3& precision,
                                                 double level) {
   require_finite(centre);
-  const mpq_class factor = rational_level(level);
+  const mpq_class factor = exact::rational_level<InvalidEllipsoid>(level);
   const RationalMatrix<3> given = definite(precision, kPrecisionNames, "p");
-  return {shared({rational(centre), scaled(exact::inverse(given), factor)}), "p"};
+  return {exact::shared(
+              RationalSolid<3>{rational(centre), exact::scaled(exact::inverse(given), factor)}),
+          "p"};
 }
 
 MatrixEllipsoid MatrixEllipsoid::from_axes(const Vec3& centre, const Mat3& axes) {
@@ -173,7 +159,7 @@ MatrixEllipsoid MatrixEllipsoid::from_axes(const Vec3& centre, const Mat3& axes)
       for (std::size_t k = 0; k < 3; ++k) solid.shape[i][j] += u[i][k] * u[j][k];
     }
   }
-  return {shared(std::move(solid)), "u1"};
+  return {exact::shared(std::move(solid)), "u1"};
 }
 
 MatrixEllipsoid MatrixEllipsoid::from_quadric(const Quadric& quadric) {
@@ -191,8 +177,8 @@ MatrixEllipsoid MatrixEllipsoid::from_quadric(const Quadric& quadric) {
     at_centre += solid.centre[i] * to_rational(c[6 + i]);
   }
   // Whatever the sign of the block, this one's is the other.
-  solid.shape = scaled(std::move(shape), mpq_class(-at_centre));
-  return {shared(std::move(solid)), "quadric"};
+  solid.shape = exact::scaled(std::move(shape), mpq_class(-at_centre));
+  return {exact::shared(std::move(solid)), "quadric"};
 }
 
 double level_of_confidence(double confidence, int dimensions) {
@@ -203,20 +189,24 @@ double level_of_confidence(double confidence, int dimensions) {
   return in_default_environment([&] {
     const long double p = confidence;
     if (dimensions == 2) return static_cast<double>(-2 * std::log1p(-p));
-    // Newton's steps, within a bracket that each of them narrows.
-    long double low = 0, high = 1;
-    while (chi_squared_of_three(high).above > 1 - p) low = high, high *= 2;
+    // With y = x/2 the lower tail is at most 4/(3 sqrt pi) y^(3/2), and at least e^-y times that: x
+    // is above `low` and, where 8 low < 1, below 8 low. Else the ends are in a ratio of 8 or of 2.
+    const long double pi = std::acos(-1.0L), root = std::cbrt(p);
+    long double low = 1.98L * std::cbrt(9 * pi / 16) * root * root;
+    long double high = std::min(1.0L, 8 * low);
+    const auto is_below = [&](const Tail& t) { return p < 0.5L ? t.below < p : t.above > 1 - p; };
+    while (is_below(chi_squared_of_three(high))) low = high, high *= 2;
     long double x = (low + high) / 2;
-    for (int step = 0; step < 200; ++step) {
+    for (int step = 0; step < kNewtonSteps + kHalvings; ++step) {
       const Tail tail = chi_squared_of_three(x);
       const long double excess = p < 0.5L ? tail.below - p : (1 - p) - tail.above;
       (excess > 0 ? high : low) = x;
-      long double next = x - excess / tail.density;
-      if (!(next > low && next < high)) next = (low + high) / 2;
-      if (std::abs(next - x) <= 0x1p-66L * x) return static_cast<double>(next);
-      x = next;
+      const long double newton = x - excess / tail.density;
+      if (std::abs(newton - x) <= 0x1p-58L * x) return static_cast<double>(newton);
+      const bool halves = step >= kNewtonSteps || !(newton > low && newton < high);
+      x = halves ? (low + high) / 2 : newton;
     }
-    return static_cast<double>(x);
+    return static_cast<double>(x);  // in a bracket that is narrower than its rounding
   });
 }
 

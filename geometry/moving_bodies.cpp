@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <tangency/geometry/batch/moving_lanes.hpp>
-#include <tangency/geometry/image_pair.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -30,9 +29,12 @@ void require_poses(const char* call, const PoseColumns& poses, std::size_t bodie
     contract::wrong_column(call, "centres", poses.centres.size(), bodies);
 }
 
+/// In the default environment, for others may read a subnormal float as 0.
 template <class Column, class T>
 void copy(const Column& from, T* to) {
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+  in_default_environment([&] {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+  });
 }
 
 }  // namespace

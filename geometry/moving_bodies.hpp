@@ -10,8 +10,9 @@
 ///
 /// (1) What is asked of a body depends on its numbers alone, to the bit: not on how they came here,
 ///     in double or float of the same value, in which range, or what the body was before.
-/// (2) Bodies with centres have the answers of the same bodies without, at the separations c_B -
-///     c_A, wherever those are exact; where they round, the rounding is in gap_error.
+/// (2) Bodies with centres have the gaps of the same bodies without at the separations c_B - c_A:
+///     signed_gaps() within the errors of both, whose own counts what the difference is rounded by;
+///     follow_gaps(), which asks of the rounded one, to the bit.
 /// (3) remove() leaves every body as it is but the last, which takes the free place.
 ///
 /// The bodies are in one of two states:

@@ -32,6 +32,10 @@ constexpr double kOfSize = 0x1p-61;
 constexpr double kOfFactor = (1.0 + 0x1p-6) * kUnitRoundoff;
 constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 
+constexpr double kOfValue =
+    0x1p8;  // of L, in units of epsilon: evaluation of a gap (sections 3, 4)
+constexpr double kRoundedUp = 1.0 + 0x1p-40;  // covers the roundings of a bound in doubles
+
 constexpr double kTurned = 0x1p7;  // of R'v over |v|, in units of the arithmetic's epsilon
 constexpr double kOfFoot = 1.5;    // of the foot over |z|, for a turn of the line: sqrt(2)
 
@@ -50,7 +54,7 @@ template <class Measure>
 using Measured = std::optional<typename Measure::Answer>;
 
 OtherGap nothing(OtherGapStatus status) {
-  return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status};
+  return {0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), status, 0.0};
 }
 
 template <class T>
@@ -58,11 +62,19 @@ Vector3<T> unit(const Vector3<T>& v) {
   return (T(1.0) / length(v)) * v;
 }
 
+/// @param off  bounds |gap - true gap|
 template <class T>
 OtherGap rounded(const T& gap, const Vector3<T>& normal, const Vector3<T>& arm_a,
-                 const Vector3<T>& arm_b) {
-  return {static_cast<double>(gap), detail::rounded(normal), detail::rounded(arm_a),
-          detail::rounded(arm_b), OtherGapStatus::ok};
+                 const Vector3<T>& arm_b, const Rough<T>& off) {
+  const auto value = static_cast<double>(gap);
+  const double error =
+      kRoundedUp * (kUnitRoundoff * std::abs(value) + static_cast<double>(off)) + 2.0 * kDenormal;
+  return {value,
+          detail::rounded(normal),
+          detail::rounded(arm_a),
+          detail::rounded(arm_b),
+          OtherGapStatus::ok,
+          error};
 }
 
 /// What both gaps have in common.
@@ -85,8 +97,9 @@ struct BetweenTangentPlanes : AnyGap {
     const Vector3<T> n = unit(pair.at.v);
     const Vector3<T> y_a = pair.a.stretched(n), y_b = pair.b.stretched(n);
     const T h_a = length(y_a), h_b = length(y_b), one = 1.0;
+    const R off = (pair.at.turn + R(kOfValue * detail::Arithmetic<T>::kEpsilon)) * pair.size;
     return rounded(dot(n, pair.d) - h_a - h_b, n, pair.a.spread((one / h_a) * y_a),
-                   -pair.b.spread((one / h_b) * y_b));
+                   -pair.b.spread((one / h_b) * y_b), off);
   }
 };
 
@@ -96,6 +109,7 @@ struct AlongTheNormal : AnyGap {
   struct End {
     enum { known, misses, unknown } is = unknown;
     Vector3<T> arm;
+    Rough<T> off;  ///< bounds |the error of arm|
   };
 
   /// In the coordinates that make the body the unit ball the line is z + t e.
@@ -119,14 +133,12 @@ struct AlongTheNormal : AnyGap {
         of_v * rough(length(pair.at.v)) / (R(body.body.smallest_semi_axis()) * rough(length_w));
     const R of_foot = slack * (off + R(kOfFoot) * rough(length(z)) * turn);
     const R of_room = of_foot * (two * sqrt(rough(square)) + of_foot);
-    if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}};
-    if (static_cast<double>(room) < 0.0) return {End<T>::misses, {}};
+    if (!(two * of_room < abs(rough(room)))) return {End<T>::unknown, {}, {}};
+    if (static_cast<double>(room) < 0.0) return {End<T>::misses, {}, {}};
     const T cosine = sqrt(room);
-    const R error = of_foot + turn + of_room / rough(cosine);
-    if (!(R(body.body.largest_semi_axis()) * error < R(kOfSize) * pair.size)) {
-      return {End<T>::unknown, {}};
-    }
-    return {End<T>::known, body.spread(foot + T(sign) * cosine * e)};
+    const R error = R(body.body.largest_semi_axis()) * (of_foot + turn + of_room / rough(cosine));
+    if (!(error < R(kOfSize) * pair.size)) return {End<T>::unknown, {}, {}};
+    return {End<T>::known, body.spread(foot + T(sign) * cosine * e), error};
   }
 
   template <class T>
@@ -142,7 +154,10 @@ struct AlongTheNormal : AnyGap {
       return std::nullopt;
     }
     const Vector3<T> n = unit(pair.at.v);
-    return rounded(dot(n, pair.d + at_b.arm + -at_a.arm), n, at_a.arm, at_b.arm);
+    using R = Rough<T>;
+    const R of_value = R(kOfValue * detail::Arithmetic<T>::kEpsilon);
+    const R off = at_a.off + at_b.off + (pair.at.turn * pair.at.turn + of_value) * pair.size;
+    return rounded(dot(n, pair.d + at_b.arm + -at_a.arm), n, at_a.arm, at_b.arm, off);
   }
 };
 
@@ -213,9 +228,14 @@ bool as_asked(const UnitPair& pair) {
 
 PerramWertheimFactor scaled_back(const PerramWertheimFactor& found, int) { return found; }
 OtherGap scaled_back(const OtherGap& found, int exponent) {
-  return {scaled_by_power(found.gap, exponent), found.normal,
-          scaled_by_power(found.arm_a, exponent), scaled_by_power(found.arm_b, exponent),
-          found.status};
+  // In the caller's unit gap and error may be subnormal, and so rounded.
+  const double error = scaled_by_power(found.gap_error, exponent);
+  return {scaled_by_power(found.gap, exponent),
+          found.normal,
+          scaled_by_power(found.arm_a, exponent),
+          scaled_by_power(found.arm_b, exponent),
+          found.status,
+          exponent == 0 || found.status != OtherGapStatus::ok ? error : error + 2.0 * kDenormal};
 }
 
 template <class Measure>

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/geometry/bodies/ellipsoid_form.hpp>
+#include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
 
@@ -110,16 +110,15 @@ class MarginForm {
     for (std::size_t i = 0; i < N; ++i) {
       apart[i] = Polynomial({lengths.numerator(e[i])});
       for (std::size_t j = 0; j < N; ++j) {
-        m[i][j] = Polynomial(
-            {-shapes.numerator(inner.shape[i][j]), shapes.numerator(outer.shape[i][j])});
+        m[i][j] =
+            Polynomial({-shapes.numerator(inner.shape[i][j]), shapes.numerator(outer.shape[i][j])});
       }
     }
     // N / D = (unit / length^2) e' adj e / det.
     const Polynomial unit({shapes.value()}), square({lengths.value() * lengths.value()});
     denominators_.push_back(square * determinant_of(m));
     numerator_ = unit * form_of_adjugate(m, apart);
-    for (std::size_t k = 1; k < N; ++k)
-      denominators_.push_back(denominators_.back().derivative());
+    for (std::size_t k = 1; k < N; ++k) denominators_.push_back(denominators_.back().derivative());
     const Polynomial& d = denominators_.front();
     slope_ = Polynomial({0, 0, 1}) *
              difference(numerator_ * d.derivative(), numerator_.derivative() * d);
@@ -193,35 +192,6 @@ MarginEnclosure root(const mpq_class& low, const mpq_class& high) {
 
 }  // namespace
 
-RationalSolid<3> rational_solid(const Ellipsoid& e) {
-  const ScaledRotation rotation = scaled_rotation(e.orientation());
-  const mpz_class square = rotation.squared_length * rotation.squared_length;
-  RationalSolid<3> solid;
-  for (std::size_t i = 0; i < 3; ++i) {
-    solid.centre[i] = to_rational(e.centre()[static_cast<int>(i)]);
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const mpq_class a = to_rational(e.semi_axes()[static_cast<int>(k)]);
-        solid.shape[i][j] += a * a * rotation.matrix[i][k] * rotation.matrix[j][k];
-      }
-      solid.shape[i][j] /= square;
-    }
-  }
-  return solid;
-}
-
-RationalSolid<2> rational_solid(const Ellipse& e) {
-  const mpq_class x = to_rational(e.direction()[0]), y = to_rational(e.direction()[1]);
-  const mpq_class a = to_rational(e.semi_axes()[0]), b = to_rational(e.semi_axes()[1]);
-  const mpq_class square = x * x + y * y, aa = a * a / square, bb = b * b / square;
-  RationalSolid<2> solid;
-  solid.centre = {to_rational(e.centre()[0]), to_rational(e.centre()[1])};
-  const mpq_class mixed = (aa - bb) * x * y;
-  solid.shape[0] = {aa * x * x + bb * y * y, mixed};
-  solid.shape[1] = {mixed, aa * y * y + bb * x * x};
-  return solid;
-}
-
 template <std::size_t N>
 MarginEnclosure margin(const RationalSolid<N>& inner, const RationalSolid<N>& outer) {
   const MarginForm<N> form(inner, outer);
@@ -235,7 +205,8 @@ MarginEnclosure margin(const RationalSolid<N>& inner, const RationalSolid<N>& ou
   // s^2 is at most 1/v, so that it takes as many halvings at least.
   for (mp_bitcnt_t i = 0; i < kBits; ++i) halve();
   for (;; halve()) {
-    // The maximum is between: 1/v is less at `beyond` than there, and N/D less than anywhere before.
+    // The maximum is between: 1/v is less at `beyond` than there, and N/D less than anywhere
+    // before.
     const mpq_class least = 1 / beyond, quotient = form.quotient(beyond);
     const mpq_class low = least - quotient, width = 1 / below - least;
     if (low > 0 && (width << kBits) <= low) return root(low, low + width);
@@ -258,7 +229,8 @@ RoundedMargin rounded(const MarginEnclosure& enclosure, int side) {
   if (side < 0 && value >= 1.0) value = 1.0 - kUnitRoundoff;
   if (value == 0.0) value = std::numeric_limits<double>::denorm_min();
   const mpq_class at = to_rational(value);
-  return {value, double_above(std::max(mpq_class(enclosure.high - at), mpq_class(at - enclosure.low)))};
+  return {value,
+          double_above(std::max(mpq_class(enclosure.high - at), mpq_class(at - enclosure.low)))};
 }
 
 }  // namespace tangency::exact

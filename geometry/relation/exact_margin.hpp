@@ -19,13 +19,8 @@
 #include <cstddef>
 
 #include <tangency/geometry/bodies/rational_solid.hpp>
-#include <tangency/geometry/ellipse.hpp>
-#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::exact {
-
-RationalSolid<3> rational_solid(const Ellipsoid& e);
-RationalSolid<2> rational_solid(const Ellipse& e);
 
 /// Of a number that is not negative.
 struct MarginEnclosure {

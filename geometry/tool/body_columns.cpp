@@ -99,6 +99,8 @@ or, of the ellipse (x-c)' M^-1 (x-c) <= level,
   a.confidence     or, in (0, 1), the level that holds this share of a normal distribution
 or, without a centre, the coefficients of A x^2 + B xy + C y^2 + D x + E y + F = 0
   a.A a.B a.C a.D a.E a.F
+                   with --mixed-terms half those of A x^2 + 2B xy + C y^2 + 2D x + 2E y + F,
+                   entries of the matrix with the rows (A, B, D), (B, C, E), (D, E, F)
 Relation and crossings are exact for the numbers as they are read, in every form. The
 other numbers are those of the nearest ellipse by semi-axes and direction; how far it is
 from the true one is in gap_error.
@@ -156,8 +158,9 @@ MatrixEllipsoid BodyColumns::read(const tables::RowCursor& row) const {
   }
 }
 
-EllipseColumns::EllipseColumns(const tables::Header& header, std::string_view body)
-    : columns_(header, body, ellipse_forms(), kOnePlaneForm) {}
+EllipseColumns::EllipseColumns(const tables::Header& header, std::string_view body,
+                               MixedTerms mixed_terms)
+    : columns_(header, body, ellipse_forms(), kOnePlaneForm), mixed_terms_(mixed_terms) {}
 
 MatrixEllipse EllipseColumns::body_of(const tables::RowCursor& row) const {
   const std::vector<double> p = columns_.numbers(row);
@@ -174,7 +177,12 @@ MatrixEllipse EllipseColumns::body_of(const tables::RowCursor& row) const {
     case PlaneForm::conic:
       break;
   }
-  return MatrixEllipse::from_conic({p[0], p[1], p[2], p[3], p[4], p[5]});
+  std::array<double, 6> c{};
+  std::ranges::copy(p, c.begin());
+  if (mixed_terms_ == MixedTerms::half) {
+    for (const std::size_t k : {1U, 3U, 4U}) c[k] *= 2.0;
+  }
+  return MatrixEllipse::from_conic(c);
 }
 
 MatrixEllipse EllipseColumns::read(const tables::RowCursor& row) const {
@@ -182,6 +190,20 @@ MatrixEllipse EllipseColumns::read(const tables::RowCursor& row) const {
     return body_of(row);
   } catch (const InvalidEllipse& invalid) {
     throw columns_.refused(row, invalid.fault().field, invalid.fault().value, invalid.fault().rule);
+  }
+}
+
+void write_inner(Inner inner, tables::RowText& out) {
+  switch (inner) {
+    case Inner::none:
+      out.empty();
+      break;
+    case Inner::a:
+      out.text("a");
+      break;
+    case Inner::b:
+      out.text("b");
+      break;
   }
 }
 

@@ -7,12 +7,13 @@
 
 #include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tool/columns.hpp>
 
 namespace tangency::tool {
 
-/// How a quadric's D, E, F, G, H and J are written.
+/// How a quadric's D, E, F, G, H and J are written, and a conic's B, D and E.
 enum class MixedTerms {
   half,  ///< 2D xy and so on stand in the equation
   full,  ///< D xy does
@@ -51,7 +52,8 @@ class BodyColumns {
 /// precision matrix; or by a conic.
 class EllipseColumns {
  public:
-  EllipseColumns(const tables::Header& header, std::string_view body);
+  EllipseColumns(const tables::Header& header, std::string_view body,
+                 MixedTerms mixed_terms = MixedTerms::full);
 
   MatrixEllipse read(const tables::RowCursor& row) const;
 
@@ -59,6 +61,10 @@ class EllipseColumns {
   MatrixEllipse body_of(const tables::RowCursor& row) const;
 
   FormColumns columns_;
+  MixedTerms mixed_terms_;
 };
+
+/// The cell of the column inner: a, b or nothing.
+void write_inner(Inner inner, tables::RowText& out);
 
 }  // namespace tangency::tool

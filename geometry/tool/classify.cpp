@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -100,22 +99,16 @@ tables::RowFunction bind(const tables::Header& header, Classify classify_row) {
 }  // namespace
 
 void add_classify(tables::Program& program) {
-  struct Options : tables::RowStreamOptions {
-    std::string mixed_terms = "half";
-  };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command = program.subcommand("classify", "Exact types of quadrics");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, *options);
-  command.footer(kHelp);
-  command.runs([options] {
-    const Classify one = options->mixed_terms == "full" ? by_full_terms : by_half_terms;
-    const auto bind_rows = [one](const tables::Header& header) { return bind(header, one); };
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "type",
-                               .bind = tables::row_by_row(bind_rows)};
-    return tables::run_row_stream(task, *options);
-  });
+  add_row_command<QuadricOptions>(
+      program, {.name = "classify",
+                .description = "Exact types of quadrics",
+                .help = kHelp,
+                .task = [](const QuadricOptions& options) {
+                  const bool full = options.mixed_terms == "full";
+                  const Classify one = full ? by_full_terms : by_half_terms;
+                  return row_task(kOutputColumns, "type",
+                                  [one](const auto& header) { return bind(header, one); });
+                }});
 }
 
 }  // namespace tangency::tool

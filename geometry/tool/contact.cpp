@@ -40,7 +40,9 @@ Output columns, in this order:
   pb.x pb.y pb.z   witness point on b; pb - pa = gap n
   gap_error        proven: the true gap is this near to gap; on a local row it bounds the
                    distance to the local value, and the true gap is at least
-                   gap - gap_error; empty for the methods other than common-normal
+                   gap - gap_error. Of perram-wertheim and midpoint-potential it bounds the
+                   distance to the gap by that definition, and is empty where a body is given
+                   by a matrix; empty for trace
   status           see below
   inner            a or b, the body inside, for internal_touch; else empty
 and those that --columns names, in the order of the names; empty where a row has none:
@@ -133,8 +135,12 @@ template <OtherGap (*find)(const Ellipsoid&, const Ellipsoid&) noexcept>
 Answer by_other_definition(const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
   const OtherGap found = find(a.ellipsoid(), b.ellipsoid());
   switch (found.status) {
-    case OtherGapStatus::ok:
-      return with_numbers(a, b, found, "ok", std::nullopt);
+    case OtherGapStatus::ok: {
+      // What the rounding of a matrix to semi-axes does to these gaps is not bounded.
+      const bool by_axes = a.exact() == nullptr && b.exact() == nullptr;
+      const auto error = by_axes ? std::optional(found.gap_error) : std::nullopt;
+      return with_numbers(a, b, found, "ok", error);
+    }
     case OtherGapStatus::not_applicable:
       return without_numbers(relation(a, b), "not_applicable");
     case OtherGapStatus::not_converged:
@@ -167,17 +173,7 @@ tables::RowOutcome write_answer(const Answer& answer, const MatrixEllipsoid& a,
     out.empty(11);
   }
   out.text(answer.status);
-  switch (answer.relation.inner) {
-    case Inner::none:
-      out.empty();
-      break;
-    case Inner::a:
-      out.text("a");
-      break;
-    case Inner::b:
-      out.text("b");
-      break;
-  }
+  write_inner(answer.relation.inner, out);
   if (!further.names().empty()) {
     const ContactRow row{.a = a,
                          .b = b,
@@ -271,37 +267,38 @@ std::string check_method(const std::string& name) {
 }  // namespace
 
 void add_contact(tables::Program& program) {
-  struct Options {
+  struct Options : QuadricOptions {
     std::string method{kMethods.front().name};
-    std::string mixed_terms = "half";
     std::string columns;
-    tables::RowStreamOptions rows;
   };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command =
-      program.subcommand("contact", "Signed gap, normal and witness points of pairs of ellipsoids");
-  command
-      .option("--method", options->method,
-              "How contact is defined: common-normal (default), perram-wertheim, "
-              "midpoint-potential or trace")
-      .check(check_method)
-      .type_name("M");
-  command.option("--columns", options->columns, "Further columns at the end of each row; see below")
-      .check(refused_columns)
-      .type_name("NAME,...");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, options->rows);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp + contact_columns_help() + kStatusHelp);
-  command.runs([options] {
-    const ContactColumns further(options->columns);
-    tables::RowTask task{
+  const auto describe = [](tables::Command& command, Options& own) {
+    command
+        .option("--method", own.method,
+                "How contact is defined: common-normal (default), perram-wertheim, "
+                "midpoint-potential or trace")
+        .check(check_method)
+        .type_name("M");
+    command.option("--columns", own.columns, "Further columns at the end of each row; see below")
+        .check(refused_columns)
+        .type_name("NAME,...");
+  };
+  const auto task = [](const Options& options) {
+    const ContactColumns further(options.columns);
+    tables::RowTask rows{
         .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
         .verdict_column = "status",
-        .bind = bind_method(options->method, mixed_terms_named(options->mixed_terms), further)};
-    task.output_columns.insert(task.output_columns.end(), further.names().begin(),
+        .bind = bind_method(options.method, mixed_terms_named(options.mixed_terms), further)};
+    rows.output_columns.insert(rows.output_columns.end(), further.names().begin(),
                                further.names().end());
-    return tables::run_row_stream(task, options->rows);
-  });
+    return rows;
+  };
+  add_row_command<Options>(
+      program,
+      {.name = "contact",
+       .description = "Signed gap, normal and witness points of pairs of ellipsoids",
+       .help = std::string(kBodyColumnsHelp) + kHelp + contact_columns_help() + kStatusHelp,
+       .describe = describe,
+       .task = task});
 }
 
 }  // namespace tangency::tool

@@ -92,20 +92,6 @@ void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
   }
 }
 
-void write_inner(Inner inner, tables::RowText& out) {
-  switch (inner) {
-    case Inner::none:
-      out.empty();
-      break;
-    case Inner::a:
-      out.text("a");
-      break;
-    case Inner::b:
-      out.text("b");
-      break;
-  }
-}
-
 tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables::RowText& out) {
   const EllipseRelation exact = relation(a, b);
   const PlaneGap found = signed_gap(a, b);
@@ -137,8 +123,8 @@ tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables:
   return tables::RowOutcome::answered;
 }
 
-tables::RowFunction bind(const tables::Header& header) {
-  return [a = EllipseColumns(header, "a"), b = EllipseColumns(header, "b")](
+tables::RowFunction bind(const tables::Header& header, MixedTerms terms) {
+  return [a = EllipseColumns(header, "a", terms), b = EllipseColumns(header, "b", terms)](
              const tables::RowCursor& row, tables::RowText& out) {
     return write(a.read(row), b.read(row), out);
   };
@@ -186,8 +172,8 @@ class PointLines : public tables::Rows {
   std::vector<Found> found_;
 };
 
-tables::MakeRows bind_points(const tables::Header& header) {
-  return [a = EllipseColumns(header, "a"), b = EllipseColumns(header, "b")] {
+tables::MakeRows bind_points(const tables::Header& header, MixedTerms terms) {
+  return [a = EllipseColumns(header, "a", terms), b = EllipseColumns(header, "b", terms)] {
     return std::make_unique<PointLines>(a, b);
   };
 }
@@ -195,27 +181,32 @@ tables::MakeRows bind_points(const tables::Header& header) {
 }  // namespace
 
 void add_ellipse(tables::Program& program) {
-  struct Options : tables::RowStreamOptions {
+  struct Options : ConicOptions {
     bool points = false;
   };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command = program.subcommand(
-      "ellipse", "Relation, crossings, common area and contact of pairs of ellipses in the plane");
-  command.flag("--points", options->points,
-               "A line for each point in which the boundaries meet, in place of one a row");
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kEllipseColumnsHelp) + kHelp);
-  command.runs([options] {
-    tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                         .verdict_column = "status",
-                         .bind = tables::row_by_row(bind)};
-    if (options->points)
-      task = {.output_columns = {kPointColumns.begin(), kPointColumns.end()},
+  const auto describe = [](tables::Command& command, Options& own) {
+    command.flag("--points", own.points,
+                 "A line for each point in which the boundaries meet, in place of one a row");
+  };
+  const auto task = [](const Options& options) -> tables::RowTask {
+    const MixedTerms terms = mixed_terms_named(options.mixed_terms);
+    if (options.points) {
+      return {.output_columns = {kPointColumns.begin(), kPointColumns.end()},
               .verdict_column = "multiplicity",
-              .bind = bind_points,
+              .bind = [terms](const tables::Header& header) { return bind_points(header, terms); },
               .writes_lines = true};
-    return tables::run_row_stream(task, *options);
-  });
+    }
+    return row_task(kOutputColumns, "status",
+                    [terms](const auto& header) { return bind(header, terms); });
+  };
+  add_row_command<Options>(
+      program,
+      {.name = "ellipse",
+       .description =
+           "Relation, crossings, common area and contact of pairs of ellipses in the plane",
+       .help = std::string(kEllipseColumnsHelp) + kHelp,
+       .describe = describe,
+       .task = task});
 }
 
 }  // namespace tangency::tool

@@ -34,5 +34,6 @@ int main(int argc, char** argv) {
   add_wall(program);
   add_ray(program);
   add_time(program);
+  add_neighbours(program);
   return program.run(argc, argv);
 }

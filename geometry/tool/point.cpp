@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -109,8 +108,8 @@ tables::RowFunction bind(const tables::Header& header, MixedTerms mixed_terms) {
   };
 }
 
-tables::RowFunction bind_in_plane(const tables::Header& header) {
-  return [a = EllipseColumns(header, "a"),
+tables::RowFunction bind_in_plane(const tables::Header& header, MixedTerms mixed_terms) {
+  return [a = EllipseColumns(header, "a", mixed_terms),
           p = NumberColumns<2>(header, "the point", "p.", {"x", "y"},
                                "a point has the columns p.x and p.y")](const tables::RowCursor& row,
                                                                        tables::RowText& out) {
@@ -123,38 +122,29 @@ tables::RowFunction bind_in_plane(const tables::Header& header) {
 }  // namespace
 
 void add_point(tables::Program& program) {
-  struct Options : tables::RowStreamOptions {
-    std::string mixed_terms = "half";
-  };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command = program.subcommand(
-      "point", "Signed distance of points from ellipsoids, and the closest points of these");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp);
-  command.runs([options] {
-    const auto bind_rows = [terms = mixed_terms_named(options->mixed_terms)](
-                               const tables::Header& header) { return bind(header, terms); };
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = tables::row_by_row(bind_rows)};
-    return tables::run_row_stream(task, *options);
-  });
+  add_row_command<QuadricOptions>(
+      program,
+      {.name = "point",
+       .description = "Signed distance of points from ellipsoids, and the closest points of these",
+       .help = std::string(kBodyColumnsHelp) + kHelp,
+       .task = [](const QuadricOptions& options) {
+         const MixedTerms terms = mixed_terms_named(options.mixed_terms);
+         return row_task(kOutputColumns, "status",
+                         [terms](const auto& header) { return bind(header, terms); });
+       }});
 }
 
 void add_ellipse_point(tables::Program& program) {
-  const auto options = std::make_shared<tables::RowStreamOptions>();
-  tables::Command& command =
-      program.subcommand("ellipse-point", "The same of points and ellipses in the plane");
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kEllipseColumnsHelp) + kPlaneHelp);
-  command.runs([options] {
-    const tables::RowTask task{
-        .output_columns = {kPlaneOutputColumns.begin(), kPlaneOutputColumns.end()},
-        .verdict_column = "status",
-        .bind = tables::row_by_row(bind_in_plane)};
-    return tables::run_row_stream(task, *options);
-  });
+  add_row_command<ConicOptions>(
+      program, {.name = "ellipse-point",
+                .description = "The same of points and ellipses in the plane",
+                .help = std::string(kEllipseColumnsHelp) + kPlaneHelp,
+                .task = [](const ConicOptions& options) {
+                  const MixedTerms terms = mixed_terms_named(options.mixed_terms);
+                  return row_task(kPlaneOutputColumns, "status", [terms](const auto& header) {
+                    return bind_in_plane(header, terms);
+                  });
+                }});
 }
 
 }  // namespace tangency::tool

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,23 +119,15 @@ tables::RowFunction bind(const tables::Header& header, MixedTerms mixed_terms) {
 }  // namespace
 
 void add_ray(tables::Program& program) {
-  struct Options : tables::RowStreamOptions {
-    std::string mixed_terms = "half";
-  };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command =
-      program.subcommand("ray", "Where rays meet the surfaces of ellipsoids");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp);
-  command.runs([options] {
-    const auto bind_rows = [terms = mixed_terms_named(options->mixed_terms)](
-                               const tables::Header& header) { return bind(header, terms); };
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "result",
-                               .bind = tables::row_by_row(bind_rows)};
-    return tables::run_row_stream(task, *options);
-  });
+  add_row_command<QuadricOptions>(
+      program, {.name = "ray",
+                .description = "Where rays meet the surfaces of ellipsoids",
+                .help = std::string(kBodyColumnsHelp) + kHelp,
+                .task = [](const QuadricOptions& options) {
+                  const MixedTerms terms = mixed_terms_named(options.mixed_terms);
+                  return row_task(kOutputColumns, "result",
+                                  [terms](const auto& header) { return bind(header, terms); });
+                }});
 }
 
 }  // namespace tangency::tool

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,8 +59,8 @@ Example, a sphere that flies at another, and past it:
   1,none,10,10
 )";
 
-struct Options : tables::RowStreamOptions {
-  std::string mixed_terms = "half", horizon, tolerance;
+struct Options : QuadricOptions {
+  std::string horizon, tolerance;
 };
 
 /// A number that is a column of the table or the same for all rows.
@@ -182,29 +181,25 @@ tables::RowFunction bind(const tables::Header& header, const Options& options) {
 }  // namespace
 
 void add_time(tables::Program& program) {
-  const auto options = std::make_shared<Options>();
-  tables::Command& command =
-      program.subcommand("time", "When pairs of moving ellipsoids first touch");
-  command
-      .option("--horizon", options->horizon, "How far in time is looked, where no column says so")
-      .check(check_number([](double x) { return x >= 0.0; }, kHorizonRule))
-      .type_name("T");
-  command
-      .option("--tolerance", options->tolerance,
-              "How much earlier than the contact `time` may be, where no column says so")
-      .check(check_number([](double x) { return x > 0.0; }, kToleranceRule))
-      .type_name("T");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp);
-  command.runs([options] {
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = tables::row_by_row([options](const tables::Header& header) {
-                                 return bind(header, *options);
-                               })};
-    return tables::run_row_stream(task, *options);
-  });
+  const auto describe = [](tables::Command& command, Options& own) {
+    command.option("--horizon", own.horizon, "How far in time is looked, where no column says so")
+        .check(check_number([](double x) { return x >= 0.0; }, kHorizonRule))
+        .type_name("T");
+    command
+        .option("--tolerance", own.tolerance,
+                "How much earlier than the contact `time` may be, where no column says so")
+        .check(check_number([](double x) { return x > 0.0; }, kToleranceRule))
+        .type_name("T");
+  };
+  add_row_command<Options>(
+      program, {.name = "time",
+                .description = "When pairs of moving ellipsoids first touch",
+                .help = std::string(kBodyColumnsHelp) + kHelp,
+                .describe = describe,
+                .task = [](const Options& options) {
+                  return row_task(kOutputColumns, "status",
+                                  [options](const auto& header) { return bind(header, options); });
+                }});
 }
 
 }  // namespace tangency::tool

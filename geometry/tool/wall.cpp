@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -95,11 +94,7 @@ tables::RowOutcome write(const WallAnswer& answer, const Vec3& centre, tables::R
     out.empty(11);
   }
   out.text(representable ? "ok" : "not_applicable");
-  if (relation.inner == Inner::a) {
-    out.text("a");
-  } else {
-    out.empty();
-  }
+  write_inner(relation.inner, out);
   return representable ? tables::RowOutcome::answered : tables::RowOutcome::unanswered;
 }
 
@@ -121,28 +116,27 @@ tables::RowFunction bind(const tables::Header& header, MixedTerms mixed_terms, b
 }  // namespace
 
 void add_wall(tables::Program& program) {
-  struct Options : tables::RowStreamOptions {
-    std::string mixed_terms = "half";
+  struct Options : QuadricOptions {
     bool two_sided = false;
   };
-  const auto options = std::make_shared<Options>();
-  tables::Command& command =
-      program.subcommand("wall", "Signed gap, normal and points of ellipsoids and plane walls");
-  command.flag("--two-sided", options->two_sided,
-               "The wall is a plane without thickness, both of whose sides are free");
-  add_mixed_terms_option(command, options->mixed_terms);
-  add_row_stream_options(command, *options);
-  command.footer(std::string(kBodyColumnsHelp) + kHelp);
-  command.runs([options] {
-    const auto bind_rows = [terms = mixed_terms_named(options->mixed_terms),
-                            two_sided = options->two_sided](const tables::Header& header) {
-      return bind(header, terms, two_sided);
-    };
-    const tables::RowTask task{.output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
-                               .verdict_column = "status",
-                               .bind = tables::row_by_row(bind_rows)};
-    return tables::run_row_stream(task, *options);
-  });
+  add_row_command<Options>(
+      program,
+      {.name = "wall",
+       .description = "Signed gap, normal and points of ellipsoids and plane walls",
+       .help = std::string(kBodyColumnsHelp) + kHelp,
+       .describe =
+           [](auto& command, auto& own) {
+             command.flag("--two-sided", own.two_sided,
+                          "The wall is a plane without thickness, both of whose sides are free");
+           },
+       .task =
+           [](const Options& options) {
+             const MixedTerms terms = mixed_terms_named(options.mixed_terms);
+             const bool two_sided = options.two_sided;
+             return row_task(kOutputColumns, "status", [terms, two_sided](const auto& header) {
+               return bind(header, terms, two_sided);
+             });
+           }});
 }
 
 }  // namespace tangency::tool

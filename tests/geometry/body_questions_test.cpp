@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <tangency/geometry/closest_point.hpp>
+#include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/ray.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
@@ -129,6 +131,82 @@ RC_GTEST_PROP(SeparationProperty, IsThatOfBodiesWhoseCentresAreThatFarApart, ())
   const Motion way{-d, n, Vec3::Zero()};
   RC_ASSERT(time_of_contact(e, Motion{}, o, way, d, 2, 1e-6).time ==
             time_of_contact(here, Motion{}, o.moved_to(d), way, 2, 1e-6).time);
+}
+
+// geometry/relation.hpp (7)
+RC_GTEST_PROP(SeparationProperty, LeavesTheRelationOfBodiesThatFarApart, ()) {
+  const Ellipsoid a = *testing::ellipsoid(1e4), b = *testing::ellipsoid(1e4);
+  const Vec3 d = *testing::uniform(0, 3) * *testing::direction();
+  const Ellipsoid here = a.moved_to(Vec3::Zero()), there = b.moved_to(d);
+  const RelationAnswer found = relation(a, b, d), expected = relation(here, there);
+  RC_ASSERT(found.relation == expected.relation);
+  RC_ASSERT(found.inner == expected.inner);
+  RC_ASSERT(found.tier == expected.tier);
+  RC_ASSERT(overlaps(a, b, d) == overlaps(here, there));
+  RC_ASSERT(overlap_answer(a, b, d).tier == overlap_answer(here, there).tier);
+  RC_ASSERT(overlaps_by_filter(a, b, d) == overlaps_by_filter(here, there));
+}
+
+TEST(RelationAtASeparation, IsExactForItWhereTheCentresRoundIt) {
+  const Ellipsoid a({1e17, 0, 0}, {1, 1, 1}), b({1e17 + 16, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(relation(a, b).relation, Relation::separate);
+  EXPECT_EQ(relation(a, b, Vec3(2, 0, 0)).relation, Relation::external_touch);
+  EXPECT_EQ(relation(a, b, Vec3(std::nextafter(2.0, 3.0), 0, 0)).relation, Relation::separate);
+  EXPECT_EQ(relation(a, b, Vec3(std::nextafter(2.0, 1.0), 0, 0)).relation, Relation::overlap);
+  EXPECT_FALSE(overlaps(a, b, Vec3(2, 0, 0)));
+  EXPECT_EQ(overlap_answer(a, b, Vec3(2, 0, 0)).tier, Tier::exact);
+  EXPECT_TRUE(overlaps(a, b, Vec3(std::nextafter(2.0, 1.0), 0, 0)));
+  EXPECT_EQ(overlaps_by_filter(a, b, Vec3(2, 0, 0)), std::nullopt);
+  EXPECT_EQ(overlaps_by_filter(a, b, Vec3(1, 0, 0)), true);
+}
+
+TEST(RelationAtASeparation, OfMatricesIsThatOfTheirEntriesAsGiven) {
+  // Balls whose radii are the square root of 2, and half of |d| = sqrt(8).
+  const Mat3 two = 2 * Mat3::Identity();
+  const MatrixEllipsoid a = MatrixEllipsoid::from_shape({5, 6, 7}, two);
+  const MatrixEllipsoid by_quadric =
+      MatrixEllipsoid::from_quadric(Quadric({3, 3, 3, 0, 0, 0, -1, 0, 0, -17.0 / 3}));
+  const Vec3 d(2, 2, 0), out(std::nextafter(2.0, 3.0), 2, 0), in(std::nextafter(2.0, 1.0), 2, 0);
+  const MatrixEllipsoid c = MatrixEllipsoid::from_shape({-1e9, 0, 0}, two);
+  EXPECT_EQ(relation(a, c, d).relation, Relation::external_touch);
+  EXPECT_EQ(relation(a, c, out).relation, Relation::separate);
+  EXPECT_EQ(relation(a, c, in).relation, Relation::overlap);
+  EXPECT_EQ(relation(a, c, Vec3(0, 0, 0)).relation, Relation::equal);
+  EXPECT_EQ(signed_gap(a, c, d).gap, 0);
+  EXPECT_GT(signed_gap(a, c, out).gap, 0);
+  EXPECT_LT(signed_gap(a, c, in).gap, 0);
+  EXPECT_GE(signed_gap(a, c, d).gap_error, 0);
+  // Its centre, (1/3, 0, 0), is no double, and plays no part; its shape, by 17/3 rounded, is a
+  // little off the others'.
+  EXPECT_EQ(relation(a, by_quadric, 1e-300 * d).relation,
+            relation(c, by_quadric, 1e-300 * d).relation);
+  EXPECT_EQ(relation(by_quadric, by_quadric, Vec3(0, 0, 0)).relation, Relation::equal);
+  EXPECT_EQ(relation(by_quadric, by_quadric, Vec3(0, 0, 0x1p-1074)).relation, Relation::overlap);
+}
+
+TEST(RelationAtASeparation, ThatIsNotFiniteEndsTheProcessWithALine) {
+  const Ellipsoid e({0, 0, 0}, {1, 1, 1});
+  const Vec3 bad(0, std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_DEATH((void)relation(e, e, bad), "tangency: relation: separation = ");
+  EXPECT_DEATH((void)overlaps(e, e, bad), "tangency: overlap_answer: separation = ");
+  EXPECT_DEATH((void)overlaps_by_filter(e, e, bad), "tangency: overlaps_by_filter: separation = ");
+}
+
+TEST(ClosestPointOfAMatrix, AtASeparationIsThatOfTheNearestBodyWithAWiderError) {
+  const MatrixEllipsoid body = MatrixEllipsoid::from_shape({1, 2, 3}, 2 * Mat3::Identity());
+  const ClosestPoint found = closest_point_from_centre(body, Vec3(0, 0, 4));
+  EXPECT_LE(std::abs(found.distance - (4 - std::sqrt(2.0L))), found.distance_error);
+  EXPECT_GT(found.distance_error,
+            closest_point_from_centre(body.ellipsoid(), Vec3(0, 0, 4)).distance_error);
+}
+
+TEST(EllipseRelationAtASeparation, IsExactForItWhereTheCentresRoundIt) {
+  const Ellipse a({1e17, 0}, {1, 2}, {1, 0}), b({0, 1e17}, {1, 1}, {1, 0});
+  EXPECT_EQ(relation(a, b, Vec2(2, 0)).relation, Relation::external_touch);
+  EXPECT_EQ(relation(a, b, Vec2(2, 0)).crossings, 1);
+  EXPECT_FALSE(overlaps(a, b, Vec2(2, 0)));
+  EXPECT_TRUE(overlaps(a, b, Vec2(std::nextafter(2.0, 1.0), 0)));
+  EXPECT_EQ(relation(a, b, Vec2(std::nextafter(2.0, 3.0), 0)).relation, Relation::separate);
 }
 
 // geometry/ray.hpp (6)

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/neighbours.hpp>
 #include <tangency/geometry/time_batch.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/verify/families/adversarial.hpp>
@@ -488,6 +489,8 @@ TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
   guide_example_3(f.two[0], f.two[1], f.two, f.pairs, f.separations);
   guide_example_4(f.two[0], f.two[1], f.two, f.pairs, f.separations);
   guide_example_5(f.two[0], f.two[1], f.two, f.pairs, f.separations);
+  guide_example_6(f.two[0], f.two[1], f.two, f.pairs, f.separations);
+  guide_example_7(f.two[0], f.two[1], f.two, f.pairs, f.separations);
 }
 
 TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {

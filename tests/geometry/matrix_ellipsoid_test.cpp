@@ -336,8 +336,9 @@ TEST(LevelOfConfidence, IsTheQuantileOfChiSquaredToTheLastPlace) {
   using boost::math::quantile;
   for (const int n : {2, 3}) {
     const chi_squared_distribution<long double> exact(n);
-    for (const double p : {0x1p-200, 1e-30, 1e-9, 0.001, 0.1, 0.3935, 0.5, 0.6827, 0.9, 0.95, 0.99,
-                           0.999999, 1 - 0x1p-40, 1 - 0x1p-53}) {
+    for (const double p :
+         {0x1p-1074, 0x1p-1022, 1e-300, 0x1p-600, 0x1p-450, 0x1p-200, 1e-30, 1e-9, 0.001, 0.1,
+          0.3935, 0.5, 0.6827, 0.9, 0.95, 0.99, 0.999999, 1 - 0x1p-40, 1 - 0x1p-53}) {
       const long double q = 1.0L - static_cast<long double>(p);
       const double truth = static_cast<double>(
           p < 0.5 ? quantile(exact, static_cast<long double>(p)) : quantile(complement(exact, q)));

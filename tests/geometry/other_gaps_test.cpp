@@ -109,6 +109,7 @@ TEST(OtherGaps, AreNotApplicableToCoincidingCentres) {
     const OtherGap found = find(Ellipsoid({1, 2, 3}, {1, 1, 1}), Ellipsoid({1, 2, 3}, {1, 2, 3}));
     EXPECT_EQ(found.status, OtherGapStatus::not_applicable);
     EXPECT_EQ(found.gap, 0);
+    EXPECT_EQ(found.gap_error, 0);
   }
 }
 
@@ -175,10 +176,15 @@ double factor_ratio(const Ellipsoid& a, const Ellipsoid& b,
 /// Largest errors in units of what is promised: u of each number + u L / 64, 8 u for the normal.
 struct Errors {
   double gap = 0, normal = 0, arms = 0;
+  double certificate = 0;  ///< of the gap over gap_error
+  double widest = 0;       ///< gap_error over what is promised of it
 
   void add(const OtherGap& found, const verify::DefinedGap& truth, double size) {
     const auto promised = [&](double value) { return kU * (value + kOfSize * size); };
-    gap = std::max(gap, difference(found.gap, truth.gap) / promised(std::abs(found.gap)));
+    const double off = difference(found.gap, truth.gap), allowed = promised(std::abs(found.gap));
+    gap = std::max(gap, off / allowed);
+    certificate = std::max(certificate, off / found.gap_error);
+    widest = std::max(widest, found.gap_error / (1.01 * allowed + 0x1p-1072));
     normal = std::max(normal, distance(found.normal, truth.normal) / (8 * kU));
     arms = std::max({arms, distance(found.arm_a, truth.arm_a) / promised(found.arm_a.stableNorm()),
                      distance(found.arm_b, truth.arm_b) / promised(found.arm_b.stableNorm())});
@@ -197,6 +203,8 @@ void hold_against_oracle(const Ellipsoid& a, const Ellipsoid& b) {
   if (truth->midpoint) errors.add(midpoint, *truth->midpoint, size_of(a, b));
   EXPECT_LE(factor_ratio(a, b, *truth), 1);
   EXPECT_LE(errors.gap, 1);
+  EXPECT_LE(errors.certificate, 1);
+  EXPECT_LE(errors.widest, 1);
   EXPECT_LE(errors.normal, 1);
   EXPECT_LE(errors.arms, 1);
 }
@@ -296,6 +304,7 @@ TEST(OtherGaps, AreRightInEveryRoundingModeAndWithSubnormalsFlushed) {
         }();
         EXPECT_EQ(found.status, right.status) << environment.name;
         EXPECT_NEAR(found.gap, right.gap, kU * kOfSize * size_of(a, b)) << environment.name;
+        EXPECT_EQ(found.gap_error, right.gap_error) << environment.name;
         EXPECT_LE((found.normal - right.normal).norm(), 2 * kU) << environment.name;
         EXPECT_LE((found.arm_a - right.arm_a).norm(), 2 * kU * a.largest_semi_axis());
       }
@@ -331,12 +340,14 @@ void hold_against_oracle(const std::string& family, const Next& next) {
   }
   std::printf(
       "%-28s tangent planes: gap %.2f normal %.2f arms %.2f; midpoint (%d pairs): "
-      "gap %.2f arms %.2f; F %.2f of what is promised\n",
+      "gap %.2f arms %.2f; F %.2f of what is promised; gaps %.2f and %.2f of gap_error\n",
       family.c_str(), planes.gap, planes.normal, planes.arms, along, midpoint.gap, midpoint.arms,
-      factor);
+      factor, planes.certificate, midpoint.certificate);
   EXPECT_LE(factor, 1) << family;
   for (const Errors& errors : {planes, midpoint}) {
     EXPECT_LE(errors.gap, 1) << family;
+    EXPECT_LE(errors.certificate, 1) << family;
+    EXPECT_LE(errors.widest, 1) << family;
     EXPECT_LE(errors.normal, 1) << family;
     EXPECT_LE(errors.arms, 1) << family;
   }

@@ -26,10 +26,7 @@ using tangency::Quaternion;
 using tangency::Vec3;
 
 const Spheroid kProlate{1.0, 0.7}, kOblate{0.7, 1.0};
-
-ScalarHarmonics planted_axes(Random& random) {
-  return {0.25 / pi, random_second(random, 0.8), random_fourth(random, 0.3)};
-}
+constexpr HarmonicSpread kAxes{.second = 0.8, .fourth = 0.3};
 
 void expect_shares(const LengthShares& found, const LengthShares& published, double tolerance) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], published[i], tolerance);
@@ -156,7 +153,7 @@ TEST(ContactStatistics, PlantedLawsAreFoundWithinFourDeviations) {
   for (const Spheroid& s : {kProlate, kOblate})
     for (const double a1 : {-0.4, 0.7}) {
       const BodyPacking sample =
-          draw_pairs(random, s, planted_axes(random), everywhere(a1), 700, 4000);
+          draw_pairs(random, s, planted_axes(random, kAxes), everywhere(a1), 700, 4000);
       const Shape shape = s.along > s.across ? Shape::prolate : Shape::oblate;
       const auto found = contact_statistics_of(sample.contacts(), sample.bodies(), shape);
       ASSERT_TRUE(found && found->spheroid);
@@ -220,15 +217,16 @@ TEST(ContactStatistics, ContactsEvenOnTheSurfaceFollowTheAreaLaw) {
 TEST(ContactStatistics, DependenceOnOrientationAndOnCoordinationIsSeen) {
   Random random(103);
   const LocalLaw law = [](const Vec3& u) { return u[2] * u[2] > 0.4 ? 1.5 : -0.5; };
-  const BodyPacking sample = draw_pairs(random, kProlate, planted_axes(random), law, 600, 4000);
+  const BodyPacking sample =
+      draw_pairs(random, kProlate, planted_axes(random, kAxes), law, 600, 4000);
   const auto found = contact_statistics_of(sample.contacts(), sample.bodies(), Shape::prolate);
   const Estimate along_z = found->spheroid->correlations.orientation[2];
   EXPECT_GT(along_z.value, 6.0 * along_z.error);
   BodyPacking few =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(1.5), 400, 3);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(1.5), 400, 3);
   // The same bodies, turned, with more contacts of another law.
   const BodyPacking many =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(-0.5), 400, 9);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(-0.5), 400, 9);
   const auto shift = static_cast<std::int64_t>(few.semi_axes.size());
   for (std::size_t c = 0; c < many.packing.normal.size(); ++c) {
     few.packing.normal.push_back(many.packing.normal[c]);
@@ -252,7 +250,7 @@ TEST(ContactStatistics, DependenceOnOrientationAndOnCoordinationIsSeen) {
 TEST(ContactStatistics, DeviationsKnowThatContactsOfABodyDependOnEachOther) {
   Random random(104);
   BodyPacking sample =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(0.5), 300, 10);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(0.5), 300, 10);
   const auto error = [&] {
     return contact_statistics_of(sample.contacts(), sample.bodies(), Shape::prolate)
         ->spheroid->a1.error;
@@ -269,7 +267,7 @@ TEST(ContactStatistics, DeviationsKnowThatContactsOfABodyDependOnEachOther) {
 TEST(ContactStatistics, OrderUnitsTurnsAndNumbersChangeNothing) {
   Random random(105);
   const BodyPacking sample =
-      draw_pairs(random, kProlate, planted_axes(random), everywhere(0.6), 60, 300);
+      draw_pairs(random, kProlate, planted_axes(random, kAxes), everywhere(0.6), 60, 300);
   BodyPacking other = sample;
   other.packing = rotated(exchanged(sample.packing), Mat3::Identity());
   const Mat3 turn = random_rotation(random);
@@ -300,7 +298,8 @@ TEST(ContactStatistics, OrderUnitsTurnsAndNumbersChangeNothing) {
 
 TEST(ContactStatistics, WhatIsNotDefinedIsEmpty) {
   Random random(106);
-  BodyPacking sample = draw_pairs(random, kProlate, planted_axes(random), everywhere(0.6), 20, 50);
+  BodyPacking sample =
+      draw_pairs(random, kProlate, planted_axes(random, kAxes), everywhere(0.6), 20, 50);
   const auto of = [&](Shape shape) {
     return contact_statistics_of(sample.contacts(), sample.bodies(), shape);
   };
@@ -332,7 +331,8 @@ TEST(ContactStatistics, WhatIsNotDefinedIsEmpty) {
 
 TEST(ContactStatistics, OneContactHasNoDeviation) {
   Random random(107);
-  const BodyPacking one = draw_pairs(random, kProlate, planted_axes(random), everywhere(0.6), 2, 1);
+  const BodyPacking one =
+      draw_pairs(random, kProlate, planted_axes(random, kAxes), everywhere(0.6), 2, 1);
   const auto found = contact_statistics_of(one.contacts(), one.bodies(), Shape::prolate);
   ASSERT_TRUE(found);
   EXPECT_TRUE(std::isfinite(found->spheroid->a1.value));

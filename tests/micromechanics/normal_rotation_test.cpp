@@ -27,10 +27,7 @@ using tangency::Quaternion;
 using tangency::Vec3;
 
 const Spheroid kProlate{1.0, 0.5}, kOblate{0.5, 1.0};
-
-ScalarHarmonics planted_axes(Random& random) {
-  return {0.25 / pi, random_second(random, 1.2), random_fourth(random, 0.8)};
-}
+constexpr HarmonicSpread kAxes{.second = 1.2, .fourth = 0.8};
 
 /// Deviations that are numbers, above 0 and small; a component that cannot vary has none.
 void expect_small(const SymmetricTensor4& error, double most) {
@@ -54,7 +51,7 @@ TEST(NormalRotation, IndependentNormalsLeaveNothingAndHaveTheModelsFactors) {
   for (const Spheroid& s : {kProlate, kOblate})
     for (const double a1 : {0.0, 0.9}) {
       const BodyPacking sample =
-          draw_among_spheres(random, s, planted_axes(random), everywhere(a1), 4000, 4);
+          draw_among_spheres(random, s, planted_axes(random, kAxes), everywhere(a1), 4000, 4);
       const Shape shape = s.along > s.across ? Shape::prolate : Shape::oblate;
       const auto found = normal_rotation_of(sample.contacts(), sample.bodies(), shape);
       ASSERT_TRUE(found);
@@ -79,7 +76,7 @@ TEST(NormalRotation, NormalsThatDependOnAxesLeaveMore) {
   Random random(122);
   const LocalLaw law = [](const Vec3& u) { return u[2] * u[2] > 0.4 ? 1.5 : -0.5; };
   const BodyPacking sample =
-      draw_among_spheres(random, kProlate, planted_axes(random), law, 4000, 4);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), law, 4000, 4);
   const auto found = normal_rotation_of(sample.contacts(), sample.bodies(), Shape::prolate);
   EXPECT_GT(deviations_left(*found), 6.0);
 }
@@ -88,7 +85,7 @@ TEST(NormalRotation, NormalsThatDependOnAxesLeaveMore) {
 TEST(NormalRotation, BothPartsTogetherAreTheAnisotropyOfNormals) {
   Random random(123);
   const BodyPacking sample =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(0.5), 300, 3);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(0.5), 300, 3);
   const auto found = normal_rotation_of(sample.contacts(), sample.bodies(), Shape::prolate);
   const auto normals = fit_orientations(sample.packing.normal);
   EXPECT_LT((found->rotated + found->other - normals->model.second).norm(), 1e-12);
@@ -99,7 +96,7 @@ TEST(NormalRotation, BothPartsTogetherAreTheAnisotropyOfNormals) {
 TEST(NormalRotation, IsEmptyWithoutAnAxis) {
   Random random(124);
   BodyPacking sample =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(0.5), 30, 3);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(0.5), 30, 3);
   const auto of = [&](Shape shape) {
     return normal_rotation_of(sample.contacts(), sample.bodies(), shape).has_value();
   };
@@ -113,7 +110,7 @@ TEST(NormalRotation, IsEmptyWithoutAnAxis) {
 TEST(NormalRotation, TakesContactsOfItsDimensionsAloneAndSaysSo) {
   Random random(127);
   const BodyPacking space =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(0.5), 30, 3);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(0.5), 30, 3);
   const BodyPacking plane = draw_plane(random, kProlate, 0.3, everywhere(0.5), 30, 3);
   EXPECT_EQ(refusal([&] { normal_rotation_of(plane.contacts(), plane.bodies(), Shape::prolate); }),
             "dimensions = 2: normal_rotation_of takes contacts in space");
@@ -131,7 +128,7 @@ TEST(NormalRotation, TakesContactsOfItsDimensionsAloneAndSaysSo) {
 TEST(NormalRotation, CalculatedFactorsAreMeansOverTheSides) {
   Random random(128);
   BodyPacking sample =
-      draw_among_spheres(random, kProlate, planted_axes(random), everywhere(0.5), 40, 3);
+      draw_among_spheres(random, kProlate, planted_axes(random, kAxes), everywhere(0.5), 40, 3);
   for (std::size_t body = 0; body < 10; ++body) sample.semi_axes[body] = {1.0, 0.2, 0.2};
   const auto found = normal_rotation_of(sample.contacts(), sample.bodies(), Shape::prolate);
   const auto seen = contact_statistics_of(sample.contacts(), sample.bodies(), Shape::prolate);

@@ -109,6 +109,11 @@ void add_sphere(BodyPacking& made, std::size_t a, const Vec3& direction) {
 
 }  // namespace
 
+micromechanics::ScalarHarmonics planted_axes(Random& random, const HarmonicSpread& spread) {
+  return {0.25 / std::numbers::pi, random_second(random, spread.second),
+          random_fourth(random, spread.fourth)};
+}
+
 BodyPacking draw_among_spheres(Random& random, const Spheroid& s, const ScalarHarmonics& axes,
                                const LocalLaw& law, std::size_t count, std::size_t each) {
   BodyPacking made;

@@ -48,6 +48,13 @@ inline LocalLaw everywhere(double a1) {
   return [a1](const Vec3&) { return a1; };
 }
 
+/// How far a random law of directions is from the isotropic one, order by order.
+struct HarmonicSpread {
+  double second, fourth;
+};
+/// A random law of axes.
+micromechanics::ScalarHarmonics planted_axes(Random& random, const HarmonicSpread& spread);
+
 /// Each spheroid touches `each` spheres: its sides alone are of its shape, and independent.
 BodyPacking draw_among_spheres(Random& random, const micromechanics::Spheroid& s,
                                const micromechanics::ScalarHarmonics& axes, const LocalLaw& law,

@@ -340,7 +340,7 @@ struct OtherMethod {
 const std::array<OtherMethod, 2> kOtherMethods{
     {{"perram-wertheim", perram_wertheim_gap}, {"midpoint-potential", midpoint_potential_gap}}};
 
-TEST(ContactCommand, OtherMethodsGiveTheNumbersOfTheLibraryAndNoErrorOfTheGap) {
+TEST(ContactCommand, OtherMethodsGiveTheNumbersOfTheLibraryAndTheirErrors) {
   const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({3.5, 1, 2}, {3, 2, 1}, {1, 2, 3, 4});
   const std::string text = kHeader + "0,0,0,1,2,3,1,0,0,0,3.5,1,2,3,2,1,1,2,3,4\n";
   const std::vector<std::string> usual = cells_of(lines_of(run_tool({"contact"}, text).out)[1]);
@@ -357,8 +357,22 @@ TEST(ContactCommand, OtherMethodsGiveTheNumbersOfTheLibraryAndNoErrorOfTheGap) {
     for (std::size_t k = 0; k < 9; ++k) {
       EXPECT_EQ(bits(number(cells[3 + k])), bits(points[k / 3][static_cast<int>(k % 3)]));
     }
-    EXPECT_EQ(cells[12], "");
+    EXPECT_EQ(bits(number(cells[12])), bits(expected.gap_error));
     EXPECT_EQ(cells[13], "ok");
+  }
+}
+
+TEST(ContactCommand, OtherMethodsSayNoErrorOfTheGapWhereABodyIsGivenByAMatrix) {
+  const std::string header =
+      "a.x,a.y,a.z,a.m.xx,a.m.yy,a.m.zz,a.m.xy,a.m.yz,a.m.zx,b.x,b.y,b.z,b.r1,b.r2,b.r3\n";
+  for (const OtherMethod& method : kOtherMethods) {
+    // The semi-axes of the second are doubles: it is the body by semi-axes.
+    const std::string rows = header + "0,0,0,2,1,1,0,0,0,4,0,0,1,1,1\n" +  //
+                             "0,0,0,4,1,1,0,0,0,4,0,0,1,1,1\n";
+    const std::vector<std::string> lines =
+        lines_of(run_tool({"contact", "--method", method.name}, rows).out);
+    EXPECT_EQ(cells_of(lines.at(1)).at(12), "");
+    EXPECT_NE(cells_of(lines.at(2)).at(12), "");
   }
 }
 

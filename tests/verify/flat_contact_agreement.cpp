@@ -170,6 +170,8 @@ bool check_definitions(Source& source, long count) {
   Worst gap[2] = {{"perram_wertheim_gap: gap"}, {"midpoint_potential_gap: gap"}};
   Worst normal[2] = {{"perram_wertheim_gap: normal"}, {"midpoint_potential_gap: normal"}};
   Worst arms[2] = {{"perram_wertheim_gap: points"}, {"midpoint_potential_gap: points"}};
+  Worst certified[2] = {{"perram_wertheim_gap: gap_error"}, {"midpoint_potential_gap: gap_error"}};
+  Worst factor{"perram_wertheim_factor"};
   long answers[2] = {}, unknown[2] = {}, misses = 0, wrong = 0;
   for (long i = 0; i < count; ++i) {
     const Pair p = source.apart();
@@ -179,6 +181,11 @@ bool check_definitions(Source& source, long count) {
     const verify::DefinedGap* const right[] = {&truth->tangent_planes,
                                                truth->midpoint ? &*truth->midpoint : nullptr};
     const double size = size_of(p);
+    const PerramWertheimFactor of_sizes = perram_wertheim_factor(p.a, p.b);
+    const Real& level = truth->contact_function;
+    factor.see(as_double(abs(Real(of_sizes.factor) - level)) / of_sizes.factor_error, p);
+    factor.see(as_double(abs(Real(of_sizes.scale) - Real(sqrt(level)))) / of_sizes.scale_error, p);
+    wrong += of_sizes.status != OtherGapStatus::ok;
     for (int k = 0; k < 2; ++k) {
       const bool ok = found[k].status == OtherGapStatus::ok;
       if (found[k].status == OtherGapStatus::not_converged) {
@@ -193,8 +200,9 @@ bool check_definitions(Source& source, long count) {
       }
       ++answers[k];
       const auto bound = [&](double value) { return kU * (value + size / 64); };
-      gap[k].see(as_double(abs(Real(found[k].gap) - right[k]->gap)) / bound(std::abs(found[k].gap)),
-                 p);
+      const double off = as_double(abs(Real(found[k].gap) - right[k]->gap));
+      gap[k].see(off / bound(std::abs(found[k].gap)), p);
+      certified[k].see(off / found[k].gap_error, p);
       normal[k].see(distance(found[k].normal, right[k]->normal) / (8 * kU), p);
       arms[k].see(distance(found[k].arm_a, right[k]->arm_a) / bound(found[k].arm_a.norm()), p);
       arms[k].see(distance(found[k].arm_b, right[k]->arm_b) / bound(found[k].arm_b.norm()), p);
@@ -206,9 +214,12 @@ bool check_definitions(Source& source, long count) {
       count, answers[0], answers[1], misses, unknown[0], unknown[1], wrong);
   bool kept = wrong == 0 && misses > count / 100 && answers[1] > count / 10;
   for (int k = 0; k < 2; ++k) {
-    for (const Worst* w : {&gap[k], &normal[k], &arms[k]}) w->print(), kept = kept && w->kept();
+    for (const Worst* w : {&gap[k], &certified[k], &normal[k], &arms[k]}) {
+      w->print(), kept = kept && w->kept();
+    }
   }
-  return kept;
+  factor.print();
+  return kept && factor.kept();
 }
 
 Real dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

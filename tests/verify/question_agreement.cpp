@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the questions of single bodies, in every form of a body, against exact rational numbers and
 // 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres
-// by matrices meet. The merge gate runs a part of it; docs/guide.md names the whole.
+// by matrices meet; and bodies inside bodies (containment_questions.cpp). The merge gate runs a
+// part of it; docs/guide.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 
@@ -23,11 +24,15 @@
 #include <tangency/geometry/ray.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 #include <tangency/tests/verify/agreement.hpp>
+#include <tangency/tests/verify/questions.hpp>
 #include <tangency/verify/oracles/primitives.hpp>
 
 namespace {
 
 using namespace tangency;
+using questions::share_of;
+using questions::Source;
+using questions::Tally;
 using verify::Digits120;
 using Rational3 = std::array<mpq_class, 3>;
 using RationalMatrix = std::array<Rational3, 3>;
@@ -49,69 +54,6 @@ Rational3 times(const RationalMatrix& m, const Rational3& v) {
 }
 Rational3 minus(const Rational3& a, const Rational3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-/// Reproducible across standard libraries.
-class Source {
- public:
-  explicit Source(std::uint64_t seed) : random_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random_() >> 11) * kUnitRoundoff);
-  }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  int below(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
-  int whole(int most) { return below(2 * most + 1) - most; }
-  Vec3 wholes(int most) {
-    for (;;) {
-      const Vec3 v(whole(most), whole(most), whole(most));
-      if (v != Vec3::Zero()) return v;
-    }
-  }
-  Vec3 direction() {
-    for (;;) {
-      const Vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      if (v.norm() > 0.01 && v.norm() <= 1) return v.normalized();
-    }
-  }
-  /// Symmetric to the bit, with eigenvalues of a ratio to 1e12 and any size.
-  std::optional<Mat3> definite(double size) {
-    const Vec3 u = direction(), v = u.cross(direction()).normalized();
-    Mat3 r;
-    r << u, v, u.cross(v);
-    const double ratio = log_uniform(1, 1e6);
-    const Vec3 roots(1, log_uniform(1 / ratio, 1), 1 / ratio);
-    Mat3 m = size * r * roots.cwiseProduct(roots).asDiagonal() * r.transpose();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < i; ++j) m(i, j) = m(j, i);
-    }
-    return m;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-struct Tally {
-  const char* what;
-  long asked = 0, special = 0, wrong = 0;
-  double worst = 0.0;  ///< error over its bound
-
-  void see(bool kept, double share) {
-    ++asked, wrong += !kept || !(share <= 1.0), worst = std::max(worst, share);
-  }
-  bool print(const char* of_special, long least) const {
-    std::printf("%-28s %8ld, %8ld %-18s %ld wrong, %.3f of the bound at most\n", what, asked,
-                special, of_special, wrong, worst);
-    return wrong == 0 && special >= least && asked > 0;
-  }
-};
-
-double share_of(const Digits120& error, double bound) {
-  if (error == 0) return 0.0;
-  return bound > 0.0 ? static_cast<double>(Digits120(abs(error) / bound)) : 2.0;
 }
 
 // ---- an ellipse and a point
@@ -442,11 +384,15 @@ struct Kind {
   const char* name;
   bool (*check)(Source&, long);
 };
-constexpr std::array<Kind, 5> kKinds{{{"ellipses", check_ellipses},
+constexpr std::array<Kind, 9> kKinds{{{"ellipses", check_ellipses},
                                       {"walls", check_walls},
                                       {"rays", check_rays},
                                       {"points", check_points},
-                                      {"times", check_times}}};
+                                      {"times", check_times},
+                                      {"clearances", questions::check_clearances},
+                                      {"margins", questions::check_margins},
+                                      {"plane-clearances", questions::check_plane_clearances},
+                                      {"plane-margins", questions::check_plane_margins}}};
 
 bool agree(std::uint64_t seed, long count, const std::string& only) {
   bool kept = true, any = false;
@@ -464,10 +410,13 @@ bool agree(std::uint64_t seed, long count, const std::string& only) {
 int main(int argc, char** argv) {
   tangency::testing::AgreementProgram program(
       "question_agreement",
-      "Hold points, walls, rays and moments, of bodies in every form, against exact numbers");
+      "Hold points, walls, rays and moments, of bodies in every form, and bodies inside bodies "
+      "against exact numbers");
   long count = 100'000;
   std::string only;
   program.option("--count", count, "inputs of each");
-  program.option("--only", only, "one kind: ellipses, walls, rays, points or times");
+  program.option("--only", only,
+                 "one kind: ellipses, walls, rays, points, times, clearances, margins, "
+                 "plane-clearances or plane-margins");
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count, only); });
 }

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tangency/geometry/image_gap.hpp>
+#include <tangency/geometry/neighbours.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
+#include <tangency/geometry/tool/body_columns.hpp>
+#include <tangency/geometry/tool/command_line.hpp>
+
+namespace tangency::tool {
+namespace {
+
+constexpr std::array<std::string_view, 20> kOutputColumns{
+    "i",  "j",    "ix",   "iy",   "iz",   "row",  "relation", "gap",       "nx",     "ny",
+    "nz", "pa.x", "pa.y", "pa.z", "pb.x", "pb.y", "pb.z",     "gap_error", "status", "inner"};
+constexpr std::size_t kPairColumns = 5;
+
+constexpr const char* kHelp = R"(
+A table of bodies, one a row, which is read whole before the first answer. Its columns are
+those of body a of `tangency contact`, without the a. and in any of the same forms:
+  x y z r1 r2 r3   centre and semi-axes, and if it is turned
+  qw qx qy qz      its orientation
+  m.xx ...         or a shape matrix, p.xx ... its inverse, u1.x ... the vectors of the
+                   semi-axes, A B ... K a quadric
+
+Output, one row a pair of images that is listed, sorted by i, j and the image, each pair once:
+  i j              numbers of the bodies' rows, from 0; i <= j
+  ix iy iz         b is body j moved by the lengths of the cell times (ix, iy, iz): not by
+                   rounded numbers. A body may meet its own image, i = j
+and with --contacts the columns of `tangency contact` for body i as a and that image as b:
+  row              number of the row of this output, from 0
+  relation         exact
+  gap nx ny nz pa.x pa.y pa.z pb.x pb.y pb.z gap_error status inner
+
+Listed are without --reach the pairs that share a point, exactly: touching counts; with it
+those whose gap, less its gap_error, is at most R.
+
+Exit status: 0 the list is whole; 1 some contact is not_applicable, for a number beyond the
+range of a double; 2 refused command line or input, or a failed read or write.
+
+Example, three balls in a cell, of which the first meets an image of the last:
+  $ cat bodies.csv
+  x,y,z,r1,r2,r3
+  1,1,1,1,1,1
+  3,1,1,1,1,1
+  5.5,1,1,1,1,1
+  $ tangency neighbours --periodic 6,0,0 bodies.csv
+  i,j,ix,iy,iz
+  0,1,0,0,0
+  0,2,-1,0,0
+  $ tangency neighbours --contacts bodies.csv
+  i,j,ix,iy,iz,row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
+  0,1,0,0,0,0,external_touch,0,1,0,0,2,1,1,2,1,1,0,ok,
+  $ tangency neighbours --reach 0.5 bodies.csv
+  i,j,ix,iy,iz
+  0,1,0,0,0
+  1,2,0,0,0
+)";
+
+struct Options : QuadricOptions {
+  std::string reach, periodic;
+  bool contacts = false;
+};
+
+constexpr std::string_view kReachRule = "a reach must be >= 0";
+constexpr std::string_view kPeriodicRule =
+    "three lengths LX,LY,LZ, each >= 0, and 0 where the cell is open";
+
+/// @return  what is wrong
+std::string parse_lengths(const std::string& text, std::array<double, 3>& lengths) {
+  std::size_t from = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t to = k < 2 ? text.find(',', from) : text.size();
+    const bool ends_well = to != std::string::npos;
+    if (!ends_well ||
+        tables::parse_number(std::string_view(text).substr(from, to - from), lengths[k]) ||
+        !(lengths[k] >= 0.0))
+      return text + ": " + std::string(kPeriodicRule);
+    from = to + 1;
+  }
+  return {};
+}
+
+Lattice lattice_of(const std::string& periodic) {
+  Lattice lattice = Lattice::open();
+  if (periodic.empty()) return lattice;
+  std::array<double, 3> lengths{};
+  parse_lengths(periodic, lengths);
+  for (std::size_t k = 0; k < 3; ++k) {
+    lattice.periodic[k] = lengths[k] > 0.0;
+    const auto axis = static_cast<Eigen::Index>(k);
+    if (lattice.periodic[k]) lattice.edges(axis, axis) = lengths[k];
+  }
+  return lattice;
+}
+
+/// The table, and what is asked of it.
+struct Bodies {
+  std::vector<Ellipsoid> round;        ///< MatrixEllipsoid::ellipsoid() of each
+  bool exact = true;                   ///< are these the bodies themselves?
+  std::vector<MatrixEllipsoid> given;  ///< where they are not
+  std::string file;
+
+  RelationAnswer relation(const NearPair& pair, const Mat3& edges) const {
+    const auto& [a, b, image] = pair;
+    return exact ? tangency::relation(round[a], round[b], edges, image)
+                 : tangency::relation(given[a], given[b], edges, image);
+  }
+};
+
+Bodies read_bodies(const Options& options) {
+  tables::Reader reader(options.input);
+  const BodyColumns columns(reader.header(), "", mixed_terms_named(options.mixed_terms));
+  Bodies bodies;
+  bodies.file = reader.header().file();
+  bodies.exact = columns.has_axes();
+  tables::for_each_row(reader, [&](const tables::RowCursor& row) {
+    MatrixEllipsoid body = columns.read(row);
+    bodies.round.push_back(body.ellipsoid());
+    if (!bodies.exact) bodies.given.push_back(std::move(body));
+  });
+  return bodies;
+}
+
+/// One contact: of the list, or asked again of bodies by matrices.
+struct Contact {
+  Gap gap;
+  Vec3 point_a, point_b;
+};
+
+class Answers {
+ public:
+  Answers(const Bodies& bodies, const Options& options)
+      : bodies_(bodies), contacts_(options.contacts) {
+    question_.lattice = lattice_of(options.periodic);
+    question_.threads = static_cast<int>(options.threads);
+    if (!options.reach.empty()) tables::parse_number(options.reach, question_.reach);
+  }
+
+  tables::ExitStatus write(tables::OutputFile& out) {
+    tables::RowText text;
+    text.header(std::span(kOutputColumns).first(contacts_ ? kOutputColumns.size() : kPairColumns));
+    const Neighbours found = search();
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      write_pair(found, k, text);
+      constexpr std::size_t kAtOnce = std::size_t{1} << 16;  // bytes; chosen
+      if (text.size() < kAtOnce) continue;
+      out.write(text.view());
+      text.clear();
+    }
+    out.write(text.view());
+    return unanswered_ ? tables::some_row_unanswered : tables::every_row_answered;
+  }
+
+ private:
+  Neighbours search() const {
+    NeighbourQuestion question = question_;
+    question.accuracy = Accuracy::certified();
+    if (bodies_.exact) {
+      if (contacts_) question.answers = NeighbourAnswers::contacts;
+    } else {  // all whose true bodies may be within the reach, to be looked at one by one
+      double rounding = 0.0;
+      for (const MatrixEllipsoid& body : bodies_.given)
+        rounding = std::max(rounding, body.rounding());
+      question.reach += 2.0 * rounding;
+    }
+    try {
+      return neighbours(bodies_.round, question);
+    } catch (const std::invalid_argument& refused) {
+      throw tables::Error({.file = bodies_.file, .rule = refused.what()});
+    }
+  }
+
+  /// The listed ones of the true bodies where those in the list are rounded.
+  bool is_listed(const NearPair& pair) const {
+    if (bodies_.exact) return true;
+    const Mat3& edges = question_.lattice.edges;
+    if (question_.reach == 0.0) return bodies_.relation(pair, edges).relation != Relation::separate;
+    const Gap gap = signed_gap(bodies_.given[pair.a], bodies_.given[pair.b], edges, pair.image);
+    return gap.gap - gap.gap_error <= question_.reach;
+  }
+
+  Contact contact(const Neighbours& found, std::size_t k) const {
+    const NearPair& pair = found.pairs[k];
+    const Mat3& edges = question_.lattice.edges;
+    const Vec3 &at_a = bodies_.round[pair.a].centre(), &at_b = bodies_.round[pair.b].centre();
+    const Vec3 centre_b = separation(Vec3::Zero(), at_b, edges, pair.image).vector;
+    const Gap gap =
+        bodies_.exact ? Gap{found.gap[k],       found.normal[k], found.arm_a[k], found.arm_b[k],
+                            found.gap_error[k], found.status[k], GapTier::fast}
+                      : signed_gap(bodies_.given[pair.a], bodies_.given[pair.b], edges, pair.image);
+    return {gap, at_a + gap.arm_a, centre_b + gap.arm_b};
+  }
+
+  void write_pair(const Neighbours& found, std::size_t k, tables::RowText& text) {
+    const NearPair& pair = found.pairs[k];
+    if (!is_listed(pair)) return;
+    text.integer(pair.a);
+    text.integer(pair.b);
+    for (const std::int32_t edges : pair.image) text.number(edges);
+    if (contacts_) {
+      text.integer(row_++);
+      write_contact(pair, contact(found, k), text);
+    }
+    text.end_row();
+  }
+
+  void write_contact(const NearPair& pair, const Contact& contact, tables::RowText& text) {
+    const auto& [gap, point_a, point_b] = contact;
+    const RelationAnswer exact = bodies_.relation(pair, question_.lattice.edges);
+    text.text(to_string(exact.relation));
+    const bool representable = std::isfinite(gap.gap) && std::isfinite(gap.gap_error) &&
+                               point_a.allFinite() && point_b.allFinite();
+    if (representable) {
+      text.number(gap.gap);
+      for (const Vec3* vector : {&gap.normal, &point_a, &point_b})
+        for (const double component : *vector) text.number(component);
+      text.number(gap.gap_error);
+      text.text(gap.status == GapStatus::ok ? "ok" : "local");
+    } else {
+      text.empty(11);
+      text.text("not_applicable");
+      unanswered_ = true;
+    }
+    if (exact.inner == Inner::none) {
+      text.empty();
+    } else {
+      text.text(exact.inner == Inner::a ? "a" : "b");
+    }
+  }
+
+  const Bodies& bodies_;
+  const bool contacts_;
+  NeighbourQuestion question_;
+  std::size_t row_ = 0;
+  bool unanswered_ = false;
+};
+
+std::string check_reach(const std::string& text) {
+  double value = 0.0;
+  if (const auto broken = tables::parse_number(text, value))
+    return text + ": " + std::string(*broken);
+  return value >= 0.0 ? std::string() : text + ": " + std::string(kReachRule);
+}
+
+}  // namespace
+
+void add_neighbours(tables::Program& program) {
+  const auto options = std::make_shared<Options>();
+  tables::Command& command = program.subcommand(
+      "neighbours", "Which bodies of a table, and images of them, touch or are near each other");
+  command
+      .option("--reach", options->reach, "List pairs whose gap is at most R (default: 0, a touch)")
+      .check(check_reach)
+      .type_name("R");
+  command
+      .option("--periodic", options->periodic,
+              "The bodies repeat by these lengths along x, y and z; 0 along an open axis")
+      .check([](const std::string& text) {
+        std::array<double, 3> lengths{};
+        return parse_lengths(text, lengths);
+      })
+      .type_name("LX,LY,LZ");
+  command.flag("--contacts", options->contacts, "Add the columns of `tangency contact`");
+  add_mixed_terms_option(command, *options);
+  add_table_options(command, *options);
+  command.footer(kHelp);
+  command.runs([options] {
+    tables::OutputFile out(options->output);
+    const Bodies bodies = read_bodies(*options);
+    const tables::ExitStatus status = Answers(bodies, *options).write(out);
+    out.commit();
+    return status;
+  });
+}
+
+}  // namespace tangency::tool
