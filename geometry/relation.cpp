@@ -136,7 +136,7 @@ RelationAnswer found_relation(const AskedPair& asked) {
 }
 
 /// @param centre  in place of its own, if it is given
-exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre) {
+exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre = nullptr) {
   if (body.exact() == nullptr) {
     const Ellipsoid& e = body.ellipsoid();
     return exact::ellipsoid_form(centre != nullptr ? e.moved_to(*centre) : e);
