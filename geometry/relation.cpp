@@ -312,8 +312,9 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, cons
   if (image == kHere) return relation(a, b);
   if (a.exact() == nullptr && b.exact() == nullptr)
     return relation(a.ellipsoid(), b.ellipsoid(), edges, image);
-  return in_default_environment(
-      [&] { return exact_relation(ExactPair(form_of(a), moved(form_of(b), edges, image))); });
+  return in_default_environment([&] {
+    return exact_relation(ExactPair(form_of(a, nullptr), moved(form_of(b, nullptr), edges, image)));
+  });
 }
 
 }  // namespace tangency

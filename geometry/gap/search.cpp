@@ -137,7 +137,10 @@ class SphereSearch {
     GapProof answer = better_ && better_->low > best().low ? *better_ : best();
     if (!proven) return answer;
     answer.global = true;
-    if (nested_) answer.high = std::nextafter(reference_ + above_, GapProof::kUnproven);
+    // The triangles have shown more than the best shows by itself, unless none was needed.
+    if (nested_ && triangles_ != 0) {
+      answer.high = std::max(answer.gap, std::nextafter(reference_ + above_, GapProof::kUnproven));
+    }
     for (std::size_t i = 0; i < count_; ++i) {
       if (peaks_[i].needed) answer.high = std::max(answer.high, peaks_[i].proof.high);
     }
