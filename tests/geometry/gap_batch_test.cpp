@@ -472,27 +472,6 @@ TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
   }
 }
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-variable"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#define GUIDE_EXAMPLE(number)                                                     \
-  void guide_example_##number(                                                    \
-      const Ellipsoid& a, const Ellipsoid& b, std::vector<Ellipsoid>& ellipsoids, \
-      const std::vector<IndexedPair>& pairs, const std::vector<Vec3>& separations)
-#include "guide_examples.inc"
-#pragma GCC diagnostic pop
-
-TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
-  Few f;
-  guide_example_1(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_2(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_3(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_4(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_5(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_6(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_7(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-}
-
 TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {
   const Few f;
   for (const double size : {1.0, 0x1p1023}) {
