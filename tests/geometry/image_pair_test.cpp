@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <tangency/geometry/image_gap.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 
 namespace tangency {
