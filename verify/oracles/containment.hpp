@@ -34,7 +34,7 @@ Real clearance_at(const RawEllipsoid& inner, const RawEllipsoid& outer,
                   const std::array<double, 3>& n);
 Real clearance_at(const RawEllipse& inner, const RawEllipse& outer, const std::array<double, 2>& n);
 
-/// The least phi that a descent by Newton's method from n comes upon.
+/// The least phi that a descent by Newton's method from n comes upon, to 40 digits.
 Real clearance_near(const RawEllipsoid& inner, const RawEllipsoid& outer,
                     const std::array<double, 3>& n);
 Real clearance_near(const RawEllipse& inner, const RawEllipse& outer,
