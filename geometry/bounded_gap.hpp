@@ -20,8 +20,6 @@
 /// miss: relation() does, and overlaps_by_filter() in bounded time where doubles tell.
 #pragma once
 
-#include <span>
-
 #include <tangency/geometry/gap.hpp>
 
 namespace tangency {

@@ -17,26 +17,23 @@
 /// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp), of MovingBodies
 ///     26 u L, and the tolerance of the Accuracy asked for.
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
+/// (6) bounded_gaps() enclose the true gap in [gap - gap_error, gap + above], and what no lane
+///     settles is to the bit that of bounded_gap().
+/// (7) point is the midpoint of the two witness points, from A's centre.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include <tangency/geometry/body_array.hpp>
+#include <tangency/geometry/bounded_gap.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
-#include <tangency/geometry/relation.hpp>
+#include <tangency/geometry/overlap_batch.hpp>
+#include <tangency/geometry/pair_list.hpp>
 
 namespace tangency {
-
-/// The pairs of one call.
-struct PairList {
-  std::span<const IndexedPair> pairs;
-  /// c_B - c_A of each pair, as for periodic images; empty: that of the centres.
-  std::span<const Vec3> separations = {};
-};
 
 /// How good a gap has to be: a point on the curve of speed against accuracy that
 /// docs/speed-accuracy.md measures. Sign, status and gap_error are proven at every point of it;
@@ -66,26 +63,41 @@ struct GapColumns {
   std::span<Vec3> arm_b = {};
   std::span<GapStatus> status = {};
   std::span<GapTier> tier = {};
+  /// The contact point less A's centre: arm_a + half of what leads from there to B's witness point.
+  /// Off by no more than half of both arms' contact_bounds() and 8 u L.
+  std::span<Vec3> point = {};
+};
+
+/// The same with how much more than `gap` the true gap may be.
+struct BoundedColumns {
+  GapColumns answers;
+  std::span<double> above = {};  ///< BoundedGap::above
 };
 
 /// signed_gap() of every pair.
 ///
 /// Here and below a length that does not match, an index that is none and a separation that is not
-/// finite end the process with one line on standard error, in every build; indices in overlaps()
-/// and overlaps_by_filter() only where asserts are on (a release build does not look at them).
-/// So does a body of MovingBodies that is none (a semi-axis that is not finite and > 0, an
-/// orientation that is not finite or all 0) where a pair names it: the line says which and why.
+/// finite end the process with one line on standard error, in every build; in overlap_batch.hpp
+/// indices only where asserts are on. So does a body of MovingBodies that is none (a semi-axis that
+/// is not finite and > 0, an orientation that is not finite or all 0) where a pair names it: the
+/// line says which and why.
+/// @param threads  that may work on the list, the calling one among them; each is started for the
+///                 call, which some thousands of pairs are worth
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
 /// The same for moving bodies. Separations have to be given where the bodies have no centres, here
 /// and below.
 void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
 /// The same for a[i] and b[i], at the cost of reading whole bodies.
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @param separations  in place of the centres
+void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
+                 std::span<const Vec3> separations, std::span<Gap> answers, Accuracy accuracy = {},
+                 int threads = 1) noexcept;
 
 /// follow_gap() of every pair, and signed_gap() of those whose previous normal is exactly 0; where
 /// `separations` is empty, of the rounded c_B - c_A, and signed_gap() where that overflows. Deeper
@@ -94,26 +106,24 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
 void follow_gaps(const MovingBodies& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
-                 Accuracy accuracy = {}) noexcept;
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+
+/// bounded_gap() of every pair: in lanes where those settle it, and nowhere by a search or by the
+/// exact relation. Allocates for threads alone.
+void bounded_gaps(const BodyArray& bodies, const PairList& list, const BoundedColumns& answers,
+                  Accuracy accuracy = {}, int threads = 1) noexcept;
+void bounded_gaps(const MovingBodies& bodies, const PairList& list, const BoundedColumns& answers,
+                  Accuracy accuracy = {}, int threads = 1) noexcept;
 
 /// gap_derivatives() of every pair at the answers of signed_gaps() or follow_gaps(), pair by pair:
 /// for implicit methods. To the bit as the single call's.
 void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<const Gap> gaps,
-                     std::span<GapDerivatives> answers) noexcept;
-
-/// overlaps() of every pair: do the interiors meet? Exact for the stored doubles, in any
-/// floating-point environment; given separations are taken as they are.
-void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers) noexcept;
-
-/// overlaps_by_filter() of every pair: nothing where only the exact tier would know. In bounded
-/// time, and allocates nothing.
-void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
-                        std::span<std::optional<bool>> answers) noexcept;
+                     std::span<GapDerivatives> answers, int threads = 1) noexcept;
 
 }  // namespace tangency

@@ -327,7 +327,7 @@ void require_columns(const TimeColumns& columns, std::size_t count) {
 void run(const Asked& asked, int threads) {
   assert(std::isfinite(asked.horizon) && asked.horizon >= 0.0 && asked.tolerance > 0.0);
   const std::size_t count = asked.list.pairs.size();
-  if (asked.moving != nullptr || !asked.list.separations.empty())
+  if (!asked.list.separations.empty() || (asked.moving != nullptr && !asked.moving->has_centres()))
     contract::require_length(kCall, "separations", asked.list.separations.size(), count);
   if (asked.motions.size() != asked.body_count)
     contract::wrong_column(kCall, "motions", asked.motions.size(), asked.body_count);

@@ -20,8 +20,8 @@
 #include <span>
 
 #include <tangency/geometry/body_array.hpp>
-#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
+#include <tangency/geometry/pair_list.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 
 namespace tangency {
@@ -49,7 +49,7 @@ struct TimeColumns {
 void times_of_contact(const BodyArray& bodies, std::span<const Motion> motions,
                       const PairList& list, double horizon, double tolerance,
                       const TimeColumns& answers, int threads = 1) noexcept;
-/// The same of bodies by columns, about the origin: separations have to be given.
+/// The same of moving bodies. Separations have to be given where the bodies have no centres.
 void times_of_contact(const MovingBodies& bodies, std::span<const Motion> motions,
                       const PairList& list, double horizon, double tolerance,
                       const TimeColumns& answers, int threads = 1) noexcept;

@@ -144,7 +144,7 @@ class Answers {
   Answers(const Bodies& bodies, const Options& options)
       : bodies_(bodies), contacts_(options.contacts) {
     question_.lattice = lattice_of(options.periodic);
-    question_.threads = options.threads;
+    question_.threads = static_cast<int>(options.threads);
     if (!options.reach.empty()) tables::parse_number(options.reach, question_.reach);
   }
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The pairs of a batch call, wherever their bodies are: in blocks for the lanes, and one by one
+/// for the single calls, which answer what no lane proves. Internal.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include <tangency/geometry/batch/lane_block.hpp>
+#include <tangency/geometry/body_array.hpp>
+#include <tangency/geometry/bounded_gap.hpp>
+#include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
+#include <tangency/geometry/pair_list.hpp>
+
+namespace tangency::detail {
+
+inline constexpr std::size_t kBlock = LaneBlock::kPairs;
+
+/// The pairs of one call.
+struct PairTask {
+  const char* call = nullptr;
+  const BodyArray* bodies = nullptr;     ///< null: moving bodies or plain pairs
+  const MovingBodies* moving = nullptr;  ///< null: the bodies above or plain pairs
+  const LaneBody* lanes = nullptr;       ///< of the bodies
+  std::size_t body_count = 0;
+  const IndexedPair* pairs = nullptr;
+  const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
+  const Vec3* separations = nullptr;
+  const Vec3* previous_normals = nullptr;
+  bool answers_over_normals = false;  ///< else what a lane leaves open is still there
+  std::size_t count = 0;
+  // As in LaneBlock.
+  double tolerance_of_size = 0.0, tolerance = 0.0;
+  bool polish = false;
+
+  /// Ends the process where separations are not as many as pairs; of moving bodies without centres
+  /// they have to be given.
+  PairTask(const char* of_call, const BodyArray& of_bodies, const PairList& list) noexcept;
+  PairTask(const char* of_call, const MovingBodies& of_bodies, const PairList& list) noexcept;
+  /// a[i] and b[i].
+  PairTask(const char* of_call, std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
+           std::span<const Vec3> given_separations) noexcept;
+
+  bool indexed() const noexcept { return bodies != nullptr || moving != nullptr; }
+  const Ellipsoid& a(std::size_t i) const noexcept {
+    return bodies != nullptr ? (*bodies)[pairs[i].a] : plain_a[i];
+  }
+  const Ellipsoid& b(std::size_t i) const noexcept {
+    return bodies != nullptr ? (*bodies)[pairs[i].b] : plain_b[i];
+  }
+  /// c_B - c_A, rounded.
+  Vec3 separation(std::size_t i) const noexcept;
+
+  // The single calls. A separation that is not finite ends the process: no lane proves anything of
+  // it, and so it comes here.
+
+  /// @param previous_normal  null, or 0: the pair is asked afresh
+  Gap single(std::size_t i, const Vec3* previous_normal) const noexcept;
+  BoundedGap bounded(std::size_t i) const noexcept;
+  bool overlaps(std::size_t i) const noexcept;
+  std::optional<bool> overlaps_by_filter(std::size_t i) const noexcept;
+
+  /// Are the bodies of pairs first to first + n in the array? Else the process ends.
+  void require_indices(std::size_t first, std::size_t n) const noexcept;
+
+ private:
+  void require_finite_separation(std::size_t i) const noexcept;
+  Ellipsoid made(std::size_t body) const noexcept;
+  Gap single(std::size_t i, const Ellipsoid& a, const Ellipsoid& b,
+             const Vec3* previous_normal) const noexcept;
+  [[noreturn]] void name_outside(std::size_t first, std::size_t n) const noexcept;
+};
+
+/// A block of pairs and copies of what belongs to them, so that the answers may be written where
+/// the questions were.
+struct Workspace {
+  LaneBlock block;
+  IndexedPair pairs[kBlock];
+  Vec3 separations[kBlock], normals[kBlock];
+  LaneBody plain_a[kBlock], plain_b[kBlock];
+  double gap[kBlock], gap_error[kBlock];
+  Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
+
+  /// The answers are to stand here.
+  void take_answers() noexcept;
+};
+
+/// Pairs first to first + count as the lanes read them, count at most kBlock and at least 1.
+void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work) noexcept;
+
+}  // namespace tangency::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The pairs that a batch call is asked about.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <tangency/geometry/indexed_pair.hpp>
+#include <tangency/geometry/vectors.hpp>
+
+namespace tangency {
+
+/// The pairs of one call.
+struct PairList {
+  std::span<const IndexedPair> pairs;
+  /// c_B - c_A of each pair, as for periodic images; empty: that of the centres.
+  std::span<const Vec3> separations = {};
+};
+
+/// A pair of indices of any integer types. One that is no index (negative, or too large) stays
+/// none: the call that is asked about it ends the process with a line, as for every index beyond
+/// the bodies.
+constexpr IndexedPair indexed_pair(std::integral auto a, std::integral auto b) noexcept {
+  constexpr auto most = std::numeric_limits<std::uint32_t>::max();
+  return {std::in_range<std::uint32_t>(a) ? static_cast<std::uint32_t>(a) : most,
+          std::in_range<std::uint32_t>(b) ? static_cast<std::uint32_t>(b) : most};
+}
+
+}  // namespace tangency
