@@ -14,13 +14,13 @@ macro(tangency_require)
   endif()
 endmacro()
 
-# tangency_places_unknown(TARGET): what is installed holds no path of where it was built, in asserts or for debuggers.
-function(tangency_places_unknown target)
+# tangency_hide_places(): what this folder and those below it build holds no path of where it was built, in
+# asserts and for debuggers, since it is installed elsewhere.
+function(tangency_hide_places)
   if(TANGENCY_INSTALL)
-    target_compile_options(${target} PRIVATE
-      "-ffile-prefix-map=${PROJECT_SOURCE_DIR}=."
-      "-ffile-prefix-map=${PROJECT_BINARY_DIR}=./build"
-      "-ffile-prefix-map=${include_tangency}=.")
+    add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}=."
+                        "-ffile-prefix-map=${PROJECT_BINARY_DIR}=./build"
+                        "-ffile-prefix-map=${include_tangency}=.")
   endif()
 endfunction()
 
@@ -39,8 +39,6 @@ function(tangency_library target component folder)
   if(TANGENCY_OPTIMIZED_KERNEL)
     target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:>,$<CONFIG:Debug>>:-O2>)
   endif()
-  tangency_places_unknown(${target})
-  tangency_own_symbols(${target})
   tangency_install_library(${target} ${component})
 endfunction()
 
@@ -69,7 +67,6 @@ function(tangency_install_library target component)
 endfunction()
 
 function(tangency_install_tool target)
-  tangency_places_unknown(${target})
   if(TANGENCY_INSTALL)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR
                BASE_DIRECTORY "${CMAKE_INSTALL_FULL_BINDIR}" OUTPUT_VARIABLE libraries)

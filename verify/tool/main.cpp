@@ -24,7 +24,8 @@ Exit status:
 
 int main(int argc, char** argv) {
   using namespace tangency::verify;
-  tangency::tables::Program program("tangency-verify", kProgramDescription, TANGENCY_VERSION_STRING);
+  tangency::tables::Program program("tangency-verify", kProgramDescription,
+                                    TANGENCY_VERSION_STRING);
   program.footer(kProgramHelp);
   add_generate(program);
   add_grade(program);
