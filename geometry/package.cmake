@@ -61,6 +61,7 @@ function(tangency_install_library target component)
   endif()
   if(TANGENCY_INSTALL)
     install(TARGETS ${target} EXPORT tangency_${component}
+      INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
       LIBRARY COMPONENT ${component} ARCHIVE COMPONENT ${component} RUNTIME COMPONENT ${component}
       ${headers})
   endif()
@@ -75,8 +76,8 @@ function(tangency_install_tool target)
   endif()
 endfunction()
 
-# tangency_pkg_config(COMPONENT REQUIRES PRIVATE DESCRIPTION): the file tangency-COMPONENT.pc. Who links a static library
-# needs what is private to it, and the program that reads the file cannot know of which kind it is.
+# tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE): the file tangency-COMPONENT.pc. Who links a
+# static library needs what is private to it, and is not to know of which kind it is.
 function(tangency_pkg_config component description requires private)
   get_target_property(type tangency_${component} TYPE)
   set(libraries "-L\${libdir} -ltangency_${component}")
@@ -121,6 +122,7 @@ function(tangency_install_package)
                         "tangency-geometry = ${PROJECT_VERSION}" "tbb;tomlplusplus;libhwy")
   endif()
 
-  install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT geometry)
-  install(DIRECTORY LICENSES docs/example DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT geometry)
+  set(documents "${CMAKE_INSTALL_DATAROOTDIR}/doc/tangency")  # also within another project
+  install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${documents}" COMPONENT geometry)
+  install(DIRECTORY LICENSES docs/example DESTINATION "${documents}" COMPONENT geometry)
 endfunction()
