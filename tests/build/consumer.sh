@@ -28,9 +28,9 @@ done
 for header in version geometry/gap dem/simulation dem/micromechanics/fabric verify/oracles/gap; do
   grep -q "<tangency/$header.hpp>" "$work/all.cpp" || { echo "$header.hpp is not installed"; exit 1; }
 done
-eigen=$(pkg-config --cflags eigen3)
-"${CXX:-c++}" -std=c++20 -fsyntax-only -Wall -Wextra -Werror -isystem "${eigen#-I}" -I"$prefix/include" \
-  "$work/all.cpp"
+eigen=$(pkg-config --cflags-only-I eigen3 | sed 's/-I/-isystem /g')
+# shellcheck disable=SC2086  # options, one a word
+"${CXX:-c++}" -std=c++20 -fsyntax-only -Wall -Wextra -Werror $eigen -I"$prefix/include" "$work/all.cpp"
 
 # A user whose flags ask for fused multiply-adds gets them in his own code, and is answered.
 flags="-O2 -ffp-contract=fast"

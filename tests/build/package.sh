@@ -15,11 +15,10 @@ says() { printf '%4d s  %s\n' "$SECONDS" "$*"; }
 # each_header PREFIX: every header compiles with nothing before it.
 each_header() {
   local eigen
-  eigen=$(pkg-config --cflags-only-I eigen3)
+  eigen=$(pkg-config --cflags-only-I eigen3 | sed 's/-I/-isystem /g')
   (cd "$1/include" && find tangency -name '*.hpp') | xargs -P "$(nproc)" -I '{}' sh -c \
-    'echo "#include <$1>" | "${CXX:-c++}" -std=c++20 -fsyntax-only -Wall -Wextra -Werror -x c++ \
-       -isystem "${2#-I}" -I"$3" - || { echo "$1 does not stand alone"; exit 255; }' \
-    - '{}' "$eigen" "$1/include"
+    'echo "#include <$1>" | "${CXX:-c++}" -std=c++20 -fsyntax-only -Wall -Wextra -Werror $2 -I"$3" -x c++ - ||
+       { echo "$1 does not stand alone"; exit 255; }' - '{}' "$eigen" "$1/include"
 }
 
 for kind in "$@"; do
