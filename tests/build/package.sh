@@ -54,7 +54,7 @@ for kind in "$@"; do
   cmake --install "$here/build" --prefix "$here/alone" --component geometry >/dev/null
   cmake -G Ninja -S "$source/docs/example" -B "$here/example" -DCMAKE_PREFIX_PATH="$here/alone" >/dev/null
   cmake --build "$here/example"
-  "$here/example/first_contact" | grep -qx overlap
+  "$here/example/first_contact" | grep -qx separate
 
   says "$kind: an embedding project and its user"
   cmake -G Ninja -S "$source/tests/consumer/embedding" -B "$here/embedding" -DTANGENCY_SOURCE="$source" \
