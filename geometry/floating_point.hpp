@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What this library needs of the compiler: IEEE 754 binary64, each operation rounded once.
+/// What this library needs of the compiler: C++20, and IEEE 754 binary64.
 /// Every public header includes this one, so that a user who compiles with -ffast-math or
-/// -ffinite-math-only is told so instead of being given unproven answers. Contraction into fused
-/// multiply-adds shows in no macro: the CMake target carries -ffp-contract=off to its users.
+/// -ffinite-math-only is told so instead of being given unproven answers. The library's own files
+/// are compiled with -ffp-contract=off: there each operation rounds once. A user may have products
+/// and sums contracted into fused multiply-adds: no inline function of a public header is part of a
+/// proof where a user compiles it, and what it returns then differs by roundings alone.
 #pragma once
+
+#if __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+#error "tangency needs C++20: compile with -std=c++20"
+#endif
 
 #include <cfloat>
 #include <limits>

@@ -24,6 +24,7 @@
 #include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::dem {
 namespace {
@@ -368,7 +369,7 @@ void add_schema(tables::Program& program) {
 
 int main(int argc, char** argv) {
   using namespace tangency::dem;
-  tangency::tables::Program program("tangency-dem", kProgramDescription, TANGENCY_VERSION);
+  tangency::tables::Program program("tangency-dem", kProgramDescription, tangency::version());
   program.footer(kProgramHelp);
   add_run(program);
   add_report(program);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/tool/command_line.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::tool {
 namespace {
@@ -23,7 +24,7 @@ Exit status:
 
 int main(int argc, char** argv) {
   using namespace tangency::tool;
-  tangency::tables::Program program("tangency", kProgramDescription, TANGENCY_VERSION);
+  tangency::tables::Program program("tangency", kProgramDescription, tangency::version());
   program.footer(kProgramHelp);
   add_contact(program);
   add_overlap(program);

@@ -84,10 +84,10 @@ struct Options {
 // Beside the installed tool, or in the source tree.
 fs::path default_corpora() {
   std::error_code unknown;
-  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-  const fs::path installed = program.parent_path().parent_path() / "share/tangency/corpora";
+  const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const fs::path installed = (folder / TANGENCY_INSTALLED_CORPORA).lexically_normal();
   if (!unknown && fs::is_directory(installed, unknown)) return installed;
-  return TANGENCY_SOURCE_CORPORA;
+  return (folder / TANGENCY_SOURCE_CORPORA).lexically_normal();
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::verify {
 namespace {
@@ -23,7 +24,8 @@ Exit status:
 
 int main(int argc, char** argv) {
   using namespace tangency::verify;
-  tangency::tables::Program program("tangency-verify", kProgramDescription, TANGENCY_VERSION);
+  tangency::tables::Program program("tangency-verify", kProgramDescription,
+                                    TANGENCY_VERSION_STRING);
   program.footer(kProgramHelp);
   add_generate(program);
   add_grade(program);
