@@ -150,12 +150,11 @@ Clearance clearance(const Ellipsoid& inner, const Ellipsoid& outer,
 Clearance clearance(const MatrixEllipsoid& inner, const MatrixEllipsoid& outer) noexcept {
   return in_default_environment([&] {
     Gap gap = found_gap({outer.ellipsoid(), inner.ellipsoid()});
-    double off = inner.rounding() + outer.rounding();
+    const double off = inner.rounding() + outer.rounding();
     if (off != 0.0 && std::isfinite(gap.gap)) {
       const Ellipsoid &a = outer.ellipsoid(), &b = inner.ellipsoid();
       const double most =
           2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
-      off += 4.0 * kUnitRoundoff * (off + std::abs(gap.gap));  // what sums round
       gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
     }
     return detail::as_clearance<Clearance>(gap, gap.arm_b);

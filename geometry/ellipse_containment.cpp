@@ -111,12 +111,11 @@ PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer,
 PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer) noexcept {
   return in_default_environment([&] {
     PlaneGap gap = found_gap({outer.ellipse(), inner.ellipse()});
-    double off = inner.rounding() + outer.rounding();
+    const double off = inner.rounding() + outer.rounding();
     if (off != 0.0 && std::isfinite(gap.gap)) {
       const Ellipse &a = outer.ellipse(), &b = inner.ellipse();
       const double most =
           2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
-      off += 4.0 * kUnitRoundoff * (off + std::abs(gap.gap));  // what sums round
       gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
     }
     return detail::as_clearance<PlaneClearance>(gap, gap.arm_b);

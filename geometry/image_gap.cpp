@@ -34,10 +34,8 @@ Gap widened_gap(const Gap& rounded, double off, const MatrixEllipsoid& a, const 
   if (off == 0.0 || !std::isfinite(rounded.gap)) return rounded;
   return in_default_environment([&] {
     const Vec3 d = separation(a.ellipsoid().centre(), b.ellipsoid().centre(), edges, image).vector;
-    // gap + gap_error is rounded by no more than this.
-    const double wide = off + 0x1p-52 * std::abs(rounded.gap);
-    return detail::widened(rounded, wide, ExactImage{a, b, edges, image},
-                           2.0 * d.cwiseAbs().maxCoeff() + wide);
+    return detail::widened(rounded, off, ExactImage{a, b, edges, image},
+                           2.0 * d.cwiseAbs().maxCoeff() + off);
   });
 }
 

@@ -53,7 +53,9 @@ AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance) {
     double gap, low, high;
     bool global;
   } proof{};
-  const double error = (gap.gap_error + off) * (1.0 + 0x1p-50);
+  // What gap - error and gap + error round, with it.
+  const double rounding = 2.0 * kUnitRoundoff * std::abs(gap.gap);
+  const double error = (gap.gap_error + off + rounding) * (1.0 + 0x1p-50);
   proof = {gap.gap, gap.gap - error, gap.gap + error, gap.status == GapStatus::ok};
   settle_sign(proof, gap.tier, exact, distance);
   gap.gap = proof.gap;
