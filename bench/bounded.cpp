@@ -20,6 +20,7 @@
 #include <tangency/bench/pairs.hpp>
 #include <tangency/bench/timing.hpp>
 #include <tangency/geometry/bounded_gap.hpp>
+#include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
 
@@ -109,20 +110,23 @@ Row measured(const verify::DeepFamily& family, std::size_t count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const long asked = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 100'000;
-  if (asked <= 0 || argc > 2) {
-    std::fprintf(stderr, "bench_bounded [PAIRS]: of each family, at least 1; default 100000\n");
-    return 2;
-  }
-  std::printf("%-32s %9s %9s %9s %9s %7s %9s %9s %9s\n", "ns each, least of the slowest", "mean",
-              "slowest", "signed", "slowest", "ok %", "above 50%", "90%", "99%");
-  for (const verify::DeepFamily& family : verify::deep_families()) {
-    Row row = measured(family, static_cast<std::size_t>(asked));
-    std::printf("%-32s %9.0f %9.0f %9.0f %9.0f %7.2f %9.2e %9.2e %9.2e\n", family.name.c_str(),
-                row.mean, row.slowest, row.signed_mean, row.signed_slowest,
-                100.0 * static_cast<double>(row.ok) / static_cast<double>(asked), row.share(0.5),
-                row.share(0.9), row.share(0.99));
-    std::fflush(stdout);
-  }
-  return 0;
+  tangency::tables::Program program("bench_bounded", "Time bounded_gap() on deep pairs");
+  std::size_t asked = 100'000;
+  program.option("--count", asked, "pairs of each family")
+      .shows_default()
+      .between(std::size_t{1}, std::size_t{10'000'000});
+  program.runs([&] {
+    std::printf("%-32s %9s %9s %9s %9s %7s %9s %9s %9s\n", "ns each, least of the slowest", "mean",
+                "slowest", "signed", "slowest", "ok %", "above 50%", "90%", "99%");
+    for (const verify::DeepFamily& family : verify::deep_families()) {
+      Row row = measured(family, asked);
+      std::printf("%-32s %9.0f %9.0f %9.0f %9.0f %7.2f %9.2e %9.2e %9.2e\n", family.name.c_str(),
+                  row.mean, row.slowest, row.signed_mean, row.signed_slowest,
+                  100.0 * static_cast<double>(row.ok) / static_cast<double>(asked), row.share(0.5),
+                  row.share(0.9), row.share(0.99));
+      std::fflush(stdout);
+    }
+    return 0;
+  });
+  return program.run(argc, argv);
 }

@@ -109,12 +109,14 @@ int main(int argc, char** argv) {
     }
     return exact / static_cast<double>(family.a.size());
   };
+  const auto overlaps = [](const Ellipsoid& a, const Ellipsoid& b) {
+    return tangency::overlaps(a, b);
+  };
   for (const Family& family : families) {
-    add("overlaps/" + family.name, family, tangency::overlaps, share_of_exact(family));
+    add("overlaps/" + family.name, family, overlaps, share_of_exact(family));
   }
   for (const Family& family : distant) {
-    add("overlaps_gap_above_1e-6/" + family.name, family, tangency::overlaps,
-        share_of_exact(family));
+    add("overlaps_gap_above_1e-6/" + family.name, family, overlaps, share_of_exact(family));
     add(
         "filter_alone_gap_above_1e-6/" + family.name, family,
         [](const Ellipsoid& a, const Ellipsoid& b) {

@@ -20,6 +20,7 @@
 
 #include <tangency/bench/timing.hpp>
 #include <tangency/geometry/near_pairs.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/time_batch.hpp>
 
 namespace {

@@ -98,16 +98,13 @@ Solved solve(const Pair& pair) {
   if (pair.a.is_sphere() && pair.b.is_sphere()) return solve_spheres(pair);
   if (pair.b.is_sphere()) return solve_sphere_inside(pair);
   const FactoredPair factored(pair.a, pair.b, pair.d, true);
-  if (const auto proof = detail::search_meridian(pair, factored))
-    return {*proof, GapTier::search};
+  if (const auto proof = detail::search_meridian(pair, factored)) return {*proof, GapTier::search};
   const Vec3 start = pair.d == Vec3::Zero() ? factored.axis(0) : Vec3(pair.d.stableNormalized());
   const auto searched = detail::search_sphere(pair, factored, start, kBudget);
   Solved solved{searched ? *searched : proof_at(pair, factored), GapTier::search};
   const double widest = detail::kWidestOk * kUnitRoundoff * pair.size;
   if (!solved.proof.global || solved.proof.high - solved.proof.low > widest) {
-    const double high = solved.proof.global ? solved.proof.high : GapProof::kUnproven;
-    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair.b, distance_of(pair));
-    solved.proof.high = std::min(solved.proof.high, high);
+    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair, distance_of(pair));
   }
   return solved;
 }
@@ -153,11 +150,12 @@ Clearance clearance(const Ellipsoid& inner, const Ellipsoid& outer,
 Clearance clearance(const MatrixEllipsoid& inner, const MatrixEllipsoid& outer) noexcept {
   return in_default_environment([&] {
     Gap gap = found_gap({outer.ellipsoid(), inner.ellipsoid()});
-    const double off = inner.rounding() + outer.rounding();
+    double off = inner.rounding() + outer.rounding();
     if (off != 0.0 && std::isfinite(gap.gap)) {
       const Ellipsoid &a = outer.ellipsoid(), &b = inner.ellipsoid();
-      const double most = 2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() +
-                                 b.largest_semi_axis());
+      const double most =
+          2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
+      off += 4.0 * kUnitRoundoff * (off + std::abs(gap.gap));  // what sums round
       gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
     }
     return detail::as_clearance<Clearance>(gap, gap.arm_b);

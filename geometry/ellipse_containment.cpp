@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/ellipse_containment.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,10 +65,7 @@ Solved solve(const PlanePair& pair) {
   Solved solved{detail::search_plane_gap(pair, start), GapTier::search};
   const double widest = detail::kWidestOk * kUnitRoundoff * pair.size;
   if (!solved.proof.global || solved.proof.high - solved.proof.low > widest) {
-    const double high =
-        solved.proof.global ? solved.proof.high : std::numeric_limits<double>::infinity();
-    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair.b, distance_of(pair));
-    solved.proof.high = std::min(solved.proof.high, high);
+    detail::bound_all_normals(solved.proof, margin_of(pair.asked), pair, distance_of(pair));
   }
   return solved;
 }
@@ -113,11 +111,12 @@ PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer,
 PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer) noexcept {
   return in_default_environment([&] {
     PlaneGap gap = found_gap({outer.ellipse(), inner.ellipse()});
-    const double off = inner.rounding() + outer.rounding();
+    double off = inner.rounding() + outer.rounding();
     if (off != 0.0 && std::isfinite(gap.gap)) {
       const Ellipse &a = outer.ellipse(), &b = inner.ellipse();
-      const double most = 2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() +
-                                 b.largest_semi_axis());
+      const double most =
+          2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
+      off += 4.0 * kUnitRoundoff * (off + std::abs(gap.gap));  // what sums round
       gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
     }
     return detail::as_clearance<PlaneClearance>(gap, gap.arm_b);

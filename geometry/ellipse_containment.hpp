@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How far one solid ellipse lies inside another: the plane's counterpart of containment.hpp, by the
-/// same definitions and with the same identities:
+/// How far one solid ellipse lies inside another: the plane's counterpart of containment.hpp, by
+/// the same definitions and with the same identities:
 ///
 /// (1) The sign of the clearance is that of the exact relation: > 0 where the inner body is in the
 ///     other's interior, 0 where it is in it and touches its boundary, or both are equal, else < 0.
 /// (2) margin > 1, = 1 or < 1 as the clearance is > 0, = 0 or < 0.
-/// (3) clearance >= (margin - 1) times the inner body's smaller semi-axis where that is > 0, and (margin -
+/// (3) clearance >= (margin - 1) times the inner body's smaller semi-axis where that is > 0, and
+/// (margin -
 ///     1) times its larger where it is < 0.
 /// (4) The inner body scaled by its margin has the margin 1, and scaling both bodies scales the
 ///     clearance and leaves the margin.
@@ -32,8 +33,8 @@ struct PlaneClearance {
   GapTier tier;
 };
 
-/// The global minimum over all normals: any pose, any semi-axes. Where several normals tie the answer
-/// is one of them. In any floating-point environment. Allocates. Takes 10 us to 50 ms.
+/// The global minimum over all normals: any pose, any semi-axes. Where several normals tie the
+/// answer is one of them. In any floating-point environment. Allocates. Takes 10 us to 50 ms.
 PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer) noexcept;
 
 /// The same with the separation d = c_outer - c_inner given, in place of the centres.
@@ -41,8 +42,8 @@ PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer) noexcept;
 PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer,
                          const Vec2& separation) noexcept;
 
-/// Of ellipses given by matrices: the answer of MatrixEllipse::ellipse() of each, with the sign of the
-/// true bodies' relation, and their roundings in the error, which `ok` bounds no longer.
+/// Of ellipses given by matrices: the answer of MatrixEllipse::ellipse() of each, with the sign of
+/// the true bodies' relation, and their roundings in the error, which `ok` bounds no longer.
 PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer) noexcept;
 
 /// From exact integers, as in space.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Bodies that repeat along edge vectors, and pairs of their images.
+///
+/// (1) The true c_B + edges * image - c_A is within separation().error of separation().vector;
+///     error 0 says that it is that vector. In every floating-point environment.
 #pragma once
 
 #include <array>
@@ -30,5 +33,15 @@ struct NearPair {
 
   auto operator<=>(const NearPair&) const = default;
 };
+
+/// c_B + edges * image - c_A, rounded.
+struct ImageSeparation {
+  Vec3 vector;   ///< finite; where the true one is not within the range of doubles, the nearest
+  double error;  ///< of its length; infinite where the true one is beyond the range of doubles
+};
+
+/// @param edges  columns; finite. Those that the image does not count are not read
+ImageSeparation separation(const Vec3& centre_a, const Vec3& centre_b, const Mat3& edges,
+                           const LatticeImage& image) noexcept;
 
 }  // namespace tangency

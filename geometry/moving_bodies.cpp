@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <tangency/geometry/batch/moving_lanes.hpp>
-#include <tangency/geometry/image_pair.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 

@@ -8,6 +8,7 @@
 
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/normals/precise_perram_wertheim.hpp>
+#include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
@@ -262,6 +263,7 @@ PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid&
 
 PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
                                             const Vec3& separation) noexcept {
+  contract::require_finite("perram_wertheim_factor", "separation", separation);
   return in_default_environment([&] { return answer<OfSizes>({a, b, &separation}); });
 }
 
@@ -290,6 +292,7 @@ OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 
 OtherGap perram_wertheim_gap(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept {
+  contract::require_finite("perram_wertheim_gap", "separation", separation);
   return in_default_environment([&] { return answer<BetweenTangentPlanes>({a, b, &separation}); });
 }
 
@@ -299,6 +302,7 @@ OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept
 
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept {
+  contract::require_finite("midpoint_potential_gap", "separation", separation);
   return in_default_environment([&] { return answer<AlongTheNormal>({a, b, &separation}); });
 }
 

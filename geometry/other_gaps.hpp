@@ -52,6 +52,7 @@ struct PerramWertheimFactor {
 /// `not_converged` far beyond aspect ratios of 1e20, else `ok`.
 PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
+/// @param separation  finite, here and below: else the process ends with one line on standard error
 PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
                                             const Vec3& separation) noexcept;
 /// Of bodies given by matrices: of MatrixEllipsoid::ellipsoid() of each, with their roundings in

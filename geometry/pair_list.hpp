@@ -21,9 +21,9 @@ struct PairList {
   std::span<const Vec3> separations = {};
 };
 
-/// A pair of indices of any integer types. One that is no index (negative, or too large) stays
-/// none: the call that is asked about it ends the process with a line, as for every index beyond
-/// the bodies.
+/// A pair of indices of any integer types. One that is no index (negative, or beyond 32 bits)
+/// becomes 2^32 - 1, which is none either: a call that is asked about it treats it as every index
+/// beyond the bodies.
 constexpr IndexedPair indexed_pair(std::integral auto a, std::integral auto b) noexcept {
   constexpr auto most = std::numeric_limits<std::uint32_t>::max();
   return {std::in_range<std::uint32_t>(a) ? static_cast<std::uint32_t>(a) : most,

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/relation.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/bodies/rational_solid.hpp>
@@ -17,6 +21,7 @@ namespace {
 
 using detail::Filtered;
 using detail::OverlapFilter;
+using exact::Containment;
 using exact::ExactPair;
 using exact::Position;
 using AskedPair = detail::AskedPair<Ellipsoid>;
@@ -99,14 +104,39 @@ Found filter_relation(const AskedPair& asked) {
   return {std::nullopt, true};
 }
 
+RelationAnswer exactly(Relation relation, Inner inner = Inner::none) {
+  return {relation, inner, Tier::exact};
+}
+
+/// For a pair whose interiors meet.
+RelationAnswer exact_containment(const ExactPair& pair) {
+  if (pair.equal()) return exactly(Relation::equal);
+  const Containment a_in_b = pair.containment();
+  if (a_in_b == Containment::interior) return exactly(Relation::a_in_b);
+  if (a_in_b == Containment::touching) return exactly(Relation::internal_touch, Inner::a);
+  const Containment b_in_a = pair.exchanged().containment();
+  if (b_in_a == Containment::interior) return exactly(Relation::b_in_a);
+  if (b_in_a == Containment::touching) return exactly(Relation::internal_touch, Inner::b);
+  return exactly(Relation::overlap);
+}
+
+[[gnu::noinline]] RelationAnswer exact_relation(const ExactPair& pair,
+                                                bool interiors_meet = false) {
+  if (interiors_meet) return exact_containment(pair);
+  const Position position = pair.position();
+  if (position == Position::apart) return exactly(Relation::separate);
+  if (position == Position::touching) return exactly(Relation::external_touch);
+  return exact_containment(pair);
+}
+
 RelationAnswer found_relation(const AskedPair& asked) {
   const Found found = filter_relation(asked);
   if (found.relation) return {*found.relation, Inner::none, Tier::filter};
-  return exact::exact_relation(exact_pair(asked), found.interiors_meet);
+  return exact_relation(exact_pair(asked), found.interiors_meet);
 }
 
 /// @param centre  in place of its own, if it is given
-exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre) {
+exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre = nullptr) {
   if (body.exact() == nullptr) {
     const Ellipsoid& e = body.ellipsoid();
     return exact::ellipsoid_form(centre != nullptr ? e.moved_to(*centre) : e);
@@ -117,6 +147,39 @@ exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre) {
     moved.centre[i] = exact::to_rational((*centre)[static_cast<int>(i)]);
   }
   return exact::integer_form(moved);
+}
+
+constexpr LatticeImage kHere{0, 0, 0};
+
+/// The form of the solid moved by edges * image.
+exact::SolidForm<4> moved(exact::SolidForm<4> solid, const Mat3& edges, const LatticeImage& image) {
+  int unit = 0;
+  for (int k = 0; k < 3; ++k)
+    if (image[static_cast<std::size_t>(k)] != 0 && !edges.col(k).isZero(0.0))
+      unit = std::min(unit, exact::common_exponent(std::span(edges.col(k).data(), 3)));
+  std::array<mpz_class, 3> by;  // in 2^unit, where 1 is `one`
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t times = image[static_cast<std::size_t>(k)];
+      if (times != 0)
+        by[static_cast<std::size_t>(i)] += times * exact::to_integer(edges(i, k), unit);
+    }
+  const mpz_class one = mpz_class(1) << static_cast<mp_bitcnt_t>(-unit);
+  // (one x - by)' F (one x - by), with x and the number 1 in one vector.
+  const exact::IntegerForm<4>& form = solid.form;
+  exact::SolidForm<4> result;
+  result.denominator = solid.denominator * one * one;
+  result.form[3][3] = form[3][3] * one * one;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_class turned;  // of the block
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.form[i][k] = form[i][k] * one * one;
+      turned += form[i][k] * by[k];
+    }
+    result.form[i][3] = result.form[3][i] = one * (one * form[i][3] - turned);
+    result.form[3][3] += by[i] * turned - 2 * one * form[i][3] * by[i];
+  }
+  return result;
 }
 
 /// The solid by doubles, so much smaller or larger that the true one has it, or lies, inside.
@@ -168,7 +231,7 @@ RelationAnswer relation_of_matrices(const MatrixEllipsoid& a, const MatrixEllips
   const Vec3 origin = Vec3::Zero();
   const ExactPair pair(form_of(a, separation != nullptr ? &origin : nullptr),
                        form_of(b, separation));
-  return exact::exact_relation(pair);
+  return exact_relation(pair);
 }
 
 }  // namespace
@@ -234,6 +297,24 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
   }
   contract::require_finite("relation", "separation", separation);
   return in_default_environment([&] { return relation_of_matrices(a, b, &separation); });
+}
+
+RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
+                        const LatticeImage& image) noexcept {
+  if (image == kHere) return relation(a, b);
+  const ImageSeparation d = separation(a.centre(), b.centre(), edges, image);
+  if (d.error == 0.0) return relation(a, b, d.vector);
+  return in_default_environment([&] { return exact_relation(ExactPair(a, b, edges, image)); });
+}
+
+RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& edges,
+                        const LatticeImage& image) noexcept {
+  if (image == kHere) return relation(a, b);
+  if (a.exact() == nullptr && b.exact() == nullptr)
+    return relation(a.ellipsoid(), b.ellipsoid(), edges, image);
+  return in_default_environment([&] {
+    return exact_relation(ExactPair(form_of(a, nullptr), moved(form_of(b, nullptr), edges, image)));
+  });
 }
 
 }  // namespace tangency

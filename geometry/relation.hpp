@@ -17,6 +17,10 @@
 /// (6) Where overlaps_by_filter(a, b) answers, it is overlaps(a, b).
 /// (7) A separation d in place of the centres leaves the answer to bodies whose centres are d apart
 ///     exactly: a about the origin and b about d.
+/// (8) Of a body and a periodic image, relation(a, b, edges, image) is that of A and of B moved by
+///     edges * image without rounding, though the image's centre is in general no triple of
+///     doubles. With the image 0 it is relation(a, b).
+/// (9) relation(b, a, edges, -image) is relation(a, b, edges, image) with the bodies exchanged.
 ///
 /// The exact tier takes 15 us and a few kB for ordinary numbers; for numbers over the whole range
 /// of doubles 20 ms at most (measured, docs/decisions/0009-broken-contracts-end-the-process.md). It
@@ -28,8 +32,10 @@
 #include <string_view>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
+#include <tangency/geometry/vectors.hpp>
 
 namespace tangency {
 
@@ -84,6 +90,15 @@ inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separat
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
                         const Vec3& separation) noexcept;
+
+/// Of A and an image of B, identities (8) and (9). Where the separation of the two is a vector of
+/// doubles at the price of the pair alone, else some 15 us, of bodies by matrices 50 us; allocates
+/// then.
+/// @param edges  columns; finite. Those that the image does not count are not read
+RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
+                        const LatticeImage& image) noexcept;
+RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& edges,
+                        const LatticeImage& image) noexcept;
 
 /// The same by the filter alone: nothing where only the exact tier would know, at a touch or some
 /// 1e-30 of the size from one, and for shapes or scales that are extreme. In bounded time (at most

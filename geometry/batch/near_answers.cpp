@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/gap_batch.hpp>
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency::detail {

@@ -12,7 +12,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
-#include <tangency/geometry/neighbours.hpp>
+#include <tangency/geometry/neighbour_columns.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::detail {

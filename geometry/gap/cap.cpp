@@ -173,8 +173,7 @@ Hessian difference_at(const SideAt& a, const SideAt& b, const Vec3& normal) noex
   const auto turn = [&] {
     const Bending bend_a(a.side, of_a), bend_b(b.side, of_b);
     off = bend_a.em - bend_b.em;
-    const double difference =
-        0.5 * ((bend_a.ee - bend_b.ee) - (bend_a.mm - bend_b.mm)).high;
+    const double difference = 0.5 * ((bend_a.ee - bend_b.ee) - (bend_a.mm - bend_b.mm)).high;
     const double angle = 0.5 * std::atan2(off.high, difference);
     const double cosine = std::cos(angle), sine = std::sin(angle);
     of_a.turn(cosine, sine), of_b.turn(cosine, sine);
@@ -191,10 +190,9 @@ Hessian difference_at(const SideAt& a, const SideAt& b, const Vec3& normal) noex
                 0.0,
                 side_hessian(a, of_a, bend_a, tangent),
                 side_hessian(b, of_b, bend_b, tangent)};
-  found.off = kMore * (std::abs((bend_a.em - bend_b.em).high) +
-                       2.0 * (bend_a.error + bend_b.error) +
-                       kTurnError * std::max(std::abs(found.curvature[0]),
-                                             std::abs(found.curvature[1])));
+  found.off =
+      kMore * (std::abs((bend_a.em - bend_b.em).high) + 2.0 * (bend_a.error + bend_b.error) +
+               kTurnError * std::max(std::abs(found.curvature[0]), std::abs(found.curvature[1])));
   return found;
 }
 

@@ -52,7 +52,7 @@ struct Hessian {
   double curvature[2];  ///< c_i: H >= (1 - loss) (c_1 e1 e1' + c_2 e2 e2') in the tangent plane
   double loss;          ///< (S) of the derivation: rounding, which thin bodies amplify
   SideHessian a, b;
-  double off = 0.0;     ///< of a difference: its rounding
+  double off = 0.0;  ///< of a difference: its rounding
 };
 
 /// A body at a normal, as evaluated in double-double.

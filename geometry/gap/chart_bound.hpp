@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// What f(n) = n.d - h_A(n) + h_B(n), minus a clearance, is at most on an arc or a triangle of
-/// normals, in the chart p = c + s of a normal c among them: docs/derivations/containment.md, section
+/// normals, in the chart p = c + s of a normal c among them: docs/derivations/containment.md,
+/// section
 /// 4. Assumes rounding to nearest.
 ///
 /// (1) For p = c + sum of l_i s_i, l_i >= 0 of sum 1, f(p / |p|) <= value + excess().
-/// (2) What excess() is too large by is of the third order in the s_i, times |n.d - value| / (h_A +
-///     h_B): for bodies that are nearly the same, as small as the difference between them.
+///
+/// What excess() is too large by is of the third order in the s_i, times |n.d - value| / (h_A +
+/// h_B): for bodies that are nearly the same, as small as the difference between them.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +42,10 @@ using PairTable = std::array<std::array<Real, Corners>, Corners>;
 /// One body: y = A'c and w_i = A's_i.
 template <class Real, std::size_t Corners>
 struct ChartSide {
-  Real h;              ///< |y|
-  double width = 0.0;  ///< k: |w| <= k h between the corners
-  double most = 0.0;   ///< of s' Hess h s between them
+  Real h;                            ///< |y|
+  double width = 0.0;                ///< |w| <= width h between the corners
+  double most = 0.0;                 ///< of s' Hess h s between them
+  double low = 0.0, high = 0.0;      ///< of w . y / h^2 there
   std::array<Real, Corners> along;   ///< w_i . y / h
   PairTable<Real, Corners> product;  ///< w_i . w_j
   PairTable<Real, Corners> bend;     ///< s_i' Hess h s_j
@@ -57,6 +60,8 @@ struct ChartSide {
     for (std::size_t i = 0; i < Corners; ++i) {
       w[i] = stretch(s[i]);
       along[i] = inner_product(y, w[i]) / h;
+      const double share = double(along[i]) / double(h);
+      low = std::min(low, share), high = std::max(high, share);
     }
     for (std::size_t i = 0; i < Corners; ++i) {
       for (std::size_t j = i; j < Corners; ++j) {
@@ -66,6 +71,13 @@ struct ChartSide {
       width = std::max(width, std::sqrt(double(product[i][i])) / double(h));
       most = std::max(most, double(bend[i][i]));
     }
+  }
+
+  /// Bounds of |y + w| less its second order, h + along + bend / 2: from w's part across y, as |y +
+  /// w| + (y + w).y/h is at least 2 h (1 + low), and at most 2 h (1 + high) + most / (2 + 2 low).
+  double third() const {
+    const double above = high + 0.25 * most / (double(h) * (1.0 + low));
+    return 0.5 * most * std::max(-low / (1.0 + low), above / (1.0 + above));
   }
 };
 
@@ -138,8 +150,7 @@ double Chart<Real, Corners>::excess(const Real& value, double noise) const noexc
   for (std::size_t i = 0; i < Corners; ++i) {
     for (std::size_t j = 0; j < Corners; ++j) {
       const Real along_a = a_.along[i] + a_.along[j], along_b = b_.along[i] + b_.along[j];
-      psi[i][j] =
-          (d_at_c_ - value) + half * (d_along_[i] + d_along_[j]) + tilt * square_[i][j];
+      psi[i][j] = (d_at_c_ - value) + half * (d_along_[i] + d_along_[j]) + tilt * square_[i][j];
       g[i][j] = (a_.h + b_.h) + half * ((along_a + along_b) + (a_.bend[i][j] + b_.bend[i][j]));
       q[i][j] = ((a_.h * a_.h - b_.h * b_.h) + (a_.h * along_a - b_.h * along_b)) +
                 (a_.product[i][j] - b_.product[i][j]);
@@ -162,12 +173,9 @@ double Chart<Real, Corners>::excess(const Real& value, double noise) const noexc
     }
   }
   const double h_a = double(a_.h), h_b = double(b_.h);
-  const auto third = [](const ChartSide<Real, Corners>& side) {
-    return 0.5 * side.most * side.width / (1.0 - side.width);
-  };
   const double g_high = kSlack * ((1.0 + a_.width) * h_a + (1.0 + b_.width) * h_b);
   const double g_low = ((1.0 - a_.width) * h_a + (1.0 - b_.width) * h_b) / kSlack;
-  most += kSlack * largest * (third(a_) + third(b_)) + noise * g_high;
+  most += kSlack * largest * (a_.third() + b_.third()) + noise * g_high;
   return most > 0.0 ? kSlack * most / g_low : most / (kSlack * longest_ * g_high);
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What clearances in space and in the plane have in common: f = n.d - h_A + h_B with the outer body
-/// for A, the inner one for B, whose greatest value is minus the clearance. From the exact relation
-/// to the sign, from the margin to a bound, and to the answer: docs/derivations/containment.md.
+/// What clearances in space and in the plane have in common: f = n.d - h_A + h_B with the outer
+/// body for A, the inner one for B, whose greatest value is minus the clearance. From the exact
+/// relation to the sign, from the margin to a bound, and to the answer:
+/// docs/derivations/containment.md.
 #pragma once
 
 #include <gmpxx.h>
@@ -28,8 +29,7 @@ struct Nesting {
 
   bool inside() const { return of_pair == Relation::b_in_a; }
   bool touching() const {
-    return of_pair == Relation::equal ||
-           (of_pair == Relation::internal_touch && inner == Inner::b);
+    return of_pair == Relation::equal || (of_pair == Relation::internal_touch && inner == Inner::b);
   }
   /// Of the margin from 1.
   int side() const { return inside() ? 1 : touching() ? 0 : -1; }
@@ -38,9 +38,7 @@ struct Nesting {
     if (tier == Tier::exact) solved = GapTier::exact;
     return inside();
   }
-  Relation relation() const {
-    return touching() ? Relation::external_touch : Relation::separate;
-  }
+  Relation relation() const { return touching() ? Relation::external_touch : Relation::separate; }
 };
 
 template <class Answer>
@@ -48,27 +46,29 @@ Nesting nesting(const Answer& of_pair) {
   return {of_pair.relation, of_pair.inner, of_pair.tier};
 }
 
-/// (3) of containment.hpp: an upper bound of f, from the margin of B in A.
-/// @param b         in the unit of f
+/// By identity (3) of containment.hpp an upper bound of f, from the margin of B in A.
+/// @param pair      in the unit of f
 /// @param distance  |d| or more, in that unit
-template <class Body>
-double bound_by_margin(const exact::MarginEnclosure& margin, const Body& b, double distance) {
-  // Axes below kThinnestAxis of the size were raised to it.
-  constexpr double kRaised = 0x1p-230;
-  const double largest = b.largest_semi_axis();
+template <class Pair>
+double bound_by_margin(const exact::MarginEnclosure& margin, const Pair& pair, double distance) {
+  // Axes below kThinnestAxis of the size were raised to it; the margin is of those that were asked
+  // for.
+  constexpr double kRaised = 0x1p-230, kNone = 0x1p-900;
+  const double largest = pair.b.largest_semi_axis();
+  const double smallest = std::scalbn(pair.asked.b.smallest_semi_axis(), -pair.exponent);
   if (margin.high == 0) return (distance + largest) * (1.0 + 0x1p-50);
   const double beyond = exact::double_below(mpq_class(margin.low - 1));
-  const double axis = beyond > 0.0 ? b.smallest_semi_axis() : largest;
-  // The largest of bodies is no larger than doubles.
+  const double axis = beyond <= 0.0 ? largest : smallest > kNone ? smallest : 0.0;
   const double bound = -beyond * axis;
   return bound + (std::abs(bound) * 0x1p-50 + kRaised);
 }
 
-/// `proof`, with nothing proven of other normals, bounded by the margin.
-template <class Proof, class Body>
-void bound_all_normals(Proof& proof, const exact::MarginEnclosure& margin, const Body& b,
+/// `proof`, of which little or nothing is proven beyond its normal, bounded by the margin.
+template <class Proof, class Pair>
+void bound_all_normals(Proof& proof, const exact::MarginEnclosure& margin, const Pair& pair,
                        double distance) {
-  proof.high = std::max(bound_by_margin(margin, b, distance), proof.low);
+  const double high = proof.global ? proof.high : std::numeric_limits<double>::infinity();
+  proof.high = std::max(std::min(bound_by_margin(margin, pair, distance), high), proof.low);
   proof.gap = std::min(proof.gap, proof.high);
   proof.global = true;
 }

@@ -3,9 +3,10 @@
 /// What a normal proves about the gap of a pair: docs/derivations/gap-certificate.md, whose names
 /// for the bounds stand at each.
 ///
-/// For a unit n the value f(n) = n.d - h_A(n) - h_B(n) is never above the gap (for a clearance, f(n) =
-/// n.d - h_A(n) + h_B(n) never above minus that: containment.md, in double-double alone). How much the gap may
-/// be above it follows from the tangential rest r = d - x_A(n) - x_B(n) - f n and the curvatures.
+/// For a unit n the value f(n) = n.d - h_A(n) - h_B(n) is never above the gap (for a clearance,
+/// f(n) = n.d - h_A(n) + h_B(n) never above minus that: containment.md, in double-double alone).
+/// How much the gap may be above it follows from the tangential rest r = d - x_A(n) - x_B(n) - f n
+/// and the curvatures.
 #pragma once
 
 #include <limits>
@@ -34,8 +35,8 @@ struct ContactShift {
   double shift_b;
 };
 
-/// Of a gap. In double, by the ball of radius rho that rolls inside A + (-B). `global` where f > -rho is
-/// proven; else high is infinite. Assumes rounding to nearest. Allocates nothing.
+/// Of a gap. In double, by the ball of radius rho that rolls inside A + (-B). `global` where f >
+/// -rho is proven; else high is infinite. Assumes rounding to nearest. Allocates nothing.
 /// @param normal  unit, as Eigen normalises it
 /// @param proof   what is proven; filled in place, which the fast path is measurably quicker for
 void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept;

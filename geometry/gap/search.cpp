@@ -19,8 +19,8 @@ constexpr std::size_t kMostPending = 256;  // four, and one more for each of som
 constexpr double kCapError = 64 * kUnitRoundoff;  // section 5 of the derivation, of a semi-axis
 constexpr int kGrace = 4;          // chosen: halvings between two ascents from a patch that stays
 constexpr double kCapWidth = 1.0;  // chosen: caps as wide as the curvatures allow
-// Of a clearance: of the size, what triangles may be above the best by. Chosen: a search that is slow
-// settles for more, at last for what is below kWidestOk.
+// Of a clearance: of the size, what triangles may be above the best by. Chosen: a search that is
+// slow settles for more, at last for what is below kWidestOk.
 constexpr double kFine = 0x1p-58, kCoarse = 0x1p-51, kRough = 80 * kUnitRoundoff;
 constexpr int kFineBudget = 1000, kCoarseBudget = 4000;  // triangles
 constexpr double kDoubtful = 0x1p-41;  // of the size: chosen, some times kChartNoise
@@ -71,9 +71,7 @@ struct Nested {
 class SphereSearch {
  public:
   SphereSearch(const Pair& pair, const FactoredPair& factored)
-      : pair_(pair),
-        factored_(factored),
-        size_(pair.size) {
+      : pair_(pair), factored_(factored), size_(pair.size) {
     if (pair.sought == Sought::clearance) nested_.emplace(pair);
   }
 
@@ -139,7 +137,10 @@ class SphereSearch {
     GapProof answer = better_ && better_->low > best().low ? *better_ : best();
     if (!proven) return answer;
     answer.global = true;
-    if (nested_) answer.high = std::max(answer.gap, (reference_ + above_) + kFine * size_);
+    // The triangles have shown more than the best shows by itself, unless none was needed.
+    if (nested_ && triangles_ != 0) {
+      answer.high = std::max(answer.gap, std::nextafter(reference_ + above_, GapProof::kUnproven));
+    }
     for (std::size_t i = 0; i < count_; ++i) {
       if (peaks_[i].needed) answer.high = std::max(answer.high, peaks_[i].proof.high);
     }
@@ -204,8 +205,8 @@ class SphereSearch {
     return in_a_cap(t);
   }
 
-  /// Of a clearance: f(-n) = f(n) - 2 n.d, so that where n.d < 0 all over a triangle the opposite one
-  /// has the greater values.
+  /// Of a clearance: f(-n) = f(n) - 2 n.d, so that where n.d < 0 all over a triangle the opposite
+  /// one has the greater values.
   bool is_behind(const Triangle& t) const {
     const double least = -16.0 * kUnitRoundoff * pair_.d.norm();
     return std::ranges::all_of(t.corner, [&](const Vec3& v) { return v.dot(pair_.d) < least; });
@@ -242,9 +243,9 @@ class SphereSearch {
     return true;
   }
 
-  /// For a clearance below the best that is > 0: h_A(v) >= v.x for every point x of A, and h_B, as it
-  /// is convex, is below the linear function of its values at the corners. So is f then, all over
-  /// the triangle, if it is at them.
+  /// For a clearance below the best that is > 0: h_A(v) >= v.x for every point x of A, and h_B, as
+  /// it is convex, is below the linear function of its values at the corners. So is f then, all
+  /// over the triangle, if it is at them.
   bool below_by_planes(const Triangle& t, const Vec3& centre) const {
     const double enough = reference_ - kPlaneError * size_;
     if (!(enough < 0.0)) return false;
@@ -272,8 +273,8 @@ class SphereSearch {
     reference_ = std::max(reference_, proof.gap);
   }
 
-  /// In two at the middle of the side that is longest in the widths of both charts, so that triangles
-  /// become as flat as bodies are. False where the middle has no exact doubles.
+  /// In two at the middle of the side that is longest in the widths of both charts, so that
+  /// triangles become as flat as bodies are. False where the middle has no exact doubles.
   bool split_exactly(const Triangle& t) {
     const Vec3 centre = t.corner[0] + t.corner[1] + t.corner[2];
     const double h2_a = (factored_.factor_a().transpose() * centre).squaredNorm();
@@ -282,9 +283,10 @@ class SphereSearch {
     double length = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 side = t.corner[(i + 1) % 3] - t.corner[i];
-      const double along = std::max({side.squaredNorm() / centre.squaredNorm(),
-                                     (factored_.factor_a().transpose() * side).squaredNorm() / h2_a,
-                                     (factored_.factor_b().transpose() * side).squaredNorm() / h2_b});
+      const double along =
+          std::max({side.squaredNorm() / centre.squaredNorm(),
+                    (factored_.factor_a().transpose() * side).squaredNorm() / h2_a,
+                    (factored_.factor_b().transpose() * side).squaredNorm() / h2_b});
       if (along > length) longest = i, length = along;
     }
     const std::size_t next = (longest + 1) % 3, last = (longest + 2) % 3;

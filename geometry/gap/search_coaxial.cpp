@@ -28,7 +28,7 @@ constexpr double kBendError = 0x1p-46;   // of the terms of the slope's own slop
 constexpr double kOnAxis = 0x1p-50;    // rad; chosen: nearer it is the axis, stationary by symmetry
 constexpr std::size_t kMostPeaks = 8;  // chosen: 1 to 3 are common
 constexpr std::size_t kMostPending = 64;  // a depth of 60 halvings is beyond doubles
-constexpr int kBudget = 2000;  // arcs: chosen, ten times what aspect 1000 needs
+constexpr int kBudget = 2000;             // arcs: chosen, ten times what aspect 1000 needs
 // Arcs for a clearance, and those after which it is sought roughly: chosen.
 constexpr int kClearanceBudget = 4000, kFineBudget = 1000;
 // Of the size: what arcs may be above the best by. Chosen; with (A) below kWidestOk.
@@ -149,8 +149,8 @@ class Meridian {
         answer.high = std::max(answer.high, peak.highest + ideal_.error);
     }
     if (nested_) {
-      const double high = ((reference_ + above_) + kFine * pair_.size) + ideal_.error;
-      answer.high = std::max(answer.high, high);
+      const double high = std::nextafter(reference_ + above_, GapProof::kUnproven);
+      answer.high = std::max(answer.high, std::nextafter(high + ideal_.error, GapProof::kUnproven));
     }
     return answer;
   }

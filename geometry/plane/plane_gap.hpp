@@ -13,8 +13,8 @@ namespace tangency::detail {
 /// A pair in a unit in which nothing overflows or underflows: the largest of semi-axes and d within
 /// [2^-60, 2^62], no semi-axis below 2^-300.
 struct PlanePair : UnitPair<Ellipse> {
-  Vec2 d_low;    ///< c_B - c_A = d + d_low
-  double size;   ///< L = |d| + largest semi-axis of A + that of B, rounded
+  Vec2 d_low;   ///< c_B - c_A = d + d_low
+  double size;  ///< L = |d| + largest semi-axis of A + that of B, rounded
   Sought sought;
 
   explicit PlanePair(const AskedPair<Ellipse>& pair, Sought wanted = Sought::gap) noexcept

@@ -152,8 +152,13 @@ PlaneProof Circle::proof(const Sample& s) const noexcept {
   const double value_error = kNoise * size_ + kUnitRoundoff * std::abs(s.f.high);
   const double reach = (std::abs(s.r.high) + slope_error(s)) * kSlack;
   const Vec2 point_b = rounded(s.b.point);
-  PlaneProof proof{s.f.high,     s.f.high - value_error, kInfinity, false, rounded(s.n),
-                   rounded(s.a.point), nested_ ? point_b : Vec2(-point_b)};
+  PlaneProof proof{s.f.high,
+                   s.f.high - value_error,
+                   kInfinity,
+                   false,
+                   rounded(s.n),
+                   rounded(s.a.point),
+                   nested_ ? point_b : Vec2(-point_b)};
   // The rolling ball: sqrt(x^2 + y^2) - x is at most y, and y^2 / (2x).
   const double ball = proof.low + rho_ * (1.0 - 4.0 * kUnitRoundoff);
   if (ball > 0.0) {
@@ -223,15 +228,15 @@ double Circle::nested_excess(const DoubleDouble2& low, const DoubleDouble2& c,
 
 double Circle::excess(const Sample& low, const Sample& c, const Sample& high,
                       const Sample& best) const noexcept {
-  if (nested_) return nested_excess(low.n, c.n, high.n, best.f);
   const double noise = kNoise * size_;
-  const double corners = std::max(corner_excess(low, c, best.f), corner_excess(c, high, best.f));
+  const double corners =
+      nested_ ? nested_excess(low.n, c.n, high.n, best.f)
+              : std::max(corner_excess(low, c, best.f), corner_excess(c, high, best.f));
   // Taylor's formula about c, the rest by the third derivative.
   const double reach = std::max(angle(low.n, c.n), angle(c.n, high.n));
   const double third = third_derivative(c, reach);
   const double slope = std::abs(c.r.high) + slope_error(c);
-  const double curvature =
-      c.curvature * (c.curvature > 0.0 ? 1.0 / kSlack : kSlack) - c.bend_error;
+  const double curvature = c.curvature * (c.curvature > 0.0 ? 1.0 / kSlack : kSlack) - c.bend_error;
   const double above = (c.f - best.f).high;
   const double parabola = curvature > 0.0 && slope < curvature * reach
                               ? 0.5 * slope * slope / curvature

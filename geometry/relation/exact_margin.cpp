@@ -110,16 +110,15 @@ class MarginForm {
     for (std::size_t i = 0; i < N; ++i) {
       apart[i] = Polynomial({lengths.numerator(e[i])});
       for (std::size_t j = 0; j < N; ++j) {
-        m[i][j] = Polynomial(
-            {-shapes.numerator(inner.shape[i][j]), shapes.numerator(outer.shape[i][j])});
+        m[i][j] =
+            Polynomial({-shapes.numerator(inner.shape[i][j]), shapes.numerator(outer.shape[i][j])});
       }
     }
     // N / D = (unit / length^2) e' adj e / det.
     const Polynomial unit({shapes.value()}), square({lengths.value() * lengths.value()});
     denominators_.push_back(square * determinant_of(m));
     numerator_ = unit * form_of_adjugate(m, apart);
-    for (std::size_t k = 1; k < N; ++k)
-      denominators_.push_back(denominators_.back().derivative());
+    for (std::size_t k = 1; k < N; ++k) denominators_.push_back(denominators_.back().derivative());
     const Polynomial& d = denominators_.front();
     slope_ = Polynomial({0, 0, 1}) *
              difference(numerator_ * d.derivative(), numerator_.derivative() * d);
@@ -206,7 +205,8 @@ MarginEnclosure margin(const RationalSolid<N>& inner, const RationalSolid<N>& ou
   // s^2 is at most 1/v, so that it takes as many halvings at least.
   for (mp_bitcnt_t i = 0; i < kBits; ++i) halve();
   for (;; halve()) {
-    // The maximum is between: 1/v is less at `beyond` than there, and N/D less than anywhere before.
+    // The maximum is between: 1/v is less at `beyond` than there, and N/D less than anywhere
+    // before.
     const mpq_class least = 1 / beyond, quotient = form.quotient(beyond);
     const mpq_class low = least - quotient, width = 1 / below - least;
     if (low > 0 && (width << kBits) <= low) return root(low, low + width);
@@ -229,7 +229,8 @@ RoundedMargin rounded(const MarginEnclosure& enclosure, int side) {
   if (side < 0 && value >= 1.0) value = 1.0 - kUnitRoundoff;
   if (value == 0.0) value = std::numeric_limits<double>::denorm_min();
   const mpq_class at = to_rational(value);
-  return {value, double_above(std::max(mpq_class(enclosure.high - at), mpq_class(at - enclosure.low)))};
+  return {value,
+          double_above(std::max(mpq_class(enclosure.high - at), mpq_class(at - enclosure.low)))};
 }
 
 }  // namespace tangency::exact

@@ -103,22 +103,6 @@ int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise)
   return unit;
 }
 
-RelationAnswer exactly(Relation relation, Inner inner = Inner::none) {
-  return {relation, inner, Tier::exact};
-}
-
-/// For a pair whose interiors meet.
-RelationAnswer exact_containment(const ExactPair& pair) {
-  if (pair.equal()) return exactly(Relation::equal);
-  const Containment a_in_b = pair.containment();
-  if (a_in_b == Containment::interior) return exactly(Relation::a_in_b);
-  if (a_in_b == Containment::touching) return exactly(Relation::internal_touch, Inner::a);
-  const Containment b_in_a = pair.exchanged().containment();
-  if (b_in_a == Containment::interior) return exactly(Relation::b_in_a);
-  if (b_in_a == Containment::touching) return exactly(Relation::internal_touch, Inner::b);
-  return exactly(Relation::overlap);
-}
-
 }  // namespace
 
 ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b)
@@ -217,13 +201,5 @@ Containment ExactPair::containment() const {
 }
 
 bool ExactPair::equal() const { return is_binomial(shapes_) && is_binomial(quartic_); }
-
-RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet) {
-  if (interiors_meet) return exact_containment(pair);
-  const Position position = pair.position();
-  if (position == Position::apart) return exactly(Relation::separate);
-  if (position == Position::touching) return exactly(Relation::external_touch);
-  return exact_containment(pair);
-}
 
 }  // namespace tangency::exact

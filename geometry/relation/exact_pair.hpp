@@ -18,7 +18,6 @@
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
-#include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::exact {
@@ -71,8 +70,5 @@ class ExactPair {
 
   IntegerPolynomial quartic_, shapes_;
 };
-
-/// Where the caller knows that the interiors meet, `interiors_meet` saves the asking.
-RelationAnswer exact_relation(const ExactPair& pair, bool interiors_meet = false);
 
 }  // namespace tangency::exact

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include <tangency/geometry/common_volume.hpp>
 #include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
@@ -68,8 +69,7 @@ std::optional<Inner> nested(const RelationAnswer& relation) {
 void clearances(const ContactRow& row, Cells cells) {
   const std::optional<Inner> inner = nested(row.relation);
   if (!inner) return;
-  const Clearance found =
-      *inner == Inner::a ? clearance(row.a, row.b) : clearance(row.b, row.a);
+  const Clearance found = *inner == Inner::a ? clearance(row.a, row.b) : clearance(row.b, row.a);
   cells[0] = found.clearance, cells[1] = found.clearance_error;
 }
 
@@ -81,9 +81,15 @@ void margins(const ContactRow& row, Cells cells) {
   cells[0] = found.margin, cells[1] = found.margin_error;
 }
 
+void volumes(const ContactRow& row, Cells cells) {
+  const CommonVolume found = common_volume(row.a, row.b);
+  cells[0] = found.volume, cells[1] = found.volume_error;
+}
+
 constexpr std::array<std::string_view, 3> kSizes{"F", "mu", "F_error"};
 constexpr std::array<std::string_view, 2> kClearances{"clearance", "clearance_error"};
 constexpr std::array<std::string_view, 2> kMargins{"margin", "margin_error"};
+constexpr std::array<std::string_view, 2> kVolumes{"volume", "volume_error"};
 constexpr std::array<std::string_view, 2> kCurvatures{"curvature_min", "curvature_max"};
 // In the order of GapGradient.
 constexpr std::array<std::string_view, 18> kDerivatives{
@@ -113,16 +119,22 @@ constexpr std::array kGroups{
           "                   by semi-axes, of bodies that are given by them. All empty where\n"
           "                   normals tie, so that the gap has no derivative\n",
           derivatives},
-    Group{kClearances,
-          "  clearance        of a body that lies in the other, by the relation: the least distance\n"
-          "                   between the two surfaces\n"
-          "  clearance_error  proven: the true clearance is this near\n",
-          clearances},
-    Group{kMargins,
-          "  margin           of a body that lies in the other: the largest factor, >= 1, by which\n"
-          "                   it can be scaled about its centre and still lies there\n"
-          "  margin_error     proven: the true margin is this near\n",
-          margins},
+    Group{
+        kClearances,
+        "  clearance        of a body that lies in the other, by the relation: the least distance\n"
+        "                   between the two surfaces\n"
+        "  clearance_error  proven: the true clearance is this near\n",
+        clearances},
+    Group{
+        kMargins,
+        "  margin           of a body that lies in the other: the largest factor, >= 1, by which\n"
+        "                   it can be scaled about its centre and still lies there\n"
+        "  margin_error     proven: the true margin is this near\n",
+        margins},
+    Group{kVolumes,
+          "  volume           that the bodies have in common: length^3\n"
+          "  volume_error     proven: the true volume is this near\n",
+          volumes},
 };
 
 constexpr std::size_t kMostInAGroup = std::ranges::max_element(kGroups, {}, [](const Group& g) {

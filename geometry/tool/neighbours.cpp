@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>

@@ -187,12 +187,24 @@ TEST(BoundedBatch, AnswersMovingBodiesByTheirSeparations) {
   const MovingBodies moving(axes, turns);
   std::vector<double> gap(n), error(n), above(n);
   bounded_gaps(moving, {in.pairs, in.separations}, {{.gap = gap, .gap_error = error}, above});
+  std::vector<Vec3> centres, points(n);
+  for (const Ellipsoid& body : in.bodies) centres.push_back(body.centre());
+  const MovingBodies placed(VectorColumn(axes), {turns, centres});
+  std::vector<double> gap_there(n), error_there(n), above_there(n);
+  bounded_gaps(placed, {in.pairs, {}},
+               {{.gap = gap_there, .gap_error = error_there, .point = points}, above_there});
   for (std::size_t i = 0; i < n; ++i) {
     const Gap exact = signed_gap(deep.f.a[i], deep.f.b[i], in.separations[i]);
     ASSERT_GE(gap[i] + above[i], exact.gap - exact.gap_error) << i;
     if (exact.status == GapStatus::ok) {
       ASSERT_LE(gap[i] - error[i], exact.gap + exact.gap_error) << i;
     }
+    // The centres' difference is the separation but for its rounding.
+    const double rounded = 4 * kUnitRoundoff * in.separations[i].norm();
+    ASSERT_GE(gap_there[i] + above_there[i], gap[i] - error[i] - rounded) << i;
+    ASSERT_LE(gap_there[i] - error_there[i], gap[i] + above[i] + rounded) << i;
+    ASSERT_LE((points[i] - 0.5 * in.separations[i]).norm(),
+              in.bodies[2 * i].largest_semi_axis() + in.bodies[2 * i + 1].largest_semi_axis());
   }
 }
 

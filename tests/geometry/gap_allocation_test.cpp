@@ -203,6 +203,26 @@ TEST(Allocation, HappensInNoTierOfTheGapButTheExactOne) {
   }
 }
 
+TEST(Allocation, HappensInNoGapAtABoundedCost) {
+  const std::vector<Bodies> pairs = all_pairs();
+  std::vector<Ellipsoid> bodies;
+  std::vector<IndexedPair> list;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    bodies.push_back(pairs[i].a);
+    bodies.push_back(pairs[i].b);
+    list.push_back({2 * i, 2 * i + 1});
+  }
+  const BodyArray array(bodies);
+  std::vector<double> gap(list.size()), above(list.size());
+  const long before = allocations;
+  bounded_gaps(array, {list, {}}, {{.gap = gap}, above});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const BoundedGap one = bounded_gap(pairs[i].a, pairs[i].b);
+    ASSERT_EQ(allocations, before) << i;
+    ASSERT_GE(one.above, 0.0) << i;
+  }
+}
+
 TEST(Threads, GetTheSameBitsAsOne) {
   const std::vector<Bodies> pairs = all_pairs();
   const auto solve = [&](std::vector<Gap>& gaps) {

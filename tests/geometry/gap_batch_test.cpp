@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/neighbours.hpp>
 #include <tangency/geometry/time_batch.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/verify/families/adversarial.hpp>
@@ -469,25 +470,6 @@ TEST(BodyArray, TakesTheEllipsoidsOfATemporary) {
     signed_gaps(*bodies, {f.pairs, {}}, gaps);
     expect_agreement(gaps[0], signed_gap(f.two[0], f.two[1]), 0);
   }
-}
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-variable"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#define GUIDE_EXAMPLE(number)                                                     \
-  void guide_example_##number(                                                    \
-      const Ellipsoid& a, const Ellipsoid& b, std::vector<Ellipsoid>& ellipsoids, \
-      const std::vector<IndexedPair>& pairs, const std::vector<Vec3>& separations)
-#include "guide_examples.inc"
-#pragma GCC diagnostic pop
-
-TEST(Guide, ExamplesOfDerivativesAndBatchesCompileAndRun) {
-  Few f;
-  guide_example_1(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_2(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_3(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_4(f.two[0], f.two[1], f.two, f.pairs, f.separations);
-  guide_example_5(f.two[0], f.two[1], f.two, f.pairs, f.separations);
 }
 
 TEST(GapBatch, FollowingAnswersWhereTheDifferenceOfTheCentresOverflows) {

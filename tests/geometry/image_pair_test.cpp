@@ -10,7 +10,8 @@
 #include <random>
 #include <vector>
 
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
+#include <tangency/geometry/relation.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
 
 namespace tangency {
@@ -78,7 +79,7 @@ struct Balls {
 };
 
 // 3 L - 2 is exact for L in [4/3, 5/3) that is a multiple of 2^-51, and 3 L has a bit more than it.
-// geometry/image_pair.hpp (1)
+// geometry/relation.hpp (8)
 TEST(ImagePair, RelationIsExactWhereTheCentreOfTheImageIsNoDouble) {
   Draw draw;
   for (int k = 0; k < 50; ++k) {
@@ -102,7 +103,7 @@ TEST(ImagePair, RelationIsExactWhereTheCentreOfTheImageIsNoDouble) {
   EXPECT_EQ(relation(here.a, here.a, here.edges, {0, 0, 0}).relation, Relation::equal);
 }
 
-// geometry/image_pair.hpp (2)
+// geometry/relation.hpp (9)
 TEST(ImagePair, ExchangesItsBodies) {
   Draw draw;
   int meet = 0;
@@ -117,7 +118,7 @@ TEST(ImagePair, ExchangesItsBodies) {
   EXPECT_LT(meet, 180);
 }
 
-// geometry/image_pair.hpp (3)
+// geometry/image_gap.hpp (1)
 TEST(ImagePair, GapsHaveTheSignOfTheRelationAndCountWhatIsRounded) {
   Draw draw;
   int rounds = 0;
@@ -150,7 +151,7 @@ mpq_class component(const Near& near, int i) {
   return d;
 }
 
-// geometry/image_pair.hpp (4)
+// geometry/lattice.hpp (1)
 TEST(ImagePair, SeparationIsWithinItsErrorOfTheTrueOne) {
   Draw draw;
   for (int k = 0; k < 500; ++k) {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/tests/geometry/floating_point_guard.hpp>
@@ -72,6 +72,28 @@ TEST(Neighbours, TouchWhateverTheCentreOfTheImageIsRoundedTo) {
   EXPECT_EQ(neighbours(balls({7.0}), {.lattice = small}).pairs, own);
 }
 
+// In units of 2^-53 beyond 1 the rounded separation is 4, and the true one is 4 - off: what is told
+// of the rounded one, apart or overlapping, is not so.
+// geometry/neighbours.hpp (1)
+TEST(Neighbours, AreThoseOfTheTrueSeparationWhereTheRoundedOneTellsOtherwise) {
+  const Lattice lattice{Vec3(3.0 + 0x1p-51, 1.0, 1.0).asDiagonal(), {true, false, false}};
+  const auto pairs = [&](double off, double radii) {
+    const std::vector<Ellipsoid> two{
+        Ellipsoid(Vec3(0x1p-53 * off, 0.0, 0.0), Vec3::Constant(0.5 - 0x1p-54)),
+        Ellipsoid(Vec3(-2.0, 0.0, 0.0), Vec3::Constant(0.5 + 0x1p-53 * (radii + 0.5)))};
+    const Neighbours found =
+        neighbours(two, {.lattice = lattice, .answers = NeighbourAnswers::gaps});
+    EXPECT_EQ(neighbours(two, {.lattice = lattice}).pairs, found.pairs);
+    EXPECT_EQ(neighbours(moving(two), {.lattice = lattice}).pairs, found.pairs);
+    for (const double gap : found.gap) EXPECT_EQ(gap < 0.0, 4.0 - off < radii);
+    return found.size();
+  };
+  EXPECT_EQ(pairs(1.0, 3.5), 1u);  // overlap by 1/2, rounded apart
+  EXPECT_EQ(pairs(1.0, 2.5), 0u);
+  EXPECT_EQ(pairs(-1.0, 4.5), 0u);  // apart by 1/2, rounded overlapping
+  EXPECT_EQ(pairs(-1.0, 5.5), 1u);
+}
+
 // geometry/neighbours.hpp (2)
 TEST(Neighbours, AreThoseWithinTheReachAndNoOthers) {
   const std::vector<Ellipsoid> row = balls({0.0, 1.25, 3.0, 5.0});
@@ -116,7 +138,7 @@ TEST(Neighbours, AreTheSameToTheBitForEveryNumberOfThreads) {
       EXPECT_TRUE(std::is_sorted(block.pairs.begin(), block.pairs.end()));
       blocks_of_one.insert(blocks_of_one.end(), block.pairs.begin(), block.pairs.end());
     });
-    for (const unsigned threads : {0u, 2u, 5u}) {
+    for (const int threads : {0, 2, 5}) {
       question.threads = threads;
       const Neighbours many = neighbours(bodies, question);
       ASSERT_EQ(many.size(), one.size());

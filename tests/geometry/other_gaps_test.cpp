@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include <tangency/geometry/gap.hpp>
@@ -134,6 +135,15 @@ TEST(OtherGaps, TakeAGivenSeparationForThatOfTheCentres) {
   const Ellipsoid elsewhere = b.moved_to({-7, 0, 1});
   EXPECT_EQ(perram_wertheim_gap(a, elsewhere, b.centre()).gap, perram_wertheim_gap(a, b).gap);
   EXPECT_EQ(midpoint_potential_gap(a, elsewhere, b.centre()).gap, midpoint_potential_gap(a, b).gap);
+}
+
+TEST(OtherGaps, EndTheProcessWithALineAtASeparationThatIsNotFinite) {
+  const Ellipsoid e({0, 0, 0}, {1, 2, 3});
+  const Vec3 bad(0, 0, std::numeric_limits<double>::infinity());
+  EXPECT_DEATH((void)perram_wertheim_gap(e, e, bad),
+               "tangency: perram_wertheim_gap: separation = .0, 0, inf");
+  EXPECT_DEATH((void)midpoint_potential_gap(e, e, bad), "tangency: midpoint_potential_gap: sep");
+  EXPECT_DEATH((void)perram_wertheim_factor(e, e, bad), "tangency: perram_wertheim_factor: sep");
 }
 
 // geometry/other_gaps.hpp (4)

@@ -54,8 +54,10 @@ struct Scene {
     }
   }
   void add(std::uint32_t i) {
-    const Vec3 turn = in_cube(1.0), centre = in_cube(i % 10 == 0 ? 1e6 : 3.0);
-    const double aspect = i % 7 == 0 ? 1e5 : 5.0, scale = i % 11 == 0 ? 1e-18 : 1.0;
+    const Vec3 turn = in_cube(1.0), somewhere = in_cube(i % 10 == 0 ? 1e6 : 3.0);
+    // What is tiny has to be near the origin to have neighbours that doubles can name.
+    const Vec3 centre = i % 11 == 0 ? Vec3(Vec3::Zero()) : somewhere;
+    const double aspect = i % 7 == 0 ? 1e5 : 5.0, scale = i % 11 == 0 ? 1e-17 : 1.0;
     Vec3 axes;
     for (double& r : axes) r = scale * std::pow(aspect, -uniform(0.0, 1.0));
     bodies.emplace_back(centre, axes, Quaternion(uniform(0.1, 1.0), turn.x(), turn.y(), turn.z()));
@@ -63,7 +65,9 @@ struct Scene {
     walls.push_back({normal, normal.dot(centre) + scale * uniform(-2.0, 2.0)});
     sheets.push_back({normal, normal.dot(centre) + scale * uniform(-2.0, 2.0)});
     points.push_back(point);
-    balls.push_back({point, i % 3 == 0 ? 0.0 : scale * uniform(0.0, 1.0)});
+    const double radius = scale * uniform(0.0, 1.0);
+    // Balls below the range of lanes, 2^-60, of bodies just within it.
+    balls.push_back({point, i % 3 == 0 ? 0.0 : i % 11 == 0 ? 5e-19 : radius});
     pairs.push_back({i, i});
   }
   double uniform(double low, double high) {

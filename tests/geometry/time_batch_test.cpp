@@ -168,14 +168,18 @@ TEST(TimeBatch, SeparationStandsInPlaceOfCentresAlsoOfMovingBodies) {
   for (const auto [a, b] : s.pairs)
     separations.push_back(s.bodies[b].centre() - s.bodies[a].centre());
   for (const Ellipsoid& body : s.bodies) {
-    elsewhere.push_back(body.moved_to({1e9, 2, 3}));
+    elsewhere.push_back(body.moved_to(Vec3(7, 2, 3) - 0.5 * body.centre()));
     axes.push_back(body.semi_axes());
     turns.push_back(body.orientation());
   }
   const BodyArray array{std::span<const Ellipsoid>(elsewhere)};
   const MovingBodies moving(axes, turns);
-  Times of_array(s.pairs.size()), of_moving(s.pairs.size());
+  std::vector<Vec3> centres;
+  for (const Ellipsoid& body : s.bodies) centres.push_back(body.centre());
+  const MovingBodies placed(VectorColumn(axes), {turns, centres});
+  Times of_array(s.pairs.size()), of_moving(s.pairs.size()), of_placed(s.pairs.size());
   const PairList list{s.pairs, separations};
+  times_of_contact(placed, s.motions, {s.pairs, {}}, kHorizon, kTolerance, of_placed.columns());
   times_of_contact(array, s.motions, list, kHorizon, kTolerance, of_array.columns());
   times_of_contact(moving, s.motions, list, kHorizon, kTolerance, of_moving.columns());
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
@@ -184,6 +188,9 @@ TEST(TimeBatch, SeparationStandsInPlaceOfCentresAlsoOfMovingBodies) {
         s.bodies[a], s.motions[a], s.bodies[b], s.motions[b], separations[i], kHorizon, kTolerance);
     expect_agreement(of_array, i, single);
     expect_agreement(of_moving, i, single);
+    expect_agreement(of_placed, i,
+                     time_of_contact(s.bodies[a], s.motions[a], s.bodies[b], s.motions[b], kHorizon,
+                                     kTolerance));
   }
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/common_volume.hpp>
+#include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
@@ -130,6 +132,36 @@ TEST(ContactColumns, OfARefusedRowAreEmptyCells) {
   EXPECT_EQ(cells_of(run.out, 1)[13], "invalid");
 }
 
+TEST(ContactColumns, TellHowFarABodyLiesInsideTheOther) {
+  const std::string names = "clearance,clearance_error,margin,margin_error";
+  const std::string text = kHeader + "0,0,0,1,2,3,.1,.2,0,2,3,5\n" + "0,0,0,2,3,5,.1,.2,0,1,2,3\n" +
+                           "0,0,0,1,1,1,1,0,0,2,2,2\n" + "0,0,0,1,2,3,0,0,0,1,2,3\n" +
+                           kDiscAndNeedle + "0,0,0,1,1,1,9,0,0,2,2,2\n";
+  const Finished run = run_tool({"contact", "--columns", names}, text);
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto last = [&](std::size_t line) {
+    const Cells row = cells_of(run.out, line);
+    return Cells(row.end() - 4, row.end());
+  };
+  EXPECT_EQ(last(0), (Cells{"clearance", "clearance_error", "margin", "margin_error"}));
+  const Vec3 d(0.1, 0.2, 0);
+  const Ellipsoid small({0, 0, 0}, {1, 2, 3}), large({0, 0, 0}, {2, 3, 5});
+  const Clearance c = clearance(small, large, d);
+  const ContainmentMargin m = containment_margin(small, large, d);
+  EXPECT_EQ(number(last(1)[0]), c.clearance);
+  EXPECT_EQ(number(last(1)[1]), c.clearance_error);
+  EXPECT_EQ(number(last(1)[2]), m.margin);
+  EXPECT_EQ(number(last(1)[3]), m.margin_error);
+  // The bodies exchanged, the inner one moved the other way: all is point-symmetric.
+  EXPECT_NEAR(number(last(2)[0]), c.clearance, 2 * c.clearance_error);
+  EXPECT_EQ(last(2)[2], last(1)[2]);
+  EXPECT_EQ(number(last(3)[0]), 0);  // touching from inside
+  EXPECT_EQ(number(last(3)[2]), 1);
+  EXPECT_EQ(last(4), (Cells{"0", "0", "1", "0"}));  // equal
+  EXPECT_EQ(last(5), Cells(4));                     // crossing
+  EXPECT_EQ(last(6), Cells(4));                     // apart
+}
+
 TEST(ContactColumns, RefusesNamesWithALineThatSaysWhichAreAllowed) {
   const std::string see = " (`tangency contact --help` says what is allowed)\n";
   const auto refused = [&](const std::string& names) {
@@ -162,6 +194,23 @@ TEST(ContactColumns, AreAllInTheHelp) {
     EXPECT_NE(help.out.find(' ' + word), std::string::npos) << word;
   }
   EXPECT_GT(count, 5);
+}
+
+TEST(ContactColumns, OfTheCommonVolumeAreThoseOfTheLibrary) {
+  const std::string text =
+      kHeader + "0,0,0,1,2,3,.5,1,0,2,3,1\n" + kConcentric +
+      "0,0,0,1,1,1,2,0,0,1,1,1\n0,0,0,1e110,1e110,1e110,0,0,0,2e110,2e110,2e110\n";
+  const std::string out = run_tool({"contact", "--columns", "volume,volume_error"}, text).out;
+  const CommonVolume overlap =
+      common_volume(Ellipsoid({0, 0, 0}, {1, 2, 3}), Ellipsoid({0.5, 1, 0}, {2, 3, 1}));
+  const Cells row = cells_of(out, 1), nested = cells_of(out, 2), huge = cells_of(out, 4);
+  ASSERT_EQ(row.size(), 17U);
+  EXPECT_EQ(number(row[15]), overlap.volume);
+  EXPECT_EQ(number(row[16]), overlap.volume_error);
+  EXPECT_NEAR(number(nested[15]), 25.132741228718345, 1e-14);
+  const Cells touching = cells_of(out, 3);
+  EXPECT_EQ(Cells(touching.begin() + 15, touching.end()), (Cells{"0", "0"}));
+  EXPECT_EQ(Cells(huge.begin() + 15, huge.end()), Cells(2));
 }
 
 }  // namespace

@@ -210,7 +210,8 @@ TEST(RowStream, NamesAMistypedSubcommandAndTheNearest) {
         {"clasify", "the nearest is classify"},
         {"elipse", "the nearest is ellipse"},
         {"xyzzy",
-         "contact, overlap, classify, ellipse, point, ellipse-point, wall, ray, time and neighbours are"}}) {
+         "contact, overlap, classify, ellipse, point, ellipse-point, wall, ray, time and "
+         "neighbours are"}}) {
     const Finished run = run_tool({word, "pairs.csv"});
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.err, "tangency: " + word + " is no subcommand; " + message + end);

@@ -80,8 +80,8 @@ void fit(Source& source, Nest<Raw>& pair, double share) {
 enum Family { kPlain, kExtreme, kClose, kCoaxial, kWhole, kRound, kFar, kTouching, kNotNested };
 constexpr int kFamilies = 9;
 
-/// Parallel bodies in whole numbers that touch from inside at an end of an axis: a ball in a ball, the
-/// inner body in the smaller one, the outer body around the larger one.
+/// Parallel bodies in whole numbers that touch from inside at an end of an axis: a ball in a ball,
+/// the inner body in the smaller one, the outer body around the larger one.
 template <class Raw>
 Nest<Raw> touching(Source& source) {
   Nest<Raw> pair{};
@@ -131,8 +131,8 @@ Nest<Raw> drawn(Source& source, int family) {
       return pair;
     }
   }
-  fit(source, pair, source.below(4) == 0 ? 1 - source.log_uniform(1e-16, 1e-3)
-                                         : source.uniform(0.2, 1));
+  fit(source, pair,
+      source.below(4) == 0 ? 1 - source.log_uniform(1e-16, 1e-3) : source.uniform(0.2, 1));
   if (family == kCoaxial) pair.inner.centre = {};
   if (family == kFar) {
     const double unit = std::ldexp(1.0, source.whole(300));
@@ -154,9 +154,9 @@ template <class Raw>
 int true_side(const Nest<Raw>& pair) {
   const verify::ExactRelation found = true_relation(pair.inner, pair.outer);
   if (found.relation == verify::Relation::a_in_b) return 1;
-  const bool touches = found.relation == verify::Relation::equal ||
-                       (found.relation == verify::Relation::internal_touch &&
-                        found.inner == verify::Inner::a);
+  const bool touches =
+      found.relation == verify::Relation::equal ||
+      (found.relation == verify::Relation::internal_touch && found.inner == verify::Inner::a);
   return touches ? 0 : -1;
 }
 
@@ -209,11 +209,11 @@ bool clearances(const char* what, Source& source, long count) {
     const auto found = clearance(body_of(pair.inner), body_of(pair.outer));
     const int side = true_side(pair);
     const double c = found.clearance, error = found.clearance_error;
-    // The branch that the normal is on, to all digits; and, for one body in the other, a proof that no
-    // branch is lower but by what the oracle's doubles cannot tell.
-    const Real near = side == 0 ? Real(0)
-                                : verify::clearance_near(pair.inner, pair.outer,
-                                                         array_of(found.normal));
+    // The branch that the normal is on, to all digits; and, for one body in the other, a proof that
+    // no branch is lower but by what the oracle's doubles cannot tell.
+    const Real near = side == 0
+                          ? Real(0)
+                          : verify::clearance_near(pair.inner, pair.outer, array_of(found.normal));
     const double least = std::ranges::min(pair.outer.semi_axes);
     // Minima that tie along a circle take boxes all along it.
     const bool tie = family == kCoaxial || family == kWhole || family == kRound;
@@ -252,9 +252,9 @@ bool margins(const char* what, Source& source, long count) {
     const bool known = truth.high - truth.low <= Real("1e-60") * truth.high;
     const bool narrow = found.margin_error <= 4 * kU * found.margin;
     // Of the bits of the truth none is left where it is 1.
-    const double share =
-        side == 0 ? (found.margin == 1 && abs(truth.low - 1) < Real("1e-60") ? 0.0 : 2.0)
-                  : share_of(Real(truth.low - found.margin), found.margin_error);
+    const double share = side == 0
+                             ? (found.margin == 1 && abs(truth.low - 1) < Real("1e-60") ? 0.0 : 2.0)
+                             : share_of(Real(truth.low - found.margin), found.margin_error);
     tally.see(known && narrow && sign_of(found.margin - 1) == side, share);
   }
   return tally.print("touches", count / 40);

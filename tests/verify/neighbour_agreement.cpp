@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/geometry/image_pair.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
 #include <tangency/tests/verify/agreement.hpp>
 #include <tangency/verify/families/conversions.hpp>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the questions of single bodies, in every form of a body, against exact rational numbers and
 // 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres
-// by matrices meet; and bodies inside bodies (containment_questions.cpp). The merge gate runs a part of it; docs/guide.md names the whole.
+// by matrices meet; and bodies inside bodies (containment_questions.cpp). The merge gate runs a
+// part of it; docs/guide.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 
@@ -414,7 +415,8 @@ int main(int argc, char** argv) {
   long count = 100'000;
   std::string only;
   program.option("--count", count, "inputs of each");
-  program.option("--only", only, "one kind: ellipses, walls, rays, points, times, clearances, margins, "
+  program.option("--only", only,
+                 "one kind: ellipses, walls, rays, points, times, clearances, margins, "
                  "plane-clearances or plane-margins");
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count, only); });
 }

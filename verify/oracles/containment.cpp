@@ -199,8 +199,8 @@ struct Points {
       e[i] = around(dot(pair.outer.axes[i], pair.e) / unit);
       rows[i] = 0;
       for (std::size_t j = 0; j < N; ++j) {
-        k[i][j] = around(dot(pair.outer.axes[i], pair.inner.axes[j]) * pair.inner.semi_axes[j] /
-                         unit);
+        k[i][j] =
+            around(dot(pair.outer.axes[i], pair.inner.axes[j]) * pair.inner.semi_axes[j] / unit);
         rows[i] += square(k[i][j]);
       }
     }
@@ -355,7 +355,8 @@ MarginTruth margin(const Nest<N>& pair) {
   const auto largest = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   const auto length2 = [&](const Real& v) {
     Real sum = 0;
-    for (std::size_t i = 0; i < N; ++i) sum += (e[i] * v / (v - values[i])) * (e[i] * v / (v - values[i]));
+    for (std::size_t i = 0; i < N; ++i)
+      sum += (e[i] * v / (v - values[i])) * (e[i] * v / (v - values[i]));
     return sum;
   };
   Real low = values[largest], high = 2 * low;

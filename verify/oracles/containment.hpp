@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Oracles for one body inside another, in space and in the plane, for the stored doubles: the
-/// clearance c = min over unit n of phi(n) = h_outer(n) - h_inner(n) - n.(c_inner - c_outer), and the
-/// margin s, the largest factor by which the inner body can be scaled about its centre and stays
-/// in the outer one.
+/// clearance c = min over unit n of phi(n) = h_outer(n) - h_inner(n) - n.(c_inner - c_outer), and
+/// the margin s, the largest factor by which the inner body can be scaled about its centre and
+/// stays in the outer one.
 ///
-/// From above: phi at any n. From below, by distances instead of normals: for a point p of the outer
-/// body, whose shape matrix is diag(a^2) about its centre, and any t in [0, a_min^2)
+/// From above: phi at any n. From below, by distances instead of normals: for a point p of the
+/// outer body, whose shape matrix is diag(a^2) about its centre, and any t in [0, a_min^2)
 ///
 ///  (1)  (distance of p from the boundary)^2 >= t (1 - sum of p_i^2 / (a_i^2 - t)),
 ///
 /// the dual of the distance; a branch and bound over the inner body's boundary, in CGAL's interval
 /// arithmetic, holds it against what is to be shown. The kernel searches the sphere of normals.
 ///
-///  (2)  With the outer body mapped to the unit ball, e the inner centre there and W = U diag(w) U' the
+///  (2)  With the outer body mapped to the unit ball, e the inner centre there and W = U diag(w) U'
+///  the
 ///       inner shape: s^2 >= 1/v - sum of (U'e)_i^2 / (v - w_i) for v > max w, and s <= (1 - e.m) /
 ///       sqrt(m'Wm) for unit m, both in 150 digits from the eigenvalues of W. The kernel has no
 ///       eigenvalues.
@@ -33,7 +34,7 @@ Real clearance_at(const RawEllipsoid& inner, const RawEllipsoid& outer,
                   const std::array<double, 3>& n);
 Real clearance_at(const RawEllipse& inner, const RawEllipse& outer, const std::array<double, 2>& n);
 
-/// The least phi that a descent by Newton's method from n comes upon.
+/// The least phi that a descent by Newton's method from n comes upon, to 40 digits.
 Real clearance_near(const RawEllipsoid& inner, const RawEllipsoid& outer,
                     const std::array<double, 3>& n);
 Real clearance_near(const RawEllipse& inner, const RawEllipse& outer,
