@@ -20,8 +20,9 @@ for place in "$source" "$build" "$work/made"; do
   if grep -rlF -- "$place" "$prefix"; then echo "these name $place"; exit 1; fi
 done
 
-# Its tools run where it lies now.
+# Its tools run where it lies now, and find the corpora there.
 [ "$("$prefix/bin/tangency" --version)" = "tangency $(pkg-config --modversion tangency-geometry)" ]
+"$prefix/bin/tangency-verify" grade --tool "$prefix/bin/tangency contact" --corpus touching >/dev/null
 
 # Every header is there with all that it includes. Without its own folder no other copy is found.
 (cd "$prefix/include" && find tangency -name '*.hpp' | sort | sed 's/.*/#include <&>/') >"$work/all.cpp"

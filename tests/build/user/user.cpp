@@ -39,11 +39,12 @@ class Hash {
   std::uint64_t value_ = 14695981039346656037u;
 };
 
-/// Uniform numbers, the same for every compiler.
+/// Uniform numbers, the same for every compiler, also where it may contract: a volatile is rounded.
 class Draw {
  public:
   double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+    const volatile double above = (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+    return low + above;
   }
   Vec3 vector(double low, double high) {
     const double x = (*this)(low, high), y = (*this)(low, high), z = (*this)(low, high);
