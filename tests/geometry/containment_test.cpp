@@ -2,16 +2,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
+#include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/bodies/wall_form.hpp>
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/containment.hpp>
 #include <tangency/geometry/ellipse_containment.hpp>
 #include <tangency/geometry/gap/chart_bound.hpp>
+#include <tangency/geometry/gap/search.hpp>
 #include <tangency/geometry/normals/factored.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/relation/exact_margin.hpp>
@@ -163,6 +167,38 @@ RC_GTEST_PROP(Containment, NoOtherNormalIsBetterAndTheBranchIsThatOfTheOracle, (
   const Vec3 n = *testing::direction();
   RC_ASSERT(verify::clearance_at(raw(p.a), raw(p.b), {n[0], n[1], n[2]}) >=
             verify::Real(c.clearance) - c.clearance_error - digits);
+}
+
+/// The least of phi(n) over a net of normals, some 0.01 rad apart.
+double least_on_a_net(const Ellipsoid& inner, const Ellipsoid& outer) {
+  constexpr int kRows = 300;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kRows; ++i) {
+    const double z = -1.0 + 2.0 * i / kRows, r = std::sqrt(std::fmax(0.0, 1.0 - z * z));
+    for (int k = 0; k < 2 * kRows; ++k) {
+      const double turn = std::numbers::pi * k / kRows;
+      const Vec3 n(r * std::cos(turn), r * std::sin(turn), z);
+      const Vec3 d = inner.centre() - outer.centre();
+      least = std::min(least, outer.support(n) - inner.support(n) - n.dot(d));
+    }
+  }
+  return least;
+}
+
+// One of 3 pairs among 200,000 whose minimum no ascent from d or from an axis comes to.
+TEST(Containment, IsTheLeastWhereNoAscentFindsIt) {
+  const Ellipsoid outer(Vec3::Zero(), {3.855472, 8.730415, 0.368066},
+                        {0.078677, 0.227053, -0.287924, 0.390949});
+  const Ellipsoid inner({-0.043813, -0.068542, -0.029722}, {1.076939, 4.718496, 1.213537},
+                        {-0.066811, -0.481635, -0.834636, 0.464153});
+  const detail::Pair pair({outer, inner}, detail::Sought::clearance);
+  const detail::FactoredPair factored(pair.a, pair.b, pair.d, true);
+  const auto by_ascents = detail::search_sphere(pair, factored, pair.d.stableNormalized(), 0);
+  ASSERT_TRUE(by_ascents);
+  const Clearance c = clearance(inner, outer);
+  EXPECT_EQ(c.status, GapStatus::ok);
+  EXPECT_LT(c.clearance, -by_ascents->gap - 0.01);
+  EXPECT_LE(c.clearance, least_on_a_net(inner, outer) + c.clearance_error);
 }
 
 RC_GTEST_PROP(Containment, MarginsAreThoseOfTheEigenvalues, ()) {
