@@ -62,7 +62,8 @@ MovingBodies::MovingBodies(const MovingBodies& other) {
   look_at_own();
 }
 MovingBodies& MovingBodies::operator=(const MovingBodies& other) {
-  return *this = MovingBodies(other);
+  if (this != &other) *this = MovingBodies(other);
+  return *this;
 }
 
 MovingBodies::MovingBodies(MovingBodies&& other) noexcept
@@ -171,10 +172,13 @@ void MovingBodies::set_semi_axes(std::size_t first, const VectorColumn& semi_axe
 
 std::size_t MovingBodies::add(const Vec3& semi_axes, const Quaternion& orientation,
                               const Vec3& centre) {
+  // They may be numbers of a body of these, which resize() moves.
+  const Vec3 axes = semi_axes, place = centre;
+  const Quaternion turn = orientation;
   const std::size_t i = size();
   resize(i + 1);
-  own_axes_[i] = semi_axes;
-  set_pose(i, orientation, centre);
+  own_axes_[i] = axes;
+  set_pose(i, turn, place);
   return i;
 }
 

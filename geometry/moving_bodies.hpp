@@ -48,8 +48,9 @@ struct PoseColumns {
 ///
 /// What the batch reads of them is what they were at the last refresh(), or when they were last
 /// set: 128 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
-/// different threads, but for the calls that change their number. One that was moved from is empty;
-/// so is the copy of one that looks at columns, whose owner has columns of his own to look_at().
+/// different threads, but for the calls that change their number, the first call that owns numbers
+/// and the first that gives bodies centres. One that was moved from is empty; so is the copy of one
+/// that looks at columns, whose owner has columns of his own to look_at().
 ///
 /// Here and below a column of another length, and an index that is none, end the process with one
 /// line on standard error. Numbers that make no ellipsoid do so where a pair names them.
@@ -88,12 +89,14 @@ class MovingBodies {
   void set_pose(std::size_t i, const Quaternion& orientation, const Vec3& centre);
   /// The bodies from `first` on, as many as there are rows; their poses stay.
   void set_semi_axes(std::size_t first, const VectorColumn& semi_axes);
-  /// At the end. Bodies without centres have some from now on, those before at the origin.
+  /// At the end. Bodies without centres have some from now on, those before at the origin. The
+  /// arguments may be numbers of these bodies.
   /// @return  its index
   std::size_t add(const Vec3& semi_axes, const Quaternion& orientation, const Vec3& centre);
   /// The last body becomes body i.
   void remove(std::size_t i);
-  /// Drops bodies at the end, or adds balls of radius 1 at the origin, to be set.
+  /// Drops bodies at the end, or adds balls of radius 1 at the origin, to be set. Where no body is
+  /// left there are no centres either, until some are set.
   void resize(std::size_t count);
 
   std::size_t size() const noexcept { return semi_axes_.size(); }

@@ -200,6 +200,15 @@ TEST(OwnedBodies, WithCentresNeedNoSeparations) {
   });
 }
 
+TEST(OwnedBodies, AreAddedAtTheCentreOfOneOfThem) {
+  const Numbers numbers(3);
+  MovingBodies bodies = numbers.bodies();
+  for (int k = 0; k < 20; ++k) {  // some of these move the centres to other memory
+    bodies.add(numbers.axes[1], numbers.turns[1], bodies.centres()[0]);
+    EXPECT_EQ(bodies.centres().back(), numbers.centres[0]) << k;
+  }
+}
+
 TEST(OwnedBodies, TellTheSeparationsOfImages) {
   const Numbers numbers(3);
   const Mat3 edges = Vec3(8.0, 4.0, 2.0).asDiagonal();

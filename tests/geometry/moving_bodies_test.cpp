@@ -295,6 +295,14 @@ TEST(MovingBodies, AreEmptyAsACopyAndWhenMovedFrom) {
   EXPECT_EQ(moved[1].centre(), Vec3::Zero());
 }
 
+TEST(MovingBodies, AssignedToThemselvesStayWhatTheyAre) {
+  Few f;
+  const MovingBodies& same = f.bodies;
+  f.bodies = same;
+  ASSERT_EQ(f.bodies.size(), 2u);
+  EXPECT_EQ(f.bodies[1].semi_axes(), f.axes[1]);
+}
+
 TEST(BrokenContract, OfMovingBodiesEndsTheProcessAndNamesIt) {
   Few f;
   EXPECT_DEATH(MovingBodies(f.axes, std::span(f.turns).first(1)),
