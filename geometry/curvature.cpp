@@ -81,7 +81,9 @@ double mixed_determinant(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) 
 PrincipalCurvatures principal(double xx, double yy, double xy, double determinant,
                               const PlaneBasis& basis, double turn, int exponent) {
   const auto values = detail::principal_values(xx, yy, xy, determinant);
-  return {{std::scalbn(values.larger, -exponent), std::scalbn(values.smaller, -exponent)},
+  // Each rounds by itself: of a sphere the smaller one may come out above the larger.
+  const double smaller = std::min(values.smaller, values.larger);
+  return {{std::scalbn(values.larger, -exponent), std::scalbn(smaller, -exponent)},
           {values.cosine * basis.col(0) + values.sine * basis.col(1),
            turn * (values.cosine * basis.col(1) - values.sine * basis.col(0))}};
 }

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include <tangency/geometry/curvature.hpp>
+#include <tangency/geometry/gap.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/oracles/gap.hpp>
@@ -204,6 +205,16 @@ TEST(Curvature, OfASphereIsOneOverItsRadiusInAnyTwoDirections) {
   for (const double k : c.curvature) EXPECT_NEAR(k, 0.25, 8 * kU);
   for (const Vec3& e : c.direction) EXPECT_LE(std::abs(e.dot(n)), 4 * kU);
   EXPECT_LE((c.direction[0].cross(c.direction[1]) - n).norm(), 8 * kU);
+}
+
+TEST(Curvature, OfTwoSpheresWhoseSmallerOneWasAboveTheLargerByRounding) {
+  const Ellipsoid a({0, 0, 0}, Vec3::Constant(1.9896196208960126)),
+      b({0.0940035504951506, 0.5979359294512615, 0.40012381397581454},
+        Vec3::Constant(2.3872977182929884));
+  const PrincipalCurvatures c = contact_curvature(a, b, signed_gap(a, b).normal).relative;
+  EXPECT_GE(c.curvature[0], c.curvature[1]);
+  for (const double k : c.curvature)
+    EXPECT_NEAR(k, 1 / a.semi_axes()[0] + 1 / b.semi_axes()[0], 8 * kU);
 }
 
 TEST(Curvature, OfCrossedCylinderLikeBodiesIsThatOfASphereRelatively) {
