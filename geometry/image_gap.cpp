@@ -10,8 +10,6 @@
 namespace tangency {
 namespace {
 
-constexpr LatticeImage kHere{0, 0, 0};
-
 /// What the exact relation tells of a pair, for detail::widened().
 struct ExactImage {
   const MatrixEllipsoid& a;
@@ -41,14 +39,14 @@ Gap widened_gap(const Gap& rounded, double off, const MatrixEllipsoid& a, const 
 
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
                const LatticeImage& image) noexcept {
-  if (image == kHere) return signed_gap(a, b);
+  if (image == LatticeImage{}) return signed_gap(a, b);
   const ImageSeparation d = separation(a.centre(), b.centre(), edges, image);
   return widened_gap(signed_gap(a, b, d.vector), d.error, a, b, edges, image);
 }
 
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& edges,
                const LatticeImage& image) noexcept {
-  if (image == kHere) return signed_gap(a, b);
+  if (image == LatticeImage{}) return signed_gap(a, b);
   const Ellipsoid &round_a = a.ellipsoid(), &round_b = b.ellipsoid();
   const ImageSeparation d = separation(round_a.centre(), round_b.centre(), edges, image);
   return widened_gap(signed_gap(round_a, round_b, d.vector), d.error + a.rounding() + b.rounding(),

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/relation.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/bodies/rational_solid.hpp>
@@ -149,14 +147,9 @@ exact::EllipsoidForm form_of(const MatrixEllipsoid& body, const Vec3* centre = n
   return exact::integer_form(moved);
 }
 
-constexpr LatticeImage kHere{0, 0, 0};
-
 /// The form of the solid moved by edges * image.
 exact::SolidForm<4> moved(exact::SolidForm<4> solid, const Mat3& edges, const LatticeImage& image) {
-  int unit = 0;
-  for (int k = 0; k < 3; ++k)
-    if (image[static_cast<std::size_t>(k)] != 0 && !edges.col(k).isZero(0.0))
-      unit = std::min(unit, exact::common_exponent(std::span(edges.col(k).data(), 3)));
+  const int unit = exact::length_exponent(edges, image, 0);
   std::array<mpz_class, 3> by;  // in 2^unit, where 1 is `one`
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -301,7 +294,7 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
 
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
                         const LatticeImage& image) noexcept {
-  if (image == kHere) return relation(a, b);
+  if (image == LatticeImage{}) return relation(a, b);
   const ImageSeparation d = separation(a.centre(), b.centre(), edges, image);
   if (d.error == 0.0) return relation(a, b, d.vector);
   return in_default_environment([&] { return exact_relation(ExactPair(a, b, edges, image)); });
@@ -309,12 +302,11 @@ RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edge
 
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& edges,
                         const LatticeImage& image) noexcept {
-  if (image == kHere) return relation(a, b);
+  if (image == LatticeImage{}) return relation(a, b);
   if (a.exact() == nullptr && b.exact() == nullptr)
     return relation(a.ellipsoid(), b.ellipsoid(), edges, image);
-  return in_default_environment([&] {
-    return exact_relation(ExactPair(form_of(a, nullptr), moved(form_of(b, nullptr), edges, image)));
-  });
+  return in_default_environment(
+      [&] { return exact_relation(ExactPair(form_of(a), moved(form_of(b), edges, image))); });
 }
 
 }  // namespace tangency

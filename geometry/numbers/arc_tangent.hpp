@@ -12,7 +12,7 @@ namespace tangency::detail {
 /// Of the angle, over u.
 inline constexpr double kAngleError = 10.0;
 
-/// pi, rounded: 0.6 u of itself below it.
+/// pi, rounded: 0.351 u of itself below it, u = 2^-53.
 inline constexpr double kPi = 0x1.921fb54442d18p+1;
 
 /// In [0, pi], of the vector (cosine, sine), of any length but 0; rad. Assumes rounding to nearest.

@@ -93,8 +93,9 @@ bool is_binomial(const IntegerPolynomial& p) {
   return c[0] == p.leading();
 }
 
-/// The unit of length of edges that an image counts.
-int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise) {
+}  // namespace
+
+int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise) noexcept {
   int unit = otherwise;
   for (int k = 0; k < 3; ++k) {
     if (image[static_cast<std::size_t>(k)] == 0 || edges.col(k).isZero(0.0)) continue;
@@ -102,8 +103,6 @@ int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise)
   }
   return unit;
 }
-
-}  // namespace
 
 ExactPair::ExactPair(const Ellipsoid& a, const Ellipsoid& b)
     : ExactPair(a, b, Mat3::Identity(), LatticeImage{}) {}

@@ -22,6 +22,10 @@
 
 namespace tangency::exact {
 
+/// The exponent of the unit in which the edges that the image counts are integers; at most
+/// `otherwise`.
+int length_exponent(const Mat3& edges, const LatticeImage& image, int otherwise) noexcept;
+
 enum class Position { apart, touching, interiors_meet };
 
 /// Is one solid ellipsoid inside another, with or without touching its boundary?
