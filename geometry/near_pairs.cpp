@@ -2,8 +2,10 @@
 #include <tangency/geometry/near_pairs.hpp>
 
 #include <algorithm>
+#include <functional>
 
 #include <tangency/geometry/near/near_grids.hpp>
+#include <tangency/geometry/near/sorted_by_pair.hpp>
 
 namespace tangency {
 
@@ -23,18 +25,11 @@ void NearPairSearch::find(std::size_t first, std::size_t last, std::vector<NearP
 
 std::vector<NearPair> sorted_pairs(std::span<const std::vector<NearPair>> parts,
                                    std::size_t bodies) {
-  std::vector<std::size_t> next(bodies + 1, 0);
-  for (const auto& part : parts)
-    for (const NearPair& pair : part) ++next[pair.a + std::size_t{1}];
-  for (std::size_t i = 0; i < bodies; ++i) next[i + 1] += next[i];
-  std::vector<NearPair> pairs(next.back());
-  for (const auto& part : parts)
-    for (const NearPair& pair : part) pairs[next[pair.a]++] = pair;
-  std::size_t first = 0;  // next[i] is now where the pairs of i end
-  for (std::size_t i = 0; i < bodies; first = next[i++])
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first),
-              pairs.begin() + static_cast<std::ptrdiff_t>(next[i]));
-  return pairs;
+  const auto for_each = [&](const auto& use) {
+    for (const auto& part : parts)
+      for (const NearPair& pair : part) use(pair);
+  };
+  return detail::sorted_by_pair<NearPair>(bodies, for_each, std::identity());
 }
 
 std::vector<NearPair> near_pairs(std::span<const Vec3> centres, std::span<const double> reaches,

@@ -53,9 +53,10 @@ struct Neighbours {
   std::vector<Vec3> normal, arm_a, arm_b, separation;
 
   std::size_t size() const noexcept { return pairs.size(); }
-  NeighbourBlock all() const noexcept {
+  NeighbourBlock all() const& noexcept {
     return {pairs, overlaps, gap, gap_error, status, normal, arm_a, arm_b, separation};
   }
+  NeighbourBlock all() const&& = delete;  ///< the columns would be gone
 };
 
 }  // namespace tangency

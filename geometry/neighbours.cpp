@@ -2,12 +2,10 @@
 #include <tangency/geometry/neighbours.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,8 +14,10 @@
 
 #include <tangency/geometry/batch/near_answers.hpp>
 #include <tangency/geometry/batch/parts.hpp>
+#include <tangency/geometry/near/sorted_by_pair.hpp>
 #include <tangency/geometry/near_pairs.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency {
 namespace {
@@ -60,7 +60,8 @@ class Search {
   static NearPairSearch searched(const Bodies& bodies, const NeighbourQuestion& question) {
     const double reach = question.reach;
     if (!(reach >= 0.0) || !std::isfinite(reach))
-      throw std::invalid_argument("reach = " + std::to_string(reach) + ": must be finite and >= 0");
+      throw std::invalid_argument("reach = " + tables::to_text(reach) +
+                                  ": must be finite and >= 0");
     std::vector<Vec3> centres(bodies.size());
     std::vector<double> radii(bodies.size());
     return in_default_environment([&] {
@@ -68,7 +69,7 @@ class Search {
         centres[i] = bodies.centre(i);
         radii[i] = searched_radius(bodies.largest_semi_axis(i), reach);
         if (!std::isfinite(radii[i]))
-          throw std::invalid_argument("reach = " + std::to_string(reach) +
+          throw std::invalid_argument("reach = " + tables::to_text(reach) +
                                       ": that and a semi-axis of body " + std::to_string(i) +
                                       " are beyond the range of doubles");
       }
@@ -91,19 +92,11 @@ bool before(const Place& x, const Place& y) { return x.pair < y.pair; }
 
 /// All places in ascending order of their pairs.
 std::vector<Place> sorted_places(std::span<const Neighbours> parts, std::size_t bodies) {
-  std::vector<std::size_t> next(bodies + 1, 0);
-  for (const Neighbours& part : parts)
-    for (const NearPair& pair : part.pairs) ++next[pair.a + std::size_t{1}];
-  for (std::size_t i = 0; i < bodies; ++i) next[i + 1] += next[i];
-  std::vector<Place> places(next.back());
-  for (std::uint32_t k = 0; k < parts.size(); ++k)
-    for (std::uint32_t i = 0; i < parts[k].size(); ++i)
-      places[next[parts[k].pairs[i].a]++] = {parts[k].pairs[i], k, i};
-  std::size_t first = 0;  // next[i] is now where the pairs of i end
-  for (std::size_t i = 0; i < bodies; first = next[i++])
-    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first),
-              places.begin() + static_cast<std::ptrdiff_t>(next[i]), before);
-  return places;
+  const auto for_each = [&](const auto& use) {
+    for (std::uint32_t k = 0; k < parts.size(); ++k)
+      for (std::uint32_t i = 0; i < parts[k].size(); ++i) use(Place{parts[k].pairs[i], k, i});
+  };
+  return detail::sorted_by_pair<Place>(bodies, for_each, std::mem_fn(&Place::pair));
 }
 
 /// The columns of all parts in the order of `places`, and those of the parts freed.
@@ -151,7 +144,8 @@ void handed_over(const Bodies& bodies, const NeighbourQuestion& question,
                  const std::function<void(const NeighbourBlock&)>& take) {
   const Search<Bodies> search(bodies, question);
   const auto threads = static_cast<std::size_t>(std::max(question.threads, 1));
-  std::vector<Neighbours> blocks(threads > 1 ? kPartsAtOnce * threads : 1);
+  std::vector<Neighbours> blocks(
+      std::min(threads > 1 ? kPartsAtOnce * threads : 1, search.parts()));
   for (std::size_t first = 0; first < search.parts(); first += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), search.parts() - first);
     detail::in_parts(count, question.threads,

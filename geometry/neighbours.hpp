@@ -38,12 +38,12 @@ namespace tangency {
 ///     places of bodies are the user's part
 Neighbours neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question = {});
 /// Of bodies as they were at their last refresh; their centres are needed.
-/// @throws  also InvalidEllipsoid, where a body is none; std::invalid_argument without centres
+/// @throws std::invalid_argument  also where a body is no ellipsoid, and without centres
 Neighbours neighbours(const MovingBodies& bodies, const NeighbourQuestion& question = {});
 
 /// The same without a list of all pairs: calls `take` for block after block, on the calling thread.
-/// Blocks are neighbours in space; one holds what some hundreds of bodies find, and may be empty of
-/// no pair. Beside the bodies' own search memory is that of some blocks for each thread.
+/// Blocks are neighbours in space; one holds what some hundreds of bodies find, and may be empty.
+/// Beside the bodies' own search memory is that of some blocks for each thread.
 void for_each_neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question,
                          const std::function<void(const NeighbourBlock&)>& take);
 void for_each_neighbours(const MovingBodies& bodies, const NeighbourQuestion& question,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/batch/near_answers.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -113,7 +113,6 @@ class Candidates {
   /// Those that are apart at a rounded separation: by more than it is rounded?
   void settle_by_gaps() {
     const std::size_t count = indexed_.size();
-    std::vector<double> gap(count), error(count);
     std::vector<IndexedPair> open;
     std::vector<Vec3> separations;
     for (std::size_t i = 0; i < count; ++i) {
@@ -121,7 +120,7 @@ class Candidates {
       open.push_back(indexed_[i]);
       separations.push_back(work_.separation[i]);
     }
-    gap.resize(open.size()), error.resize(open.size());
+    std::vector<double> gap(open.size()), error(open.size());
     signed_gaps(bodies_.batch(), {open, separations}, {.gap = gap, .gap_error = error});
     for (std::size_t i = 0, k = 0; i < count; ++i) {
       if (known_[i] != Known::nothing) continue;
@@ -226,7 +225,12 @@ NearMovingBodies::NearMovingBodies(const MovingBodies& bodies) : batch_(bodies) 
 
 double NearMovingBodies::largest_semi_axis(std::size_t i) const {
   const double largest = batch_.lanes()[i].largest;
-  return std::isnan(largest) ? batch_[i].largest_semi_axis() : largest;
+  if (!std::isnan(largest)) return largest;
+  try {
+    return batch_[i].largest_semi_axis();
+  } catch (const InvalidEllipsoid& none) {
+    throw std::invalid_argument("bodies[" + std::to_string(i) + "]: " + none.what());
+  }
 }
 
 void answer_candidates(const NearEllipsoids& bodies, const NeighbourQuestion& question,

@@ -39,6 +39,7 @@ class NearMovingBodies {
 
   std::size_t size() const { return batch_.size(); }
   const Vec3& centre(std::size_t i) const { return batch_.centres()[i]; }
+  /// @throws std::invalid_argument  the body is no ellipsoid
   double largest_semi_axis(std::size_t i) const;
   Ellipsoid operator[](std::size_t i) const { return batch_[i]; }
   const MovingBodies& batch() const { return batch_; }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <tangency/geometry/power_of_two.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::detail {
 namespace {
@@ -150,6 +151,10 @@ void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> r
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Vec3 centre = unit_ * centres[i];
     const Vec3 reduced = inverse_ * centre;
+    for (int k = 0; k < 3; ++k)
+      if (lattice_.periodic[static_cast<std::size_t>(k)] && !(std::abs(reduced[k]) <= kFarthest))
+        refuse(numbered("centres", i) + ": " + tables::rounded_text(std::abs(reduced[k]), 6) +
+               " edges away: at most 2^29");
     low = low.cwiseMin(reduced);
     high = high.cwiseMax(reduced);
     most = most.cwiseMax(magnitudes * centre.cwiseAbs());
@@ -159,9 +164,6 @@ void NearGrids::measure(std::span<const Vec3> centres, std::span<const double> r
   Vec3 images = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
     if (lattice_.periodic[static_cast<std::size_t>(k)]) {
-      const double edges = std::max(-low[k], high[k]);
-      if (edges > kFarthest)
-        refuse("centres: one is " + std::to_string(edges) + " edges away: at most 2^29");
       images[k] = most[k] + 2.0 * largest / heights_[k] + 2.0;
       size += images[k] * lattice_.edges.col(k).lpNorm<1>();
     } else if (!centres.empty()) {
@@ -182,8 +184,9 @@ void NearGrids::require_few_images() const {
   for (int k = 0; k < 3; ++k)
     if (lattice_.periodic[static_cast<std::size_t>(k)] &&
         2.0 * levels_[0].reach / heights_[k] > kMostImages)
-      refuse("edges: the cell is " + std::to_string(heights_[k] / unit_) + " high, and a ball " +
-             std::to_string(2.0 * levels_[0].reach / unit_) + ": at most 2^20 images");
+      refuse("edges: the cell is " + tables::rounded_text(heights_[k] / unit_, 6) +
+             " high, and a ball " + tables::rounded_text(2.0 * levels_[0].reach / unit_, 6) +
+             ": at most 2^20 images");
 }
 
 void NearGrids::shape_levels() {

@@ -14,6 +14,7 @@
 
 #include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
@@ -45,6 +46,8 @@ and with --contacts the columns of `tangency contact` for body i as a and that i
 
 Listed are without --reach the pairs that share a point, exactly: touching counts; with it
 those whose gap, less its gap_error, is at most R.
+
+The command does not take --keep-going: a list without a body that was refused would look whole.
 
 Exit status: 0 the list is whole; 1 some contact is not_applicable, for a number beyond the
 range of a double; 2 refused command line or input, or a failed read or write.
@@ -208,7 +211,7 @@ class Answers {
     if (!is_listed(pair)) return;
     text.integer(pair.a);
     text.integer(pair.b);
-    for (const std::int32_t edges : pair.image) text.number(edges);
+    for (const std::int32_t edges : pair.image) text.text(tables::to_text(edges));
     if (contacts_) {
       text.integer(row_++);
       write_contact(pair, contact(found, k), text);
@@ -233,11 +236,7 @@ class Answers {
       text.text("not_applicable");
       unanswered_ = true;
     }
-    if (exact.inner == Inner::none) {
-      text.empty();
-    } else {
-      text.text(exact.inner == Inner::a ? "a" : "b");
-    }
+    write_inner(exact.inner, text);
   }
 
   const Bodies& bodies_;

@@ -13,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/geometry/image_gap.hpp>
@@ -224,6 +225,17 @@ TEST(Neighbours, AreTheSameInEveryEnvironment) {
   }
 }
 
+template <class List>
+concept GivesABlock = requires(List&& list) {
+  std::forward<List>(list).all();
+};
+
+TEST(Neighbours, GiveNoBlockOfColumnsThatEndWithTheStatement) {
+  EXPECT_TRUE(GivesABlock<const Neighbours&>);
+  EXPECT_FALSE(GivesABlock<Neighbours>);
+  EXPECT_FALSE(GivesABlock<const Neighbours>);
+}
+
 std::string refusal(const std::function<void()>& call) {
   try {
     call();
@@ -240,6 +252,8 @@ TEST(Neighbours, RefuseWhatMakesNoSense) {
     EXPECT_NE(
         refusal([&] { neighbours(bodies, {.reach = reach}); }).find("must be finite and >= 0"),
         std::string::npos);
+  EXPECT_EQ(refusal([&] { neighbours(bodies, {.reach = -1e-9}); }),
+            "reach = -1e-09: must be finite and >= 0");
   const std::vector<Ellipsoid> huge{
       Ellipsoid(Vec3::Zero(), Vec3::Constant(std::numeric_limits<double>::max()))};
   EXPECT_NE(refusal([&] {
@@ -254,7 +268,8 @@ TEST(Neighbours, RefuseWhatMakesNoSense) {
             "bodies: without centres nothing is near");
   MovingBodies broken = moving(bodies);
   broken.set_semi_axes(1, std::vector<Vec3>{Vec3(1.0, -1.0, 1.0)});
-  EXPECT_NE(refusal([&] { neighbours(broken); }).find("r2 = -1"), std::string::npos);
+  EXPECT_EQ(refusal([&] { neighbours(broken); }),
+            "bodies[1]: r2 = -1: a semi-axis must be finite and > 0");
   EXPECT_TRUE(neighbours(std::vector<Ellipsoid>{}).pairs.empty());
   EXPECT_TRUE(neighbours(MovingBodies()).pairs.empty());
 }

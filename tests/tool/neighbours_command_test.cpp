@@ -79,6 +79,13 @@ TEST(NeighboursCommand, BodyBIsTheImageThatIsNamed) {
   EXPECT_TRUE(along_x) << run.out;
 }
 
+TEST(NeighboursCommand, WritesImagesAsIntegersHoweverLargeTheyAre) {
+  const std::string far = "x,y,z,r1,r2,r3\n0,0,0,1,1,1\n200000,0,0,1,1,1\n";
+  EXPECT_EQ(run_tool({"neighbours", "--periodic", "2,0,0"}, far).out,
+            "i,j,ix,iy,iz\n0,0,1,0,0\n0,1,-100001,0,0\n0,1,-100000,0,0\n0,1,-99999,0,0\n"
+            "1,1,1,0,0\n");
+}
+
 TEST(NeighboursCommand, ListsTheSameForEveryFormOfABody) {
   const std::string axes = "x,y,z,r1,r2,r3\n0,0,0,1,2,3\n3,0,0,2,1,1\n3,3,0,1,2,1\n";
   const std::string shape =
@@ -136,8 +143,13 @@ TEST(NeighboursCommand, RefusesWithOneLine) {
         refusal({"--periodic", bad}, head).find(std::string(bad) + ": three lengths LX,LY,LZ"),
         std::string::npos)
         << bad;
-  EXPECT_NE(refusal({"--periodic", "1e-7,0,0"}, head + body).find("<stdin>: edges: the cell is"),
-            std::string::npos);
+  EXPECT_EQ(refusal({"--periodic", "1e-7,0,0"}, head + body),
+            "<stdin>: edges: the cell is 1e-07 high, and a ball 2: at most 2^20 images\n");
+  EXPECT_EQ(refusal({"--periodic", "1,0,0"}, head + body + "1e18,0,0,1,1,1\n"),
+            "<stdin>: centres[1]: 1e+18 edges away: at most 2^29\n");
+  EXPECT_EQ(refusal({"--reach", "1.7e308"}, head + "0,0,0,1.7e308,1,1\n"),
+            "<stdin>: reach = 1.7e+308: that and a semi-axis of body 0 are beyond the range of "
+            "doubles\n");
   EXPECT_NE(refusal({"--keep-going"}, head).find("--keep-going"), std::string::npos);
   const TemporaryFolder folder;
   const std::string file = folder.write("out.csv", "as it was\n");
