@@ -35,7 +35,7 @@ function(tangency_library target component folder)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
-  # The kernel unoptimised is 60 to 250 times slower, and nobody steps through it.
+  # Why: docs/decisions/0015-package.md.
   if(TANGENCY_OPTIMIZED_KERNEL)
     target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:>,$<CONFIG:Debug>>:-O2>)
   endif()
