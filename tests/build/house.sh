@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$1"
 status=0
-folders=(bench check demo dem docs geometry package tests verify CMakeLists.txt CHANGELOG.md CITATION.cff
+folders=(bench check demo dem docs geometry tests verify CMakeLists.txt CHANGELOG.md CITATION.cff
          CONTRIBUTING.md LICENSE README.md SECURITY.md .ci .github)
 
 while read -r file; do
