@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -181,7 +182,9 @@ TEST(ContactColumns, RefusesNamesWithALineThatSaysWhichAreAllowed) {
 }
 
 TEST(ContactColumns, AreAllInTheHelp) {
-  const Finished help = run_tool({"contact", "--help"});
+  std::set<std::string> in_help;
+  std::istringstream lines(run_tool({"contact", "--help"}).out);
+  for (std::string word; lines >> word;) in_help.insert(word);
   // What a refusal names is the table.
   const std::string refusal = run_tool({"contact", "--columns", "?"}).err;
   std::string names = refusal.substr(refusal.find("; ") + 2);
@@ -191,7 +194,7 @@ TEST(ContactColumns, AreAllInTheHelp) {
   for (std::string word; words >> word; ++count) {
     if (word == "and") continue;
     if (word.ends_with(',')) word.pop_back();
-    EXPECT_NE(help.out.find(' ' + word), std::string::npos) << word;
+    EXPECT_TRUE(in_help.contains(word)) << word;
   }
   EXPECT_GT(count, 5);
 }
