@@ -54,13 +54,17 @@ double number(const std::string& cell) { return std::strtod(cell.c_str(), nullpt
 
 using Entries = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
 
+/// The same in every standard library.
+double uniform(std::mt19937_64& source, double low, double high) {
+  return low + (high - low) * (static_cast<double>(source() >> 11) * 0x1p-53);
+}
+
 /// With semi-axes 1 to `aspect`, turned at random.
 Entries drawn_covariance(std::mt19937_64& source, double aspect) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
-  const Quaternion q(normal(source), normal(source), normal(source), normal(source));
-  const Mat3 r = q.normalized().toRotationMatrix();
-  const Vec3 axes(1, std::pow(aspect, uniform(source)), aspect);
+  const double w = uniform(source, 0.1, 1), x = uniform(source, -1, 1);
+  const double y = uniform(source, -1, 1), z = uniform(source, -1, 1);
+  const Mat3 r = Quaternion(w, x, y, z).normalized().toRotationMatrix();
+  const Vec3 axes(1, std::pow(aspect, uniform(source, 0, 1)), aspect);
   const Mat3 m = r * axes.cwiseAbs2().asDiagonal() * r.transpose();
   return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
 }
@@ -191,7 +195,8 @@ TEST(PublicCases, ConicsAreReadInFullUnlessHalfIsAskedFor) {
   }
 }
 
-// (c) Two ellipses by precision matrices.
+// (c) Two ellipses by precision matrices. The gaps: the maximum of n.d - h_A(n) - h_B(n) over unit
+// n by Newton's method in 60 digits, of which 13 stand here.
 
 TEST(PublicCases, EllipsesByPrecisionMatricesAreNestedOverlapOrAreApart) {
   const std::string a = ",4,6,.5,", b = ",.4,.5,-.1\n";
