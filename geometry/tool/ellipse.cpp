@@ -79,7 +79,7 @@ input, or a failed read or write. A refusal is one line on standard error:
 Rows before a refused row may have reached standard output, none for it or after it;
 a file named by --out is left as it was.
 
-Example, a unit circle and an ellipse of half its width:
+Example, a unit circle and an ellipse of half its width, and an ellipse within another:
   $ cat ellipses.csv
   a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.ux,b.uy
   0,0,1,1,0,1.25,0,0.5,2,1,0
@@ -90,8 +90,6 @@ Example, a unit circle and an ellipse of half its width:
   row,x,y,multiplicity
   0,0.7755599823106163,-0.6312738817964486,1
   0,0.7755599823106163,0.6312738817964486,1
-
-An ellipse within another, their margin and clearance:
   $ cat nested.csv
   a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle
   0,0,3,1,0,0,0,5,2.5,0
