@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies against walls, balls and points, and gaps at a bounded cost: batches beside single calls,
-// by turns, in ns a pair. Answers are held against the single calls before anything is timed.
+// Bodies against walls, balls and points: batches beside single calls, by turns, in ns a pair.
+// Answers are held against the single calls before anything is timed.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -17,8 +17,6 @@
 #include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
-#include <tangency/geometry/neighbours.hpp>
-#include <tangency/geometry/time_batch.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>

@@ -61,7 +61,8 @@ struct Scene {
     Vec3 axes;
     for (double& r : axes) r = scale * std::pow(aspect, -uniform(0.0, 1.0));
     bodies.emplace_back(centre, axes, Quaternion(uniform(0.1, 1.0), turn.x(), turn.y(), turn.z()));
-    const Vec3 normal = uniform(0.1, 3.0) * in_cube(1.0), point = centre + scale * in_cube(2.0);
+    const double length = uniform(0.1, 3.0);
+    const Vec3 normal = length * in_cube(1.0), point = centre + scale * in_cube(2.0);
     walls.push_back({normal, normal.dot(centre) + scale * uniform(-2.0, 2.0)});
     sheets.push_back({normal, normal.dot(centre) + scale * uniform(-2.0, 2.0)});
     points.push_back(point);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -180,8 +181,20 @@ TEST(ContactColumns, RefusesNamesWithALineThatSaysWhichAreAllowed) {
   EXPECT_TRUE(refused("F,").starts_with("tangency contact: --columns: an empty name is not"));
 }
 
+/// The words at the left of a help text: what stands two spaces in, until two spaces follow.
+std::set<std::string> explained(const std::string& help) {
+  std::set<std::string> names;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 3 || !line.starts_with("  ") || line[2] == ' ') continue;
+    std::istringstream words(line.substr(2, line.find("  ", 2) - 2));
+    for (std::string word; words >> word;) names.insert(word);
+  }
+  return names;
+}
+
 TEST(ContactColumns, AreAllInTheHelp) {
-  const Finished help = run_tool({"contact", "--help"});
+  const std::set<std::string> in_help = explained(run_tool({"contact", "--help"}).out);
   // What a refusal names is the table.
   const std::string refusal = run_tool({"contact", "--columns", "?"}).err;
   std::string names = refusal.substr(refusal.find("; ") + 2);
@@ -191,7 +204,7 @@ TEST(ContactColumns, AreAllInTheHelp) {
   for (std::string word; words >> word; ++count) {
     if (word == "and") continue;
     if (word.ends_with(',')) word.pop_back();
-    EXPECT_NE(help.out.find(' ' + word), std::string::npos) << word;
+    EXPECT_TRUE(in_help.contains(word)) << word;
   }
   EXPECT_GT(count, 5);
 }

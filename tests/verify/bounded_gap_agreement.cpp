@@ -53,12 +53,12 @@ void judge(const EllipsoidPair& pair, bool by_oracle, Tally& tally) {
   const Gap searched = signed_gap(a, b);
   const Real low = Real(found.gap) - found.gap_error, high = Real(found.gap) + found.above;
   const Real least = Real(searched.gap) - searched.gap_error;  // of any branch
-  bool broken = least > high;
+  bool broken = !(least <= high);  // also of a NaN
   if (searched.status == GapStatus::ok)
-    broken = broken || Real(searched.gap) + searched.gap_error < low;
+    broken = broken || !(Real(searched.gap) + searched.gap_error >= low);
   if (by_oracle) {
     const auto truth = tangency::verify::signed_gap(pair.a, pair.b);
-    broken = broken || truth.gap > high || truth.gap + Real(truth.unproven) < low;
+    broken = broken || !(truth.gap <= high && truth.gap + Real(truth.unproven) >= low);
     ++tally.judged;
   }
   ++tally.pairs;

@@ -259,7 +259,7 @@ Answer single(const Case& c) {
   return {found.status, found.time, found.latest, found.gap.gap <= found.resolution, found.steps};
 }
 
-/// By the batch, which says `grazing` where the single call does.
+/// By the batch, which may say `grazing` only where the single call does: `hidden` is for agree().
 Answer of_many(const Case& c) {
   const std::array bodies{c.a.body, c.b.body};
   const std::array motions{c.a.motion, c.b.motion};
@@ -269,7 +269,7 @@ Answer of_many(const Case& c) {
   double time = 0, latest = 0;
   times_of_contact(array, motions, {pairs, {}}, c.horizon, c.tolerance,
                    {.status = {&status, 1}, .time = {&time, 1}, .latest = {&latest, 1}});
-  return {status, time, latest, true, 0};
+  return {status, time, latest, false, 0};
 }
 
 void compare(const Case& c, const FirstContact& truth, const Answer& found, Tally& tally) {
@@ -339,8 +339,11 @@ bool agree(std::uint64_t seed, long count, long spins) {
       const Case c = source.next(family);
       const FirstContact truth =
           first_contact(raw(c.a), raw(c.b), c.horizon, 0x1p-10 * c.tolerance);
-      compare(c, truth, timed(c, one, single), one);
-      compare(c, truth, timed(c, many, of_many), many);
+      const Answer alone = timed(c, one, single);
+      Answer of_batch = timed(c, many, of_many);
+      of_batch.hidden = alone.status == ContactTimeStatus::grazing && alone.hidden;
+      compare(c, truth, alone, one);
+      compare(c, truth, of_batch, many);
     }
     print(kNames[static_cast<int>(family)], one);
     print("  by the batch", many);
