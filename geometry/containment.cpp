@@ -47,11 +47,6 @@ exact::MarginEnclosure margin_of(const AskedPair<Ellipsoid>& asked) {
   return exact::margin(exact::rational_solid(inner), exact::rational_solid(outer));
 }
 
-ContainmentMargin finished(const exact::MarginEnclosure& margin, int side) {
-  const exact::RoundedMargin rounded = exact::rounded(margin, side);
-  return {rounded.value, rounded.error};
-}
-
 /// |d| and above.
 double distance_of(const Pair& pair) { return 1.75 * pair.d.cwiseAbs().maxCoeff(); }
 
@@ -62,8 +57,9 @@ Solved solve_spheres(const Pair& pair) {
   const Vec3 n =
       largest == 0.0 ? Vec3(pair.a.rotation().col(0)) : Vec3((pair.d / largest).normalized());
   const double distance = pair.d.stableNorm(), f = (distance - ra) + rb;
-  // |d| errs by 7 u of itself (6 of the norm, one of d), the difference and the sum by u each.
-  const double error = kUnitRoundoff * (9.01 * distance + 3.01 * (ra + rb));
+  // |d| errs by 7 u of itself (6 of the norm, one of d), the difference and the sum by u each, and
+  // so do f - error and f + error.
+  const double error = kUnitRoundoff * (10.01 * distance + 4.01 * (ra + rb));
   return {{f, f - error, f + error, true, n, ra * n, rb * n}, GapTier::fast};
 }
 
@@ -155,7 +151,8 @@ Clearance clearance(const MatrixEllipsoid& inner, const MatrixEllipsoid& outer) 
       const Ellipsoid &a = outer.ellipsoid(), &b = inner.ellipsoid();
       const double most =
           2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
-      gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
+      // Of a clearance both bounds are proven, whatever the status.
+      gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off, true);
     }
     return detail::as_clearance<Clearance>(gap, gap.arm_b);
   });
@@ -163,10 +160,8 @@ Clearance clearance(const MatrixEllipsoid& inner, const MatrixEllipsoid& outer) 
 
 ContainmentMargin containment_margin(const Ellipsoid& inner, const Ellipsoid& outer) noexcept {
   return in_default_environment([&] {
-    const AskedPair<Ellipsoid> asked{outer, inner};
-    const exact::MarginEnclosure margin = margin_of(asked);
-    if (!margin.leaves_one_open()) return finished(margin, margin.low > 1 ? 1 : -1);
-    return finished(margin, detail::nesting(relation(outer, inner)).side());
+    return detail::as_margin<ContainmentMargin>(margin_of({outer, inner}),
+                                                [&] { return relation(outer, inner); });
   });
 }
 
@@ -179,9 +174,8 @@ ContainmentMargin containment_margin(const Ellipsoid& inner, const Ellipsoid& ou
 ContainmentMargin containment_margin(const MatrixEllipsoid& inner,
                                      const MatrixEllipsoid& outer) noexcept {
   return in_default_environment([&] {
-    const exact::MarginEnclosure margin = exact::margin(solid_of(inner), solid_of(outer));
-    if (!margin.leaves_one_open()) return finished(margin, margin.low > 1 ? 1 : -1);
-    return finished(margin, detail::nesting(relation(outer, inner)).side());
+    return detail::as_margin<ContainmentMargin>(exact::margin(solid_of(inner), solid_of(outer)),
+                                                [&] { return relation(outer, inner); });
   });
 }
 

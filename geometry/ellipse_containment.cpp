@@ -51,11 +51,6 @@ exact::MarginEnclosure margin_of(const AskedPair<Ellipse>& asked) {
   return exact::margin(rational_solid(inner), rational_solid(outer));
 }
 
-ContainmentMargin finished(const exact::MarginEnclosure& margin, int side) {
-  const exact::RoundedMargin rounded = exact::rounded(margin, side);
-  return {rounded.value, rounded.error};
-}
-
 /// |d| and above.
 double distance_of(const PlanePair& pair) { return 1.5 * pair.d.cwiseAbs().maxCoeff(); }
 
@@ -116,7 +111,8 @@ PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer)
       const Ellipse &a = outer.ellipse(), &b = inner.ellipse();
       const double most =
           2.0 * ((b.centre() - a.centre()).cwiseAbs().maxCoeff() + b.largest_semi_axis());
-      gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off);
+      // Of a clearance both bounds are proven, whatever the status.
+      gap = detail::widened(gap, off, detail::nesting(relation(outer, inner)), most + off, true);
     }
     return detail::as_clearance<PlaneClearance>(gap, gap.arm_b);
   });
@@ -124,9 +120,8 @@ PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer)
 
 ContainmentMargin containment_margin(const Ellipse& inner, const Ellipse& outer) noexcept {
   return in_default_environment([&] {
-    const exact::MarginEnclosure margin = margin_of({outer, inner});
-    if (!margin.leaves_one_open()) return finished(margin, margin.low > 1 ? 1 : -1);
-    return finished(margin, detail::nesting(relation(outer, inner)).side());
+    return detail::as_margin<ContainmentMargin>(margin_of({outer, inner}),
+                                                [&] { return relation(outer, inner); });
   });
 }
 
@@ -139,9 +134,8 @@ ContainmentMargin containment_margin(const Ellipse& inner, const Ellipse& outer,
 ContainmentMargin containment_margin(const MatrixEllipse& inner,
                                      const MatrixEllipse& outer) noexcept {
   return in_default_environment([&] {
-    const exact::MarginEnclosure margin = exact::margin(solid_of(inner), solid_of(outer));
-    if (!margin.leaves_one_open()) return finished(margin, margin.low > 1 ? 1 : -1);
-    return finished(margin, detail::nesting(relation(outer, inner)).side());
+    return detail::as_margin<ContainmentMargin>(exact::margin(solid_of(inner), solid_of(outer)),
+                                                [&] { return relation(outer, inner); });
   });
 }
 

@@ -46,6 +46,15 @@ Nesting nesting(const Answer& of_pair) {
   return {of_pair.relation, of_pair.inner, of_pair.tier};
 }
 
+/// Where the enclosure leaves open on which side of 1 the margin is, the exact relation tells.
+/// @param related  () gives the relation of (outer, inner), with its tier
+template <class Result, class Related>
+Result as_margin(const exact::MarginEnclosure& margin, const Related& related) {
+  const int side = margin.leaves_one_open() ? nesting(related()).side() : margin.low > 1 ? 1 : -1;
+  const exact::RoundedMargin rounded = exact::rounded(margin, side);
+  return {rounded.value, rounded.error};
+}
+
 /// By identity (3) of containment.hpp an upper bound of f, from the margin of B in A.
 /// @param pair      in the unit of f
 /// @param distance  |d| or more, in that unit

@@ -47,8 +47,9 @@ void settle_sign(Proof& proof, GapTier& tier, const Exact& exact, double distanc
 /// The gap of bodies that are off by `off` altogether, with the sign of the true ones' relation: a
 /// gap changes no faster than support functions do.
 /// @param exact, distance  of the true bodies, as for settle_sign()
+/// @param global           is gap + gap_error, too, proven of the gap, not of a branch alone?
 template <class AnyGap, class Exact>
-AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance) {
+AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance, bool global) {
   struct {
     double gap, low, high;
     bool global;
@@ -57,11 +58,17 @@ AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance) {
   // What gap - error and gap + error round, with it.
   const double rounding = 2.0 * kUnitRoundoff * std::abs(gap.gap);
   const double error = (gap.gap_error + off + rounding) * (1.0 + 0x1p-50);
-  proof = {gap.gap, gap.gap - error, gap.gap + error, gap.status == GapStatus::ok};
+  proof = {gap.gap, gap.gap - error, gap.gap + error, global};
   settle_sign(proof, gap.tier, exact, distance);
   gap.gap = proof.gap;
   gap.gap_error = std::max(proof.high - proof.gap, proof.gap - proof.low) * (1.0 + 0x1p-50);
   return gap;
+}
+
+/// The same of a gap, of which `local` bounds a branch alone.
+template <class AnyGap, class Exact>
+AnyGap widened(const AnyGap& gap, double off, const Exact& exact, double distance) {
+  return widened(gap, off, exact, distance, gap.status == GapStatus::ok);
 }
 
 /// value 2^exponent; the sign is that of the number before it was scaled, whatever underflows.

@@ -400,5 +400,21 @@ TEST(Containment, OfBodiesByMatricesIsThatOfTheBodiesAsGiven) {
   EXPECT_LT(containment_margin(larger, a).margin, 1);
 }
 
+// A flat body that sticks out by 2^-40 along its middle axis, which the search does not settle.
+TEST(Containment, OfBodiesByMatricesKeepsBothBoundsWhereItIsLocal) {
+  const Mat3 turn = Quaternion(1, 2, 3, 4).normalized().toRotationMatrix();
+  const Vec3 axes(1, 0.1, 1e-9);
+  const Mat3 inner = turn * ((1 + 0x1p-40) * axes).asDiagonal();
+  const Mat3 outer = turn * axes.cwiseProduct(Vec3(1.25, 1, 1.125)).asDiagonal();
+  const auto a = MatrixEllipsoid::from_axes(Vec3::Zero(), inner);
+  const auto b = MatrixEllipsoid::from_axes(Vec3::Zero(), outer);
+  const Clearance c = clearance(a, b), rounded = clearance(a.ellipsoid(), b.ellipsoid());
+  ASSERT_EQ(c.status, GapStatus::local);
+  EXPECT_LT(c.clearance, 0);
+  // Identity (3) of the bodies by axes.
+  EXPECT_LT(rounded.clearance_error, 0x1p-40);
+  EXPECT_LE(c.clearance_error, 2 * (rounded.clearance_error + a.rounding() + b.rounding()));
+}
+
 }  // namespace
 }  // namespace tangency
