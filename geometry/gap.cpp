@@ -64,8 +64,9 @@ Solved solve_spheres(const Pair& pair) {
   const Vec3 n =
       largest == 0.0 ? Vec3(pair.a.rotation().col(0)) : Vec3((pair.d / largest).normalized());
   const double distance = pair.d.stableNorm(), gap = (distance - ra) - rb;
-  // |d| errs by 7 u of itself (6 of the norm, one of d), the differences by at most u each.
-  const double error = kUnitRoundoff * (9.01 * distance + 2.01 * (ra + rb));
+  // |d| errs by 7 u of itself (6 of the norm, one of d), the differences by at most u each, and
+  // so do gap - error and gap + error.
+  const double error = kUnitRoundoff * (10.01 * distance + 3.01 * (ra + rb));
   return {{gap, gap - error, gap + error, true, n, ra * n, -rb * n}, GapTier::fast};
 }
 
