@@ -134,9 +134,6 @@ class Sweep {
     block_.shapes_a = block_.shapes_b = nullptr;
     block_.polish = block_.branches = false;
     block_.tolerance = 0.0;
-    block_.first_steps = 2;  // as gap_batch.cpp
-    block_.followed_steps = 1;
-    block_.coarse = 0x1p-24;
     block_.gap = gap_;
     block_.gap_error = gap_error_;
     block_.normal = normal_[0].data();
@@ -189,7 +186,6 @@ class Sweep {
     // Entries beyond the last have to be pairs.
     std::fill(pairs_ + count, pairs_ + kBlock, pairs_[0]);
     std::fill(separations_ + count, separations_ + kBlock, separations_[0]);
-    std::fill(starts_ + count, starts_ + kBlock, starts_[0]);
     return detail::gap_lanes(block_);
   }
 
@@ -230,6 +226,7 @@ class Sweep {
       separations_[k] = moments[k].d;
       starts_[k] = open.normal;
     }
+    std::fill(starts_ + count, starts_ + kBlock, starts_[0]);
     block_.bodies_a = rows_a_, block_.bodies_b = rows_b_;
     block_.normals = starts_[0].data();
     block_.centres_are_exact = false;

@@ -57,10 +57,13 @@ struct LaneBlock {
   /// 0 where each entry of `factor` is one of Ellipsoid::rotation() times a semi-axis, rounded
   /// once; kOfRotation where it is what moving_lanes.hpp makes.
   double factor_error;
-  /// Of Newton's method before anything is proven; and of lanes that have a normal, no more.
-  int first_steps, followed_steps;
-  double coarse;  ///< of L: pairs of a tolerance from here on take one step less at first
-  bool polish;    ///< one step more than the gap needs, for the normal's sake
+  /// Of Newton's method before anything is proven; and of lanes that have a normal, no more. A
+  /// moment ago a normal was good to some 1e-4; the start of a cold search is to 1e-2.
+  int first_steps = 2, followed_steps = 1;
+  /// Of L: pairs of a tolerance from here on take one step less at first, which is mostly enough.
+  /// Measured.
+  double coarse = 0x1p-24;
+  bool polish;  ///< one step more than the gap needs, for the normal's sake
   /// May a normal of a moment ago be followed to where more than one of them may be best? Asked
   /// afresh a lane settles nothing there.
   bool branches;

@@ -18,8 +18,6 @@ static_assert(kLaneErrorBound == kOrdinaryGapErrorBound,
 
 // Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
 constexpr std::size_t kNear = 8192;
-// Of L: with a tolerance from here on a step of Newton's method less is mostly enough. Measured.
-constexpr double kCoarse = 0x1p-24;
 
 const Vec3* data_or_null(std::span<const Vec3> vectors) {
   return vectors.empty() ? nullptr : vectors.data();
@@ -56,12 +54,8 @@ void aim(const PairTask& task, LaneBlock& block) {
   block.tolerance_of_size = task.tolerance_of_size;
   block.tolerance = task.tolerance;
   block.polish = task.polish;
-  // A moment ago the normal was good to some 1e-4; the start of a cold search is to 1e-2.
-  block.first_steps = 2;
-  block.followed_steps = 1;
   block.branches = task.moving != nullptr;
   block.factor_error = task.moving != nullptr ? kOfRotation : 0.0;
-  block.coarse = kCoarse;
 }
 
 }  // namespace
