@@ -33,14 +33,19 @@ struct Asked {
   const BodyArray* array;      ///< null: moving bodies
   const MovingBodies* moving;  ///< null: the array
   const LaneBody* rows;
-  std::size_t body_count, other_count;
+  std::size_t body_count;
+  const char* other;  ///< "walls"
+  std::size_t other_count;
   PairList list;
 
-  Asked(const char* of_call, const BodyArray& bodies, std::size_t others, const PairList& of_list)
-      : Asked(of_call, &bodies, nullptr, bodies.lanes(), bodies.size(), others, of_list) {}
-  Asked(const char* of_call, const MovingBodies& bodies, std::size_t others,
+  Asked(const char* of_call, const BodyArray& bodies, const char* of_other, std::size_t others,
         const PairList& of_list)
-      : Asked(of_call, nullptr, &bodies, bodies.lanes(), bodies.size(), others, of_list) {}
+      : Asked(of_call, &bodies, nullptr, bodies.lanes(), bodies.size(), of_other, others, of_list) {
+  }
+  Asked(const char* of_call, const MovingBodies& bodies, const char* of_other, std::size_t others,
+        const PairList& of_list)
+      : Asked(of_call, nullptr, &bodies, bodies.lanes(), bodies.size(), of_other, others, of_list) {
+  }
 
   double factor_error() const { return moving != nullptr ? detail::kOfRotation : 0.0; }
   const Vec3* separation(std::size_t i) const {
@@ -58,18 +63,20 @@ struct Asked {
   void require_pair(std::size_t i) const {
     const auto [a, b] = list.pairs[i];
     if (a >= body_count) contract::outside(call, i, 'a', a, body_count);
-    if (b >= other_count) contract::outside(call, i, 'b', b, other_count);
+    if (b >= other_count) contract::outside(call, i, 'b', b, other_count, other);
     if (const Vec3* d = separation(i)) contract::require_finite(call, "separation", *d);
   }
 
  private:
   Asked(const char* of_call, const BodyArray* of_array, const MovingBodies* of_moving,
-        const LaneBody* of_rows, std::size_t bodies, std::size_t others, const PairList& of_list)
+        const LaneBody* of_rows, std::size_t bodies, const char* of_other, std::size_t others,
+        const PairList& of_list)
       : call(of_call),
         array(of_array),
         moving(of_moving),
         rows(of_rows),
         body_count(bodies),
+        other(of_other),
         other_count(others),
         list(of_list) {
     if (!list.separations.empty() || (moving != nullptr && !moving->has_centres()))
@@ -146,7 +153,7 @@ WallGap wall_gap(const Asked& asked, const Wall& wall, std::size_t i) {
 template <class Bodies, class Wall>
 void gaps_to_walls(const Bodies& bodies, std::span<const Wall> walls, const PairList& list,
                    const WallColumns& to, int threads) {
-  const Asked asked("signed_gaps", bodies, walls.size(), list);
+  const Asked asked("signed_gaps", bodies, "walls", walls.size(), list);
   require_column(asked, "gap", to.gap);
   require_column(asked, "gap_error", to.gap_error);
   require_column(asked, "normal", to.normal);
@@ -196,10 +203,7 @@ class BallBlocks {
     block_.pairs = pairs_;
     block_.centres_are_exact = asked.list.separations.empty();
     block_.factor_error = asked.factor_error();
-    block_.polish = true;    // arms as good as doubles allow
-    block_.first_steps = 2;  // as pair_task.cpp
-    block_.followed_steps = 1;
-    block_.coarse = 0x1p-24;
+    block_.polish = true;  // arms as good as doubles allow
     block_.gap = gap_;
     block_.gap_error = gap_error_;
     block_.normal = normal_[0].data();
@@ -264,7 +268,7 @@ class BallBlocks {
 template <class Bodies>
 void gaps_to_balls(const Bodies& bodies, std::span<const Sphere> balls, const PairList& list,
                    const GapColumns& to, int threads) {
-  const Asked asked("signed_gaps", bodies, balls.size(), list);
+  const Asked asked("signed_gaps", bodies, "balls", balls.size(), list);
   require_column(asked, "gap", to.gap);
   require_column(asked, "gap_error", to.gap_error);
   require_column(asked, "normal", to.normal);
@@ -301,7 +305,7 @@ void gaps_to_balls(const Bodies& bodies, std::span<const Sphere> balls, const Pa
 template <class Bodies>
 void points_closest(const Bodies& bodies, std::span<const Vec3> points, const PairList& list,
                     const PointColumns& to, int threads) {
-  const Asked asked("closest_points", bodies, points.size(), list);
+  const Asked asked("closest_points", bodies, "points", points.size(), list);
   require_column(asked, "distance", to.distance);
   require_column(asked, "distance_error", to.distance_error);
   require_column(asked, "normal", to.normal);

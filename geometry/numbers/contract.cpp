@@ -13,10 +13,10 @@ void wrong_length(const char* call, const char* what, std::size_t length,
   std::abort();
 }
 
-void outside(const char* call, std::size_t pair, char body, std::size_t index,
-             std::size_t bodies) noexcept {
-  std::fprintf(stderr, "tangency: %s: pairs[%zu].%c = %zu, and there are %zu bodies\n", call, pair,
-               body, index, bodies);
+void outside(const char* call, std::size_t pair, char entry, std::size_t index, std::size_t count,
+             const char* what) noexcept {
+  std::fprintf(stderr, "tangency: %s: pairs[%zu].%c = %zu, and there are %zu %s\n", call, pair,
+               entry, index, count, what);
   std::abort();
 }
 

@@ -15,9 +15,10 @@ namespace tangency::contract {
 /// "tangency: signed_gaps: answers: 3 entries, and there are 4 pairs"
 [[noreturn]] void wrong_length(const char* call, const char* what, std::size_t length,
                                std::size_t pairs) noexcept;
-/// "tangency: signed_gaps: pairs[2].b = 9, and there are 9 bodies"
-[[noreturn]] void outside(const char* call, std::size_t pair, char body, std::size_t index,
-                          std::size_t bodies) noexcept;
+/// "tangency: signed_gaps: pairs[2].b = 9, and there are 9 walls"
+/// @param entry, what  'b' and "walls"
+[[noreturn]] void outside(const char* call, std::size_t pair, char entry, std::size_t index,
+                          std::size_t count, const char* what = "bodies") noexcept;
 /// "tangency: BodyArray::refresh: body 9, and there are 9 bodies"
 [[noreturn]] void no_body(const char* call, std::size_t index, std::size_t bodies) noexcept;
 /// "tangency: MovingBodies::refresh: from body 2 to before body 1"

@@ -254,7 +254,14 @@ TEST(QuestionBatchDeathTest, WrongQuestionsEndTheProcessWithALine) {
   Walls walls(2);
   Points points(1);
   EXPECT_DEATH(signed_gaps(array, std::span(s.walls), {wrong, {}}, walls.columns()),
-               "signed_gaps: pairs\\[1\\].b = 5000, and there are 304 bodies");
+               "signed_gaps: pairs\\[1\\].b = 5000, and there are 304 walls");
+  EXPECT_DEATH(signed_gaps(array, std::span(s.balls), {wrong, {}}, GapColumns{}),
+               "signed_gaps: pairs\\[1\\].b = 5000, and there are [0-9]+ balls");
+  EXPECT_DEATH(closest_points(array, s.points, {wrong, {}}, PointColumns{}),
+               "closest_points: pairs\\[1\\].b = 5000, and there are [0-9]+ points");
+  const std::vector<IndexedPair> no_body{{5000, 0}};
+  EXPECT_DEATH(signed_gaps(array, std::span(s.walls), {no_body, {}}, WallColumns{}),
+               "signed_gaps: pairs\\[0\\].a = 5000, and there are [0-9]+ bodies");
   EXPECT_DEATH(closest_points(array, s.points, {wrong, {}}, points.columns()),
                "closest_points: distance: 1 entries, and there are 2 pairs");
 }
