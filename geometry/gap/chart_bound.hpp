@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// What f(n) = n.d - h_A(n) + h_B(n), minus a clearance, is at most on an arc or a triangle of
-/// normals, in the chart p = c + s of a normal c among them: docs/derivations/containment.md,
-/// section
-/// 4. Assumes rounding to nearest.
+/// normals, in the chart p = c + s of a normal c among them. Derivation: section 4 of
+/// docs/derivations/containment.md. Assumes rounding to nearest.
 ///
 /// (1) For p = c + sum of l_i s_i, l_i >= 0 of sum 1, f(p / |p|) <= value + excess().
 ///
@@ -167,7 +166,8 @@ double Chart<Real, Corners>::excess(const Real& value, double noise) const noexc
             return (psi[m][n] * g[o][p] - q[m][n]) + (psi[o][p] * g[m][n] - q[o][p]);
           };
           const Real sum = (of(i, j, k, l) + of(i, k, j, l)) + of(i, l, j, k);
-          most = std::max(most, double(sum) / 6.0);
+          const double bound = double(sum) / 6.0;
+          if (!(bound <= most) && !std::isnan(most)) most = bound;  // NaN stays
         }
       }
     }

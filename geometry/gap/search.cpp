@@ -227,7 +227,7 @@ class SphereSearch {
         [&](const Vec3& v) -> Vec3 { return factored_.factor_b().transpose() * v; });
     double rise = rough.excess(reference_, kChartNoise * size_);
     if (rise <= 0.0) return true;
-    if (rise > kDoubtful * size_) return false;
+    if (!(rise <= kDoubtful * size_)) return false;  // true for NaN
     const DoubleDoubleVector c = exactly(centre);
     const Chart<DoubleDouble, 3> chart(
         nested_->d, DoubleDouble(1.0) / length(c) * c,
@@ -238,7 +238,7 @@ class SphereSearch {
     const double wanted = triangles_ > kCoarseBudget ? kRough
                           : triangles_ > kFineBudget ? kCoarse
                                                      : kFine;
-    if (rise > wanted * size_) return false;
+    if (!(rise <= wanted * size_)) return false;
     above_ = std::max(above_, rise);
     return true;
   }

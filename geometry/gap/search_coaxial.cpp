@@ -277,7 +277,7 @@ class Meridian {
                                        std::array{at(from), at(to)}, stretch(ideal_.a),
                                        stretch(ideal_.b));
     const double rise = chart.excess(reference_, kChartNoiseInDoubleDouble * pair_.size);
-    if (rise > (roughly ? kRough : kFine) * pair_.size) return false;
+    if (!(rise <= (roughly ? kRough : kFine) * pair_.size)) return false;  // true for NaN
     above_ = std::max(above_, rise);
     return true;
   }
