@@ -5,7 +5,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,11 +28,11 @@ void in_parts(std::size_t parts, int threads, const std::function<void(std::size
   const std::size_t helpers = std::min(static_cast<std::size_t>(std::max(threads, 1)), parts);
   {
     std::vector<std::jthread> others;
-    others.reserve(helpers);
     try {
+      others.reserve(helpers);
       for (std::size_t k = 1; k < helpers; ++k) others.emplace_back(do_some);
-    } catch (const std::system_error&) {
-      // The system gives no more threads: those there are do the work.
+    } catch (const std::exception&) {
+      // The system gives no more threads, or no memory for them: those there are do the work.
     }
     do_some();
   }
