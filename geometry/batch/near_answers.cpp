@@ -52,7 +52,7 @@ class Candidates {
     const ImageSeparation d = separation(bodies_.centre(pair.a), bodies_.centre(pair.b),
                                          question_.lattice.edges, pair.image);
     work_.separation.push_back(d.vector);
-    off_.push_back(by_centres_ ? 0.0 : d.error);
+    if (!by_centres_) off_.push_back(d.error);
   }
 
   void answer(Neighbours& found) {
@@ -171,8 +171,8 @@ class Candidates {
 
   template <class Keep>
   void keep_if(const Keep& keep) {
-    std::vector<std::uint32_t> kept;
-    for (std::uint32_t i = 0; i < indexed_.size(); ++i)
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < indexed_.size(); ++i)
       if (keep(i)) kept.push_back(i);
     const auto compact = [&](auto& column) {
       if (column.empty()) return;
@@ -204,7 +204,7 @@ class Candidates {
   Neighbours work_;  ///< columns of what is left; separations of all where not by_centres_
   std::vector<IndexedPair> indexed_;
   std::vector<Known> known_;
-  std::vector<double> off_;  ///< what separations are rounded by
+  std::vector<double> off_;  ///< what separations are rounded by, where not by_centres_
 };
 
 template <class Bodies>
