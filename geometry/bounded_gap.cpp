@@ -190,7 +190,7 @@ BoundedGap finished(const Pair& pair, const GapProof& proof, GapTier tier) {
 BoundedGap bounded(const Pair& pair) {
   Found found;
   const Vec3 start = best_start(pair, first_normal(pair)), end = climbed(pair, start);
-  found.look(pair, end.allFinite() ? end : start);
+  found.look(pair, end.allFinite() ? end : start.normalized());
   // Hard shapes, no deeper than the ball of (B): they need more steps and no other bound.
   if (!narrow(pair, found.best) && found.best.global)
     found.look(pair, climbed(pair, found.best.normal));
