@@ -8,9 +8,8 @@
 /// h the support functions, is the largest t for which the inner body and a ball of radius t around
 /// each of its points lie in the outer one: the least distance between the boundaries. c < 0 is
 /// minus the length by which the inner body sticks out: the distance of its farthest point from the
-/// outer body. The normal n is the outer normal of both bodies at the witness points, which satisfy
-/// p_outer
-/// - p_inner = c n.
+/// outer body. The normal n is the outer normal of both bodies at the witness points, for which
+/// p_outer - p_inner = c n.
 ///
 ///     s = the largest factor for which  c_inner + s (inner - c_inner)  lies in the outer body
 ///
@@ -20,9 +19,8 @@
 /// (1) The sign of the clearance is that of the exact relation: > 0 where the inner body is in the
 ///     other's interior, 0 where it is in it and touches its boundary, or both are equal, else < 0.
 /// (2) margin > 1, = 1 or < 1 as the clearance is > 0, = 0 or < 0.
-/// (3) clearance >= (margin - 1) times the inner body's smallest semi-axis where that is > 0, and
-/// (margin -
-///     1) times its largest where it is < 0.
+/// (3) Where the margin is above 1, clearance >= (margin - 1) times the inner body's smallest
+///     semi-axis; where it is below 1, clearance >= (margin - 1) times its largest one.
 /// (4) The inner body scaled by its margin has the margin 1, and scaling both bodies scales the
 ///     clearance and leaves the margin.
 /// (5) The clearance changes no faster than the bodies move.

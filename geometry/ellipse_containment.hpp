@@ -6,9 +6,8 @@
 /// (1) The sign of the clearance is that of the exact relation: > 0 where the inner body is in the
 ///     other's interior, 0 where it is in it and touches its boundary, or both are equal, else < 0.
 /// (2) margin > 1, = 1 or < 1 as the clearance is > 0, = 0 or < 0.
-/// (3) clearance >= (margin - 1) times the inner body's smaller semi-axis where that is > 0, and
-/// (margin -
-///     1) times its larger where it is < 0.
+/// (3) Where the margin is above 1, clearance >= (margin - 1) times the inner body's smaller
+///     semi-axis; where it is below 1, clearance >= (margin - 1) times its larger one.
 /// (4) The inner body scaled by its margin has the margin 1, and scaling both bodies scales the
 ///     clearance and leaves the margin.
 /// (5) The clearance changes no faster than the bodies move.

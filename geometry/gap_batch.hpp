@@ -14,8 +14,8 @@
 /// (2) To the bit, an answer does not depend on its position, the order and number of the pairs,
 ///     or the thread. It may depend, within its error, on the instruction set of the machine.
 /// (3) Yes/no answers are the same everywhere.
-/// (4) For bodies of aspect ratios to 100 gap_error is at most 16 u L (gap.hpp), of MovingBodies
-///     26 u L, and the tolerance of the Accuracy asked for.
+/// (4) Of signed_gaps() and follow_gaps(), for bodies of aspect ratios to 100, gap_error is at most
+///     16 u L (gap.hpp), of MovingBodies 26 u L, and the tolerance of the Accuracy asked for.
 /// (5) Indexed bodies and plain pairs of the same numbers have the same answers, to the bit.
 /// (6) bounded_gaps() enclose the true gap in [gap - gap_error, gap + above], and what no lane
 ///     settles is to the bit that of bounded_gap().

@@ -10,8 +10,8 @@
 ///
 /// (1) `time` is never after the first contact. `none`, `touching_at_start`, and for `contact` the
 ///     overlap at `latest` <= time + tolerance, are proven as those of the single call are, and the
-///     statuses are the same but where that says `grazing`: there an overlap, or that there is
-///     none, may be proven here.
+///     statuses are the same but where that says `grazing` or `not_converged`: there an overlap, or
+///     that there is none, may be proven here.
 /// (2) To the bit, an answer does not depend on its position, the order and number of the pairs, or
 ///     the threads. It may depend, within the tolerance, on the instruction set of the machine.
 /// (3) A pair given with a separation is answered as bodies whose centres are that far apart.

@@ -57,7 +57,7 @@ struct TimeOfContact {
 /// slower than 2 resolution / tolerance, or a start that is apart by less. A pass whose least gap
 /// is above `resolution` is `none`.
 ///
-/// Does not allocate, but for a start that only the exact relation can tell from a touch.
+/// Does not allocate, but where only the exact relation can tell a start or a pass from a touch.
 /// @param motion_a, motion_b  finite, and so the distances and angles covered in the horizon
 /// @param horizon    time, finite and >= 0 (asserted)
 /// @param tolerance  time, > 0 (asserted)
