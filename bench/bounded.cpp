@@ -124,8 +124,8 @@ int main(int argc, char** argv) {
                 "mean", "slowest", "signed", "slowest", "ratio", "ok %", "above 50%", "90%", "99%");
     for (const verify::DeepFamily& family : verify::deep_families()) {
       Row row = measured(family, asked);
-      std::printf("%-32s %9.0f %9.0f %9.0f %9.0f %7.1f %7.2f %9.2e %9.2e %9.2e\n", family.name.c_str(),
-                  row.mean, row.slowest, row.signed_mean, row.signed_slowest,
+      std::printf("%-32s %9.0f %9.0f %9.0f %9.0f %7.1f %7.2f %9.2e %9.2e %9.2e\n",
+                  family.name.c_str(), row.mean, row.slowest, row.signed_mean, row.signed_slowest,
                   row.signed_mean / row.checked_mean,
                   100.0 * static_cast<double>(row.ok) / static_cast<double>(asked), row.share(0.5),
                   row.share(0.9), row.share(0.99));

@@ -108,8 +108,8 @@ TEST(OverlapBatch, BytesAndThreadsSayWhatTheSingleCallSays) {
     if (filtered[i]) {
       ASSERT_EQ(*filtered[i], meet) << i;
     }
-    const bool meet_there = overlaps(in.bodies[2 * i].moved_to(Vec3::Zero()),
-                                     in.bodies[2 * i + 1].moved_to(half[i]));
+    const bool meet_there =
+        overlaps(in.bodies[2 * i].moved_to(Vec3::Zero()), in.bodies[2 * i + 1].moved_to(half[i]));
     ASSERT_EQ(bools[i], meet_there) << i;
   }
 }

@@ -53,7 +53,7 @@ void judge(const EllipsoidPair& pair, bool by_oracle, Tally& tally) {
   const Gap searched = signed_gap(a, b);
   const Real low = Real(found.gap) - found.gap_error, high = Real(found.gap) + found.above;
   const Real least = Real(searched.gap) - searched.gap_error;  // of any branch
-  bool broken = !(least <= high);  // also of a NaN
+  bool broken = !(least <= high);                              // also of a NaN
   if (searched.status == GapStatus::ok)
     broken = broken || !(Real(searched.gap) + searched.gap_error >= low);
   if (by_oracle) {
