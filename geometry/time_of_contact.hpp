@@ -74,7 +74,8 @@ TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const 
 /// Of bodies given by matrices. `touching_at_start` is exact for their numbers as they were given,
 /// `none` and `time` are proven for bodies around them, and an overlap at `latest` for bodies
 /// inside them: these are larger and smaller by MatrixEllipsoid::relative_rounding(). So `latest`
-/// may be later than time + tolerance, and what touches the larger ones only is `grazing`. Gap and
+/// may be later than time + tolerance, by up to another tolerance and the time in which the bodies
+/// close by their roundings, and what touches the larger ones only is `grazing`. Gap and
 /// resolution are those of the larger ones.
 TimeOfContact time_of_contact(const MatrixEllipsoid& a, const Motion& motion_a,
                               const MatrixEllipsoid& b, const Motion& motion_b, double horizon,

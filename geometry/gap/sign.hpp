@@ -53,6 +53,7 @@ AnyGap widened(AnyGap gap, double off, const Exact& exact, double distance) {
     double gap, low, high;
     bool global;
   } proof{};
+  if (off == 0.0 && std::abs(gap.gap) > gap.gap_error) return gap;  // whose sign is proven
   // What gap - error and gap + error round, with it.
   const double rounding = 2.0 * kUnitRoundoff * std::abs(gap.gap);
   const double error = (gap.gap_error + off + rounding) * (1.0 + 0x1p-50);

@@ -21,6 +21,8 @@
 namespace tangency::tool {
 namespace {
 
+using ContactColumns = FurtherColumns<ContactRow>;
+
 constexpr std::array<std::string_view, 15> kOutputColumns{
     "row",  "relation", "gap",  "nx",   "ny",        "nz",     "pa.x", "pa.y",
     "pa.z", "pb.x",     "pb.y", "pb.z", "gap_error", "status", "inner"};
@@ -174,7 +176,7 @@ tables::RowOutcome write_answer(const Answer& answer, const MatrixEllipsoid& a,
   }
   out.text(answer.status);
   write_inner(answer.relation.inner, out);
-  if (!further.names().empty()) {
+  if (!further.empty()) {
     const ContactRow row{.a = a,
                          .b = b,
                          .relation = answer.relation,
@@ -278,27 +280,24 @@ void add_contact(tables::Program& program) {
                 "midpoint-potential or trace")
         .check(check_method)
         .type_name("M");
-    command.option("--columns", own.columns, "Further columns at the end of each row; see below")
-        .check(refused_columns)
-        .type_name("NAME,...");
+    add_columns_option(command, own.columns, contact_column_groups());
   };
   const auto task = [](const Options& options) {
-    const ContactColumns further(options.columns);
+    const ContactColumns further(contact_column_groups(), options.columns);
     tables::RowTask rows{
         .output_columns = {kOutputColumns.begin(), kOutputColumns.end()},
         .verdict_column = "status",
         .bind = bind_method(options.method, mixed_terms_named(options.mixed_terms), further)};
-    rows.output_columns.insert(rows.output_columns.end(), further.names().begin(),
-                               further.names().end());
+    further.append_names(rows.output_columns);
     return rows;
   };
   add_row_command<Options>(
-      program,
-      {.name = "contact",
-       .description = "Signed gap, normal and witness points of pairs of ellipsoids",
-       .help = std::string(kBodyColumnsHelp) + kHelp + contact_columns_help() + kStatusHelp,
-       .describe = describe,
-       .task = task});
+      program, {.name = "contact",
+                .description = "Signed gap, normal and witness points of pairs of ellipsoids",
+                .help = std::string(kBodyColumnsHelp) + kHelp +
+                        further_columns_help(contact_column_groups()) + kStatusHelp,
+                .describe = describe,
+                .task = task});
 }
 
 }  // namespace tangency::tool

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Columns that `tangency contact` adds at the end of a row where it is asked for them.
-///
-/// One that is asked for costs what its group of columns costs; one that is not costs nothing. A
-/// new column is a row of the table in contact_columns.cpp.
+/// What --columns of `tangency contact` and `tangency ellipse` may add at the end of a row. A new
+/// column is a row of a table in contact_columns.cpp.
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <span>
 
+#include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/relation.hpp>
-#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tool/further_columns.hpp>
 
 namespace tangency::tool {
 
@@ -28,30 +24,14 @@ struct ContactRow {
   const Gap* gap = nullptr;      ///< null where the row is not of the common normal
 };
 
-/// The further columns that were asked for, in that order.
-class ContactColumns {
- public:
-  /// @param names  separated by commas; nothing for none. Those that refused_columns() accepts.
-  explicit ContactColumns(const std::string& names);
-
-  const std::vector<std::string_view>& names() const noexcept { return names_; }
-  /// Their cells: empty where the row has no such number, or where it is beyond the range of a
-  /// double.
-  void write(const ContactRow& row, tables::RowText& out) const;
-
- private:
-  struct Place {
-    std::size_t group, column;
-  };
-  std::vector<std::string_view> names_;
-  std::vector<Place> places_;
-  std::vector<std::size_t> groups_;  ///< each once
+/// The same of a row of `ellipse`.
+struct EllipseRow {
+  const MatrixEllipse& a;
+  const MatrixEllipse& b;
+  const EllipseRelation& relation;
 };
 
-/// For a command line: what is wrong with the names, and which are allowed; nothing where nothing.
-std::string refused_columns(const std::string& names);
-
-/// For the help: every name and what it means.
-std::string contact_columns_help();
+std::span<const ColumnGroup<ContactRow>> contact_column_groups();
+std::span<const ColumnGroup<EllipseRow>> ellipse_column_groups();
 
 }  // namespace tangency::tool

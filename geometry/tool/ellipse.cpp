@@ -13,9 +13,13 @@
 #include <tangency/geometry/ellipse_relation.hpp>
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
+#include <tangency/geometry/tool/contact_columns.hpp>
+#include <tangency/geometry/tool/further_columns.hpp>
 
 namespace tangency::tool {
 namespace {
+
+using Further = FurtherColumns<EllipseRow>;
 
 constexpr std::array<std::string_view, 13> kOutputColumns{
     "row",         "relation", "crossings", "area",   "gap",   "nx",       "ny",
@@ -48,6 +52,10 @@ Output columns, in this order:
                    gap - gap_error
   Numbers read back to the same double.
 
+and those that --columns names, in the order of the names; empty where a row has none:
+)";
+
+constexpr const char* kStatusHelp = R"(
 Status of a row:
   ok               the global answer
   local            a stationary answer; that no shorter penetration exists elsewhere is
@@ -71,7 +79,7 @@ input, or a failed read or write. A refusal is one line on standard error:
 Rows before a refused row may have reached standard output, none for it or after it;
 a file named by --out is left as it was.
 
-Example, a unit circle and an ellipse of half its width:
+Example, a unit circle and an ellipse of half its width, and an ellipse within another:
   $ cat ellipses.csv
   a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.ux,b.uy
   0,0,1,1,0,1.25,0,0.5,2,1,0
@@ -82,6 +90,12 @@ Example, a unit circle and an ellipse of half its width:
   row,x,y,multiplicity
   0,0.7755599823106163,-0.6312738817964486,1
   0,0.7755599823106163,0.6312738817964486,1
+  $ cat nested.csv
+  a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle
+  0,0,3,1,0,0,0,5,2.5,0
+  $ tangency ellipse --columns clearance,clearance_error,margin,margin_error nested.csv
+  row,relation,crossings,area,gap,nx,ny,chord_depth,chord_nx,chord_ny,status,inner,gap_error,clearance,clearance_error,margin,margin_error
+  0,a_in_b,0,9.42477796076938,-3.5,-5.478392645771908e-42,1,,,,ok,,4.44089209850063e-16,1.496523749672331,2.220446049250315e-16,1.6666666666666667,7.529984927364556e-17
 )";
 
 void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
@@ -92,7 +106,8 @@ void write_crossings(const EllipseRelation& exact, tables::RowText& out) {
   }
 }
 
-tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables::RowText& out) {
+tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, const Further& further,
+                         tables::RowText& out) {
   const EllipseRelation exact = relation(a, b);
   const PlaneGap found = signed_gap(a, b);
   const double area = common_area(a.ellipse(), b.ellipse());
@@ -106,6 +121,7 @@ tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables:
     out.text("not_applicable");
     write_inner(exact.inner, out);
     out.empty();
+    further.write({a, b, exact}, out);
     return tables::RowOutcome::unanswered;
   }
   out.number(area);
@@ -120,13 +136,14 @@ tables::RowOutcome write(const MatrixEllipse& a, const MatrixEllipse& b, tables:
   out.text(found.status == GapStatus::ok ? "ok" : "local");
   write_inner(exact.inner, out);
   out.number(found.gap_error);
+  further.write({a, b, exact}, out);
   return tables::RowOutcome::answered;
 }
 
-tables::RowFunction bind(const tables::Header& header, MixedTerms terms) {
-  return [a = EllipseColumns(header, "a", terms), b = EllipseColumns(header, "b", terms)](
+tables::RowFunction bind(const tables::Header& header, MixedTerms terms, const Further& further) {
+  return [a = EllipseColumns(header, "a", terms), b = EllipseColumns(header, "b", terms), further](
              const tables::RowCursor& row, tables::RowText& out) {
-    return write(a.read(row), b.read(row), out);
+    return write(a.read(row), b.read(row), further, out);
   };
 }
 
@@ -183,10 +200,12 @@ tables::MakeRows bind_points(const tables::Header& header, MixedTerms terms) {
 void add_ellipse(tables::Program& program) {
   struct Options : ConicOptions {
     bool points = false;
+    std::string columns;
   };
   const auto describe = [](tables::Command& command, Options& own) {
     command.flag("--points", own.points,
                  "A line for each point in which the boundaries meet, in place of one a row");
+    add_columns_option(command, own.columns, ellipse_column_groups());
   };
   const auto task = [](const Options& options) -> tables::RowTask {
     const MixedTerms terms = mixed_terms_named(options.mixed_terms);
@@ -196,15 +215,20 @@ void add_ellipse(tables::Program& program) {
               .bind = [terms](const tables::Header& header) { return bind_points(header, terms); },
               .writes_lines = true};
     }
-    return row_task(kOutputColumns, "status",
-                    [terms](const auto& header) { return bind(header, terms); });
+    const Further further(ellipse_column_groups(), options.columns);
+    tables::RowTask rows = row_task(kOutputColumns, "status", [terms, further](const auto& header) {
+      return bind(header, terms, further);
+    });
+    further.append_names(rows.output_columns);
+    return rows;
   };
   add_row_command<Options>(
       program,
       {.name = "ellipse",
        .description =
            "Relation, crossings, common area and contact of pairs of ellipses in the plane",
-       .help = std::string(kEllipseColumnsHelp) + kHelp,
+       .help = std::string(kEllipseColumnsHelp) + kHelp +
+               further_columns_help(ellipse_column_groups()) + kStatusHelp,
        .describe = describe,
        .task = task});
 }

@@ -58,14 +58,14 @@ Example, a body above a floor, through it, and below:
   0,0,-4,3,2,1,0,0,1,1
   $ tangency wall bodies.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
-  0,separate,2,0,0,-1,0,0,3,0,0,1,4.44089209850063e-16,ok,
-  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230246251575e-16,ok,
-  2,a_in_b,-6,0,0,-1,0,0,-5,0,0,1,1.776356839400252e-15,ok,
+  0,separate,2,0,0,-1,0,0,3,0,0,1,4.440892148131621e-16,ok,
+  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230535765569e-16,ok,
+  2,a_in_b,-6,0,0,-1,0,0,-5,0,0,1,1.3322676361676485e-15,ok,
   $ tangency wall --two-sided bodies.csv
   row,relation,gap,nx,ny,nz,pa.x,pa.y,pa.z,pb.x,pb.y,pb.z,gap_error,status,inner
-  0,separate,2,0,0,-1,0,0,3,0,0,1,4.44089209850063e-16,ok,
-  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230246251575e-16,ok,
-  2,separate,4,0,0,1,0,0,-3,0,0,1,8.88178419700126e-16,ok,
+  0,separate,2,0,0,-1,0,0,3,0,0,1,4.440892148131621e-16,ok,
+  1,overlap,-0.5,0,0,-1,0,0,0.5,0,0,1,1.1102230535765569e-16,ok,
+  2,separate,4,0,0,1,0,0,-3,0,0,1,8.88178426317586e-16,ok,
 )";
 
 struct WallAnswer {

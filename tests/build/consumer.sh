@@ -53,8 +53,10 @@ mkdir -p "$work/partial"
 cp -r "$prefix/." "$work/partial"
 package=$(cd "$work/partial" && find . -name tangencyConfig.cmake -printf '%h')
 rm "$work/partial/$package"/tangency-{dem,micromechanics,verify}*.cmake
+static=OFF
+[ -z "$(find "$prefix" -name libtangency_geometry.a)" ] || static=ON
 cmake -G Ninja -S "$consumers/components" -B "$work/components" -DCMAKE_PREFIX_PATH="$prefix" \
-      -DPARTIAL="$work/partial/$package" >/dev/null
+      -DPARTIAL="$work/partial/$package" -DSTATIC=$static >/dev/null
 
 # By pkg-config.
 pkg-config --exists tangency-dem tangency-micromechanics

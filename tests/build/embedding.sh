@@ -6,6 +6,7 @@
 set -euo pipefail
 source=$1 work=$2
 rm -rf "$work"
+unset CXXFLAGS  # what it looks at is what CMake gives by itself
 
 commands() { grep '"command"' "$work/compile_commands.json" | grep -- "-c $1"; }
 for type in "" Debug; do

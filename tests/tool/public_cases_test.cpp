@@ -227,5 +227,21 @@ TEST(PublicCases, TheFactorOfADiscAndANeedleIsThePublishedOne) {
   EXPECT_LE(number(rows[0][17]), 1e-15);
 }
 
+// (e) Parallel ellipses about one centre. The clearance: the minimum of h_A(n) - h_B(n) by thirds
+// in 50 digits. It is not on an axis.
+
+TEST(PublicCases, AnEllipseInAnotherHasItsGapClearanceAndMargin) {
+  const std::vector<Cells> rows =
+      answers({"ellipse", "--columns", "clearance,clearance_error,margin,margin_error"},
+              "a.x,a.y,a.r1,a.r2,a.angle,b.x,b.y,b.r1,b.r2,b.angle\n0,0,3,1,0,0,0,5,2.5,0\n");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0][1], "a_in_b");
+  EXPECT_EQ(number(rows[0][4]), -3.5);
+  EXPECT_NEAR(number(rows[0][13]), 1.4965237496723305, 1e-15);
+  EXPECT_LE(number(rows[0][14]), 1e-15);
+  EXPECT_EQ(number(rows[0][15]), 5.0 / 3.0);
+  EXPECT_LE(number(rows[0][16]), 1e-15);
+}
+
 }  // namespace
 }  // namespace tangency::testing

@@ -220,7 +220,7 @@ bool clearances(const char* what, Source& source, long count) {
     const double off = (tie ? 1e-3 : 1e-6) * least, bar = (c - error) - off;
     if (family != kExtreme && family != kFar && side > 0 && bar > 10 * off) {
       ++to_show;
-      shown += verify::clearance_is_at_least(pair.inner, pair.outer, bar, 20'000);
+      shown += verify::clearance_is_at_least(pair.inner, pair.outer, bar);
     }
     local += found.status == GapStatus::local;
     tally.special += side == 0;

@@ -365,8 +365,9 @@ bool check_times(Source& source, long count) {
         kept = c > 0 && !(meets && first <= horizon);
         break;
       case ContactTimeStatus::contact:
+        // `latest` is of smaller balls, whose own search ends up to a tolerance after the first.
         kept = meets && found.time <= first && first <= found.latest &&
-               found.latest - found.time <= 1e-12 + 1.001 * tolerance;
+               found.latest - found.time <= 1e-12 + 2.0 * tolerance;
         break;
       case ContactTimeStatus::grazing:
         kept = c > 0 && (!meets || found.time <= first);

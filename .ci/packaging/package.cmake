@@ -35,7 +35,7 @@ function(tangency_library target component folder)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
-  # The kernel unoptimised is 60 to 250 times slower, and nobody steps through it.
+  # Why: docs/decisions/0015-package.md.
   if(TANGENCY_OPTIMIZED_KERNEL)
     target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:>,$<CONFIG:Debug>>:-O2>)
   endif()
@@ -91,7 +91,7 @@ function(tangency_pkg_config component description requires private)
              OUTPUT_VARIABLE libdir)
   cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_INCLUDEDIR BASE_DIRECTORY "${pkg_config_dir}"
              OUTPUT_VARIABLE includedir)
-  configure_file(geometry/tangency.pc.in tangency-${component}.pc @ONLY)
+  configure_file(.ci/packaging/tangency.pc.in tangency-${component}.pc @ONLY)
   install(FILES "${PROJECT_BINARY_DIR}/tangency-${component}.pc"
           DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${component})
 endfunction()
@@ -108,11 +108,11 @@ function(tangency_install_package)
             DESTINATION "${package_dir}" COMPONENT ${component})
   endforeach()
   get_target_property(tangency_type tangency_geometry TYPE)
-  configure_package_config_file(geometry/tangencyConfig.cmake.in tangencyConfig.cmake
+  configure_package_config_file(.ci/packaging/tangencyConfig.cmake.in tangencyConfig.cmake
                                 INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(tangencyConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES "${PROJECT_BINARY_DIR}/tangencyConfig.cmake"
-                "${PROJECT_BINARY_DIR}/tangencyConfigVersion.cmake" geometry/dependencies.cmake
+                "${PROJECT_BINARY_DIR}/tangencyConfigVersion.cmake" .ci/packaging/dependencies.cmake
           DESTINATION "${package_dir}" COMPONENT geometry)
 
   tangency_pkg_config(geometry "How two ellipsoids touch, exactly" "eigen3 >= 3.4" "gmpxx;libhwy")
