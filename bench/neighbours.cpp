@@ -7,7 +7,8 @@
 // A scene is as full as a packing: spheroids of aspect 1.43, long and flat ones by turns, turned at
 // random, about the points of a face-centred cubic lattice, moved from there by up to a fifth of
 // the distance of neighbours, at a volume fraction of 0.6. Before anything is timed, the pairs of
-// some bodies are held against the exact relation of each with all others.
+// some bodies are held against the exact relation of each with all others, and their gaps against
+// signed_gap().
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include <tangency/bench/timing.hpp>
+#include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/neighbours.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -74,9 +76,24 @@ struct Scene {
   std::size_t pairs = 0;
 };
 
-/// Ends the program unless the pairs of some bodies are those of the exact relation.
+/// Ends the program unless the gap of each pair of body i is that of the single call.
+void require_gaps(const Scene& scene, const Neighbours& found, std::uint32_t i) {
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const NearPair& pair = found.pairs[k];
+    if (pair.a != i && pair.b != i) continue;
+    const Gap one = signed_gap(scene.bodies[pair.a], scene.bodies[pair.b]);
+    const double bound = (found.gap_error[k] + one.gap_error) * (1 + 1e-12);
+    if (found.gap[k] <= 0 && std::abs(found.gap[k] - one.gap) <= bound) continue;
+    std::fprintf(stderr, "bodies %u and %u: gap %.17g, by the single call %.17g: no timing\n",
+                 pair.a, pair.b, found.gap[k], one.gap);
+    std::exit(1);
+  }
+}
+
+/// Ends the program unless the pairs of some bodies are those of the exact relation, with their
+/// gaps.
 void require_right(Scene& scene) {
-  const Neighbours found = neighbours(scene.bodies);
+  const Neighbours found = neighbours(scene.bodies, {.answers = NeighbourAnswers::contacts});
   scene.pairs = found.size();
   const std::size_t count = scene.bodies.size(), checked = 40;
   for (std::size_t k = 0; k < checked; ++k) {
@@ -89,6 +106,7 @@ void require_right(Scene& scene) {
     }
     std::copy_if(found.pairs.begin(), found.pairs.end(), std::back_inserter(listed),
                  [&](const NearPair& pair) { return pair.a == i || pair.b == i; });
+    require_gaps(scene, found, i);
     if (listed == expected) continue;
     std::fprintf(stderr, "%zu bodies: body %u has %zu neighbours and not %zu: no timing\n", count,
                  i, expected.size(), listed.size());
