@@ -10,7 +10,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 inline Ellipsoid ellipsoid_of(const Particles& particles, std::size_t i) {
   return Ellipsoid(Vec3::Zero(), particles.semi_axes[i], particles.orientation[i]);
@@ -23,4 +23,4 @@ inline Ellipse ellipse_of(const Particles& particles, std::size_t i) {
   return Ellipse(Vec2::Zero(), particles.semi_axes[i].head<2>(), direction);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

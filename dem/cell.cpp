@@ -10,7 +10,7 @@
 
 #include <tangency/dem/elementary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Eigenvalues and vectors of F F', F the deformation from `before` to `now`.
@@ -125,4 +125,4 @@ double Cell::least_stretch_since(const Mat3& before) const {
   return std::sqrt(squared_stretch(before, edges).eigenvalues().minCoeff());
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -16,7 +16,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Which periodic image of a particle: how many edges it is moved by along each axis.
 using Image = std::array<std::int32_t, 3>;
@@ -63,4 +63,4 @@ struct Cell {
   double least_stretch_since(const Mat3& before) const;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

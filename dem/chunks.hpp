@@ -11,7 +11,7 @@
 #include <tangency/dem/parallel.hpp>
 #include <tangency/dem/particle_lanes.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// work(first, last) for the chunks [first, last) of [0, count). Threads call it, each for other
 /// chunks; it may not throw.
@@ -37,4 +37,4 @@ Sum sum_by_chunks(std::size_t count, const Work& work) {
   return sum;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

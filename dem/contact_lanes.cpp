@@ -14,7 +14,7 @@
 #include <tangency/geometry/batch/packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 using dem::ContactBlock;
@@ -369,19 +369,19 @@ HWY_ATTR void sphere_lanes(std::size_t count, const double* radius_a, const doub
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(contact_lanes);
 HWY_EXPORT(restored_lanes);
 HWY_EXPORT(sphere_lanes);
 }  // namespace
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 void contact_lanes(const ContactBlock& block) noexcept {
   using namespace detail;
@@ -399,5 +399,5 @@ void sphere_lanes(std::size_t count, const double* radius_a, const double* radiu
   HWY_DYNAMIC_DISPATCH(sphere_lanes)(count, radius_a, radius_b, branch, gap, normal, arm);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 #endif

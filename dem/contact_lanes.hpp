@@ -15,7 +15,7 @@
 
 #include <tangency/geometry/indexed_pair.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A particle's motion, half a step ago, as the lanes read it: a line of cache, for random access.
 /// Rows have to stand where lines begin (geometry/large_pages.hpp).
@@ -90,4 +90,4 @@ void restored_lanes(const ContactBlock& block) noexcept;
 void sphere_lanes(std::size_t count, const double* radius_a, const double* radius_b,
                   const double* branch, double* gap, double* normal, double* arm) noexcept;
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/contact_law.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 NormalResponse ContactLaw::hertz_response(double overlap,
                                           const PrincipalCurvatures& relative) const {
@@ -12,4 +12,4 @@ NormalResponse ContactLaw::hertz_response(double overlap,
           {contact.shear_stiffness[0], contact.shear_stiffness[1], relative.direction[1]}};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -24,7 +24,7 @@
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Shear force over shear displacement of a contact, symmetric in the tangent plane.
 struct ShearStiffness {
@@ -67,4 +67,4 @@ struct ContactLaw {
   NormalResponse hertz_response(double overlap, const PrincipalCurvatures& relative) const;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

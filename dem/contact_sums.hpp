@@ -7,7 +7,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What contacts did to energy during an update. Work is that of the mean of the forces before and
 /// after on the displacement during the step, as leapfrog has it.
@@ -50,4 +50,4 @@ struct ContactTotals {
   }
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -13,7 +13,7 @@
 #include <tangency/dem/hertz_lanes.hpp>
 #include <tangency/dem/parallel.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 static_assert(ContactBlock::kPairs == kPairBlock);
@@ -438,4 +438,4 @@ void Contacts::add_up_particles(const NeighbourList& list, std::size_t particles
   });
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -26,7 +26,7 @@
 #include <tangency/geometry/large_pages.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// One listed pair (a, image of b, or a wall) at the current positions.
 struct Contact {
@@ -183,4 +183,4 @@ class Contacts {
   std::vector<BlockSums> block_sums_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -7,7 +7,7 @@
 #include <tangency/dem/particle_lanes.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 double logarithm(double x) {
   if (!(x > 0.0) || std::isinf(x)) return std::log(x);
@@ -55,4 +55,4 @@ CosineSine cosine_sine(double angle) {
   return found;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -7,7 +7,7 @@
 /// They use nothing but operations that IEEE 754 rounds. In the default rounding mode.
 #pragma once
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The natural logarithm, within kLogarithmError; of 0 and of negative numbers as std::log.
 double logarithm(double x);
@@ -24,4 +24,4 @@ struct CosineSine {
 /// Of an angle of at most 2^20 rad, either within detail::kSineError.
 CosineSine cosine_sine(double angle);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

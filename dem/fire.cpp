@@ -8,7 +8,7 @@
 #include <tangency/dem/particle_columns.hpp>
 #include <tangency/dem/particle_lanes.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 // The published values [Bitzek2006].
@@ -50,4 +50,4 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
   return energy_at(sum, dt) - energy_at(after, dt);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

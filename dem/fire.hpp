@@ -20,7 +20,7 @@
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/particles.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// How far the velocities are turned, and for how long they have run downhill.
 struct Fire {
@@ -36,4 +36,4 @@ struct Fire {
   double steer(Particles& particles, const Resultants& resultants, const Motion& motion, double dt);
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Pairs that one thread looks at at a time. Chosen: their columns stay near the processor.
@@ -185,4 +185,4 @@ std::vector<std::uint8_t> within_skins(std::span<const NearPair> pairs, const Pa
   return looked_at(pairs, assembly, BodyArray(std::span<const Ellipsoid>(ellipsoids)));
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/lattice.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// For each pair: 0 where its gap is proven to be above the sum of both skins, else 1.
 /// @param pairs  whose bounding spheres, with their skins, meet
@@ -19,4 +19,4 @@ namespace tangency::dem {
 std::vector<std::uint8_t> within_skins(std::span<const NearPair> pairs, const Particles& particles,
                                        const Cell& cell, std::span<const double> skins);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

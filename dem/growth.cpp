@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::int64_t increments_at(std::int64_t cycles_per_percent, double change_of_ecc
                                 static_cast<std::int64_t>(std::ceil(cycles * (1.0 - kRounding))));
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -15,7 +15,7 @@
 
 #include <tangency/dem/particles.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 inline double eccentricity_of(double elongation) { return (elongation - 1.0) / (elongation + 1.0); }
 inline double elongation_of(double eccentricity) {
@@ -70,4 +70,4 @@ struct Growth {
 /// least 1.
 std::int64_t increments_at(std::int64_t cycles_per_percent, double change_of_eccentricity);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using std::numbers::pi;
@@ -104,4 +104,4 @@ HertzContact hertz_contact(const double curvature[2], double overlap, const Mate
           {stamp / ((1.0 - nu) * K + nu * D), stamp / ((1.0 - nu) * K + nu * (K - D))}};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -16,7 +16,7 @@
 ///     [Mindlin1949].
 #pragma once
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// An isotropic elastic material, that of both bodies.
 struct Material {
@@ -53,4 +53,4 @@ struct HertzContact {
 /// @param overlap    approach of the bodies, length, > 0
 HertzContact hertz_contact(const double curvature[2], double overlap, const Material& material);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

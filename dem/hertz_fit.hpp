@@ -9,7 +9,7 @@
 /// over the smaller, up to that of 2^14. The constant stands first.
 #pragma once
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// f: the force is f E* overlap^(3/2) / sqrt(geometric mean of the curvatures); to a relative
 /// 1.0e-16. In powers of z - kForceCentre, chosen: in the middle they cancel least.
@@ -47,4 +47,4 @@ inline constexpr double kShareUnder[] = {0x1p+0,
                                          0x1.be2610b324336p+3,
                                          0x1.8e48328ff8abep+1};
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -14,7 +14,7 @@
 #include <tangency/geometry/batch/pack_bodies-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::dem::HWY_NAMESPACE {
+namespace tangency::inline v0::dem::HWY_NAMESPACE {
 namespace {
 
 using namespace tangency::detail::HWY_NAMESPACE;
@@ -188,11 +188,11 @@ HWY_ATTR std::uint64_t hertz_lanes(const HertzBlock& block) {
 }
 
 }  // namespace
-}  // namespace tangency::dem::HWY_NAMESPACE
+}  // namespace tangency::inline v0::dem::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 HWY_EXPORT(hertz_lanes);
 }  // namespace
@@ -201,5 +201,5 @@ std::uint64_t hertz_lanes(const HertzBlock& block) noexcept {
   return HWY_DYNAMIC_DISPATCH(hertz_lanes)(block);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 #endif

@@ -13,7 +13,7 @@
 #include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// In place of B's index: a body without curvature, which is what a wall is.
 inline constexpr std::uint32_t kFlatBody = 0xffffffff;
@@ -62,4 +62,4 @@ struct HertzBlock {
 /// Assumes rounding to nearest. May be called by several threads for blocks that share no answers.
 std::uint64_t hertz_lanes(const HertzBlock& block) noexcept;
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 #include <tangency/dem/particle_packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 /// With the weight, which a force may balance to the last bit.
@@ -91,11 +91,11 @@ HWY_ATTR void steer_lanes(const ParticleColumns& columns, const MovedColumns& mo
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(inertia_products_lanes);
 HWY_EXPORT(steer_lanes);
@@ -112,5 +112,5 @@ void steer_lanes(const ParticleColumns& columns, const MovedColumns& moved, doub
   HWY_DYNAMIC_DISPATCH(steer_lanes)(columns, moved, keep, push, gravity, turns, first, last);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

@@ -10,17 +10,17 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::dem::HWY_NAMESPACE {
+namespace tangency::inline v0::dem::HWY_NAMESPACE {
 namespace {
 
 HWY_ATTR const char* own_name() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace
-}  // namespace tangency::dem::HWY_NAMESPACE
+}  // namespace tangency::inline v0::dem::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::int64_t kWithoutFusedMultiplyAdds = HWY_SSSE3 | HWY_SSE4 | HWY_EMU128 | HWY_SCALAR;
@@ -43,9 +43,9 @@ void use_reproducible_arithmetic() {
 
 bool uses_reproducible_arithmetic() { return reproducible; }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 void use_every_instruction_set() {
   hwy::DisableTargets(0);
@@ -53,5 +53,5 @@ void use_every_instruction_set() {
   dem::reproducible = false;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The instruction set that is used: "AVX3" (AVX-512) with its extensions, "AVX2", "SSE4", "SSSE3",
 /// or "SCALAR" where the processor has none of these. Thread-safe.
@@ -27,12 +27,12 @@ void use_reproducible_arithmetic();
 /// Has it been called, and not been taken back?
 bool uses_reproducible_arithmetic();
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Takes back what use_reproducible_arithmetic() did: for tests, whose process has others beside
 /// them. Not while another thread computes.
 void use_every_instruction_set();
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

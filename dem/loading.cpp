@@ -8,7 +8,7 @@
 
 #include <tangency/dem/elementary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// The integral part works this much slower than the proportional one; 4 would be critical damping
@@ -122,4 +122,4 @@ bool Loading::is_independent() const {
   return targets.empty() || rows.colPivHouseholderQr().rank() == rows.rows();
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -15,7 +15,7 @@
 #include <tangency/dem/observe.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// One stress to hold, and the strain rate that does it.
 struct Target {
@@ -97,4 +97,4 @@ struct Loading {
   bool is_independent() const;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 #include <tangency/dem/particle_columns.hpp>
 #include <tangency/dem/particle_lanes.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 detail::DampedKick kick_of(double damping, double largest, double dt) {
@@ -77,4 +77,4 @@ double kinetic_energy_at(const Particles& particles, const Resultants& resultant
   return energy + 0.5 * dt * sum.va;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -23,7 +23,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The run blew up: a velocity is no longer finite, or as good as that.
 class Diverged : public std::runtime_error {
@@ -75,4 +75,4 @@ double kinetic_energy_at(const Particles& particles, const Resultants& resultant
 /// on one spring is twice this [Ouadfel1998, eq. 3.24].
 double characteristic_time(const Particles& particles, double largest_stiffness);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -12,7 +12,7 @@
 #include <tangency/dem/particle_packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 /// Part `axis` of a body that turns freely, by `half` of an angle: q <- q (c + s e_axis), and the
@@ -156,11 +156,11 @@ HWY_ATTR void cosine_sine_lanes(const double* angle, double* cosine, double* sin
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(move_lanes);
 HWY_EXPORT(cosine_sine_lanes);
@@ -176,5 +176,5 @@ void cosine_sine_lanes(const double* angle, double* cosine, double* sine,
   HWY_DYNAMIC_DISPATCH(cosine_sine_lanes)(angle, cosine, sine, count);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

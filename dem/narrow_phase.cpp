@@ -15,7 +15,7 @@
 #include <tangency/geometry/primitives.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// The gap of a pair that is known to be apart without it.
@@ -202,4 +202,4 @@ PrincipalCurvatures NarrowPhase::relative_curvature(const IndexedPair& pair,
   return contact_curvature(bodies_[a], bodies_[b], normal).relative;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -20,7 +20,7 @@
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Which answer of a pair with several is meant.
 enum class Branch {
@@ -94,4 +94,4 @@ class NarrowPhase {
   MovingBodies bodies_;            ///< the ellipsoids
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/near_pairs.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Bodies whose neighbours one thread searches at a time. Chosen: some 0.3 ms of work.
@@ -181,4 +181,4 @@ void NeighbourList::index_pairs() {
     if (const auto b = static_cast<std::size_t>(pairs_[k].b); b < count) as_b_[next[b]++] = k;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

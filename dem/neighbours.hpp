@@ -25,7 +25,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Particle `a` and the image of particle `b`; a <= b, and for a == b the image is positive in
 /// lexicographic order. Or, with b = number of particles + k, particle `a` and wall k (Wall).
@@ -130,4 +130,4 @@ class NeighbourList {
   std::vector<std::uint32_t> first_as_a_, first_as_b_, as_b_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 #include <tangency/dem/chunks.hpp>
 #include <tangency/dem/motion.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// One type for eigenvalues of any size here: a solver takes seconds to compile.
@@ -264,4 +264,4 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"boundary_s_zx", b(2, 0)}};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

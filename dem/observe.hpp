@@ -20,7 +20,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Stress of the assembly, (1/V) sum over contacts of force (x) branch vector, made symmetric;
 /// compression positive, force/area.
@@ -134,4 +134,4 @@ struct Field {
 std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
                                   std::int64_t stage_cycle, const Observation& seen);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// The threads of this library's loops. TBB's limit for the process is raised where they are more
@@ -59,4 +59,4 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
   });
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

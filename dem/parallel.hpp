@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Sets how many threads the loops of this library use from now on; 0: as many as the machine lets
 /// this process run at once, which is where it starts. Loops that a program gives TBB itself keep
@@ -40,4 +40,4 @@ void for_ranges(std::size_t count, std::size_t least, const F& what) {
       &what);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -5,7 +5,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quaternion) == 4 * sizeof(double));
@@ -49,4 +49,4 @@ MovedColumns moved_columns_of(dem::Particles& particles) {
           start_of(particles.angular_velocity), start_of(particles.orientation)};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

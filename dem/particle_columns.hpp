@@ -6,7 +6,7 @@
 #include <tangency/dem/particle_lanes.hpp>
 #include <tangency/dem/particles.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// The columns of particles on which nothing acts, and of those on which `resultants` do. Valid as
 /// long as no column changes its length.
@@ -14,4 +14,4 @@ ParticleColumns columns_of(const dem::Particles& particles);
 ParticleColumns columns_of(const dem::Particles& particles, const dem::Resultants& resultants);
 MovedColumns moved_columns_of(dem::Particles& particles);
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

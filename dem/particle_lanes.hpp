@@ -13,15 +13,15 @@
 
 #include <cstddef>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Particles of one chunk. Chosen: a multiple of the lanes of every instruction set, and work
 /// enough (1 to 4 us) that calls and sums of chunks are no part of it.
 inline constexpr std::size_t kChunk = 64;
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Columns of particles and resultants as dem::Particles and dem::Resultants have them: three
 /// numbers a vector, four (x, y, z, w) an orientation, one a mass.
@@ -103,4 +103,4 @@ void cosine_sine_lanes(const double* angle, double* cosine, double* sine,
 /// to 0.1, where the half angles of a sound run's steps are, 0.51.
 inline constexpr double kSineError = 2.0;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

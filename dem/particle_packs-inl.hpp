@@ -17,7 +17,7 @@
 #include <tangency/geometry/batch/packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 HWY_INLINE Pack unfused_dot(const PackVec3& a, const PackVec3& b) {
@@ -233,7 +233,7 @@ HWY_INLINE void for_each_pack(const ParticleColumns& columns, const MovedColumns
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <tangency/dem/elementary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 Vec3 Shape::semi_axes(int dimensions) const {
   if (dimensions == 2) {
@@ -83,4 +83,4 @@ std::vector<std::uint32_t> Particles::index_of_id() const {
   return index;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -19,7 +19,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The shape of a particle by the thesis' three parameters [Ouadfel1998, eq. 3.37-3.39].
 struct Shape {
@@ -79,4 +79,4 @@ struct Resultants {
   std::vector<std::int32_t> contacts{};
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

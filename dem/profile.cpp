@@ -7,7 +7,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::array<const char*, kPhases> kNames{"motion", "bodies", "list",   "gaps",
@@ -80,4 +80,4 @@ std::string table_of(const Profile& profile, double cycle_seconds) {
   return text + count_line("peak memory, MB", 1e-6 * static_cast<double>(peak_memory()));
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

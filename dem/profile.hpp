@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 using Clock = std::chrono::steady_clock;
 
@@ -80,4 +80,4 @@ std::vector<ProfileEntry> entries_of(const Profile& profile);
 /// its own.
 std::string table_of(const Profile& profile, double cycle_seconds);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -12,7 +12,7 @@
 #include <tangency/dem/elementary.hpp>
 #include <tangency/dem/thin_cell.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using Sites = Eigen::Array<std::int64_t, 3, 1>;
@@ -278,4 +278,4 @@ Particles place_at_random(const std::vector<Batch>& batches, const Placement& ho
   return particles;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -16,7 +16,7 @@
 #include <tangency/dem/start_axes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// So many particles of one kind.
 struct Batch {
@@ -99,4 +99,4 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
 /// @throws DoesNotFit
 Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/dem/scene_section.hpp>
 #include <tangency/dem/whole_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Classes of micro.csv by default, the published ones [Ouadfel1998, section 2.3.2].
@@ -461,4 +461,4 @@ Scene load_scene(const std::filesystem::path& file) {
   return parse_scene(text, file.string());
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/scene_model.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema
 Scene load_scene(const std::filesystem::path& file);
@@ -23,4 +23,4 @@ Scene parse_scene(const std::string& text, const std::string& name);
 /// `name`
 void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

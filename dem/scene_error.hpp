@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A scene that cannot be run; what() is one line, "scene.toml:12: particles.p.count = -1: an
 /// integer from 1 to 1000000".
@@ -14,4 +14,4 @@ class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Chosen: a larger change of shape throws neighbours about that no relaxation brings back.
@@ -105,4 +105,4 @@ Growth read_growth(const Section& section, const Scene& scene) {
   return growth;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -7,11 +7,11 @@
 #include <tangency/dem/scene_model.hpp>
 #include <tangency/dem/scene_section.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// @param scene  as far as it is read: particles, and stages up to this one, which is the last and
 ///               has no growth yet
 /// @throws SceneError
 Growth read_growth(const Section& section, const Scene& scene);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using enum KeyType;
@@ -377,4 +377,4 @@ void print_schema(std::ostream& out) {
   }
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

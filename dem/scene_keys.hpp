@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// `reals` is a list of one number or more.
 enum class KeyType { integer, real, real3, real4, reals, boolean, text, path };
@@ -62,4 +62,4 @@ std::string allowed_values(const Key& key);
 /// Every key with type, unit, default, range and meaning, section by section.
 void print_schema(std::ostream& out);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
@@ -169,4 +169,4 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
   return drive;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -8,10 +8,10 @@
 #include <tangency/dem/scene_model.hpp>
 #include <tangency/dem/scene_section.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// @param scene  as far as it is read: cell, particles and contacts
 /// @throws SceneError
 Drive read_drive(const Section& section, const std::string& kind, const Scene& scene);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

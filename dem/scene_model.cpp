@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 std::vector<Batch> Scene::batches() const {
   std::vector<Batch> all;
@@ -60,4 +60,4 @@ Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t incremen
   return shape;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -20,7 +20,7 @@
 #include <tangency/dem/start_axes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct ParticleType {
   std::string name;
@@ -108,4 +108,4 @@ struct Scene {
   Shape shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// The shortest text that reads back to x: toml++ writes 0.05 with 17 digits.
@@ -218,4 +218,4 @@ std::string_view Section::fallback(std::string_view name) const {
       ->fallback;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A value on one line, as TOML writes it.
 std::string text_of(const toml::node& node);
@@ -96,4 +96,4 @@ class Section {
   const toml::table* base_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

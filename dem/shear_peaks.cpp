@@ -7,7 +7,7 @@
 
 #include <tangency/dem/strain_windows.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 double mean_of(std::span<const ShearRow> rows, double ShearRow::*value) {
@@ -41,4 +41,4 @@ std::optional<ShearPeaks> shear_peaks(std::span<const ShearRow> rows) {
   return peaks;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

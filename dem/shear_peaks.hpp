@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What a row of a history says of a shear test. Strains count from the start of its stage.
 struct ShearRow {
@@ -39,4 +39,4 @@ inline constexpr double kPeakWindow = 0.01;
 /// @return  nothing without a row
 std::optional<ShearPeaks> shear_peaks(std::span<const ShearRow> rows);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

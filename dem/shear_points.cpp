@@ -9,7 +9,7 @@
 #include <tangency/dem/shear_peaks.hpp>
 #include <tangency/dem/strain_windows.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using Rows = std::span<const ShearPointRow>;
@@ -83,4 +83,4 @@ std::optional<ShearPoints> shear_points(Rows rows) {
   return ShearPoints{0, yield_of(rows, peak), peak, constant.value_or(last), !constant};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

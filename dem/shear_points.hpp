@@ -20,7 +20,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What a row of a history says. Strains count from the start of the stage.
 struct ShearPointRow {
@@ -59,4 +59,4 @@ struct ShearPoints {
 /// @return  nothing for fewer than two rows
 std::optional<ShearPoints> shear_points(std::span<const ShearPointRow> rows);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -13,7 +13,7 @@
 #include <tangency/dem/spatial_order.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Least skin of a particle in the neighbour list, in its mean radii. Measured against 0.1: a cycle
@@ -461,4 +461,4 @@ Observation Simulation::observe() const {
   return seen;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -25,7 +25,7 @@
 #include <tangency/dem/thin_cell.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Everything that a run carries from one cycle to the next.
 struct State {
@@ -147,4 +147,4 @@ class Simulation {
   Profile* profile_ = nullptr;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

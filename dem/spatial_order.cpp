@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Steps of the curve along the cell's longest height: 21 bits of each coordinate fill a key.
@@ -59,4 +59,4 @@ std::vector<std::uint32_t> spatial_order(const Particles& particles, const Cell&
   return order;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

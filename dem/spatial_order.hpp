@@ -13,11 +13,11 @@
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/particles.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The indices of all particles in the order of the curve, for Particles::permute(): by centres
 /// wrapped into the cell; those of one place in the order of their ids. The sequence of ids that
 /// results depends on where particles are alone, not on the order that they had.
 std::vector<std::uint32_t> spatial_order(const Particles& particles, const Cell& cell);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

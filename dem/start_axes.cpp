@@ -6,7 +6,7 @@
 
 #include <tangency/dem/elementary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// About z, by twice the angle of which these are.
@@ -68,4 +68,4 @@ Quaternion StartAxes::draw(std::mt19937_64& random, int axis, int dimensions) co
   return spun * from_x_to_z();
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -12,7 +12,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Uniform on [0, 1), from the 53 high bits: unlike std::uniform_real_distribution the same
 /// everywhere.
@@ -47,4 +47,4 @@ struct StartAxes {
   Quaternion draw(std::mt19937_64& random, int axis, int dimensions) const;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -16,7 +16,7 @@
 #include <tangency/dem/state_stream.hpp>
 #include <tangency/dem/whole_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::string_view kMagic = "TANGSTAT";
@@ -367,4 +367,4 @@ State load_state(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 
 #include <tangency/dem/simulation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A file that is no state this program can read; what() is one line that starts with its name.
 class StateError : public std::runtime_error {
@@ -40,4 +40,4 @@ std::optional<std::int64_t> cycle_of_state(const std::filesystem::path& file);
 /// hashes.
 std::string state_hash(const State& state);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string_view>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Bytes. Chosen: it stays in a core's own cache between hashing and writing, and a call of the
@@ -149,4 +149,4 @@ StateReader::Ending StateReader::finish() {
   return {wanted == hash_.value(), is_at_once};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -19,7 +19,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 static_assert(std::endian::native == std::endian::little, "state files are little-endian");
 
@@ -105,4 +105,4 @@ class StateReader {
   std::size_t hashed_ = 0, taken_ = 0, end_ = 0;  ///< places in the buffer, in this order
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Relative slack of a window's width: rows at equal steps of strain lie on its end.
 inline constexpr double kWindowSlack = 1e-9;
@@ -57,4 +57,4 @@ std::optional<Slope> slope_of(std::span<const Row> rows, double Row::*value) {
   return Slope{product / square, strain};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

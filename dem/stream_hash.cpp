@@ -7,7 +7,7 @@
 
 static_assert(XXH_VERSION_NUMBER >= 800, "XXH3's values are fixed from 0.8.0 on");
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct StreamHash::Sums {
   XXH3_state_t xxh3;
@@ -22,4 +22,4 @@ void StreamHash::add(const void* bytes, std::size_t count) noexcept {
 
 std::uint64_t StreamHash::value() const noexcept { return XXH3_64bits_digest(&sums_->xxh3); }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

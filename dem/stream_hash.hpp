@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 class StreamHash {
  public:
@@ -26,4 +26,4 @@ class StreamHash {
   std::unique_ptr<Sums> sums_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Keeps the two largest values, the larger first.
@@ -104,4 +104,4 @@ std::optional<ThinPlace> doubled_contact(const Particles& particles, const Conta
   return std::nullopt;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

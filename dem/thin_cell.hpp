@@ -25,7 +25,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The least lengths of a cell by the particles in it; a_1 >= a_2 the largest of their largest
 /// semi-axes, c_1 >= c_2 of their smallest.
@@ -74,4 +74,4 @@ class CellTooThin : public std::runtime_error {
   ThinPlace place;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

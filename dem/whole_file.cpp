@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
@@ -99,4 +99,4 @@ bool link_whole(const std::filesystem::path& file, const std::filesystem::path& 
   }
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A file that cannot be read or written; what() is one line that starts with its name and ends
 /// with the system's reason.
@@ -74,4 +74,4 @@ bool link_whole(const std::filesystem::path& file, const std::filesystem::path& 
 /// @throws WriteError
 void write_all(int file, std::string_view bytes, const std::filesystem::path& name);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
     : BodyArray(std::span<const Ellipsoid>(bodies)) {
@@ -45,4 +45,4 @@ void BodyArray::refresh(std::size_t i) noexcept {
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

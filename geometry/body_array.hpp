@@ -13,7 +13,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/large_pages.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 namespace detail {
 struct LaneBody;
@@ -65,4 +65,4 @@ class BodyArray {
   std::vector<detail::LaneShape, LargePages<detail::LaneShape>> shapes_;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -15,7 +15,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::GapProof;
@@ -213,4 +213,4 @@ BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separ
   return in_default_environment([&] { return bounded(Pair({a, b, &separation})); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

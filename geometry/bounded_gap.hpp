@@ -22,7 +22,7 @@
 
 #include <tangency/geometry/gap.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// As a Gap; but gap_error bounds how much less than `gap` the true gap may be, for `local` too.
 struct BoundedGap : Gap {
@@ -36,4 +36,4 @@ BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// @param separation  finite: else the process ends with one line on standard error
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

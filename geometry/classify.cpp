@@ -3,10 +3,10 @@
 
 #include <tangency/geometry/bodies/classify_coefficients.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 Classification classify(const Quadric& quadric) noexcept {
   return detail::classify_coefficients(quadric.coefficients());
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

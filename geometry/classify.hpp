@@ -19,9 +19,9 @@
 
 #include <tangency/geometry/quadric.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Allocates only where integers decide, tier `exact`; where memory ends then, the process does.
 Classification classify(const Quadric& quadric) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

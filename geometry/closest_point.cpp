@@ -7,7 +7,7 @@
 #include <tangency/geometry/bodies/surface_projection.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 ClosestPoint projected(const Ellipsoid& body, const Vec3& point) {
@@ -47,4 +47,4 @@ ClosestPoint closest_point_from_centre(const MatrixEllipsoid& body,
       [&] { return projected_on(body, body.ellipsoid().moved_to(Vec3::Zero()), separation); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

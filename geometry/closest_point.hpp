@@ -18,7 +18,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct ClosestPoint {
   double distance;        ///< signed, < 0 inside, in the unit of length of the body
@@ -56,4 +56,4 @@ ClosestPoint closest_point_from_centre(const Ellipsoid& body, const Vec3& separa
 ClosestPoint closest_point_from_centre(const MatrixEllipsoid& body,
                                        const Vec3& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -18,7 +18,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/volume/slice_integrals.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::CircularSections;
@@ -248,4 +248,4 @@ CommonVolume common_volume(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

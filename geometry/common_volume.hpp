@@ -33,7 +33,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 enum class CommonVolumeStatus {
   ok,                     ///< both errors are within the tolerance
@@ -77,4 +77,4 @@ CommonVolume common_volume(const Ellipsoid& a, const Ellipsoid& b, const Vec3& s
 CommonVolume common_volume(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
                            double tolerance = kCommonVolumeTolerance) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -19,7 +19,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::AskedPair;
@@ -179,4 +179,4 @@ ContainmentMargin containment_margin(const MatrixEllipsoid& inner,
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -31,7 +31,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct Clearance {
   double clearance;  ///< signed, in the unit of length of the bodies
@@ -81,4 +81,4 @@ ContainmentMargin containment_margin(const Ellipsoid& inner, const Ellipsoid& ou
 ContainmentMargin containment_margin(const MatrixEllipsoid& inner,
                                      const MatrixEllipsoid& outer) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

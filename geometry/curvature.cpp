@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::PlaneBasis;
@@ -127,4 +127,4 @@ ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
   return in_default_environment([&] { return curvature_between(a, b, normal); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

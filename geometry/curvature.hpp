@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Principal curvatures and directions of a surface, or of the distance between two.
 struct PrincipalCurvatures {
@@ -58,4 +58,4 @@ struct ContactCurvature {
 ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
                                    const Vec3& normal) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
@@ -104,4 +104,4 @@ double Ellipse::level(const Vec2& point) const noexcept {
       [&] { return turned_back(axis_, point - centre_).cwiseQuotient(semi_axes_).squaredNorm(); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -18,7 +18,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// What is wrong with the numbers of a would-be ellipse: the first offending field by its name in
 /// the file formats ("x" "y" "r1" "r2" "ux" "uy" "angle"), its value, and the rule.
@@ -109,4 +109,4 @@ inline Vec2 turned(const Vec2& axis, const Vec2& v) noexcept {
   return {axis[0] * v[0] - axis[1] * v[1], axis[1] * v[0] + axis[0] * v[1]};
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

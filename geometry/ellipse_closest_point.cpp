@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::DoubleDouble2;
@@ -74,4 +74,4 @@ PlaneClosestPoint closest_point_from_centre(const Ellipse& body, const Vec2& sep
   return closest_point(body.moved_to(Vec2::Zero()), separation);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -18,7 +18,7 @@
 #include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct PlaneClosestPoint {
   double distance;        ///< signed, < 0 inside, in the unit of length of the ellipse
@@ -48,4 +48,4 @@ PlaneClosestPoint closest_point(const MatrixEllipse& body, const Vec2& point) no
 /// @param separation  finite
 PlaneClosestPoint closest_point_from_centre(const Ellipse& body, const Vec2& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

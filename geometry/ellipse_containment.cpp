@@ -13,7 +13,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/plane_gap.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::AskedPair;
@@ -139,4 +139,4 @@ ContainmentMargin containment_margin(const MatrixEllipse& inner,
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

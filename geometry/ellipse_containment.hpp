@@ -18,7 +18,7 @@
 #include <tangency/geometry/ellipse.hpp>
 #include <tangency/geometry/matrix_ellipse.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct PlaneClearance {
   double clearance;  ///< signed, in the unit of length of the bodies
@@ -53,4 +53,4 @@ ContainmentMargin containment_margin(const Ellipse& inner, const Ellipse& outer,
 ContainmentMargin containment_margin(const MatrixEllipse& inner,
                                      const MatrixEllipse& outer) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

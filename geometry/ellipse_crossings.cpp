@@ -10,7 +10,7 @@
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 #include <tangency/geometry/plane/lens.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::DoubleDouble;
@@ -184,4 +184,4 @@ ChordContact chord_contact(const Ellipse& a, const Ellipse& b, const Vec2& separ
   return in_default_environment([&] { return chord_contact(Asked{a, b, &separation}); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -23,7 +23,7 @@
 #include <tangency/geometry/ellipse.hpp>
 #include <tangency/geometry/matrix_ellipse.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct Crossing {
   Vec2 arm_a = Vec2::Zero();  ///< from the centre of A
@@ -70,4 +70,4 @@ struct ChordContact {
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b) noexcept;
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -11,7 +11,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/plane_gap.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::PlanePair;
@@ -116,4 +116,4 @@ PlaneGap follow_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation,
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -19,7 +19,7 @@
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/matrix_ellipse.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Gap, normal and witness points of an ordered pair (A, B); statuses as for Gap.
 struct PlaneGap {
@@ -62,4 +62,4 @@ PlaneGap signed_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation) 
 PlaneGap follow_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation,
                     const Vec2& previous_normal) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -4,7 +4,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 std::optional<int> crossings(exact::Meeting meeting) {
@@ -58,4 +58,4 @@ bool overlaps(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexce
   return overlaps(a.moved_to(Vec2::Zero()), b.moved_to(separation));
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -20,7 +20,7 @@
 #include <tangency/geometry/matrix_ellipse.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct EllipseRelation {
   Relation relation;
@@ -45,4 +45,4 @@ EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcep
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept;
 bool overlaps(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 std::string describe(const EllipsoidFault& fault) {
@@ -147,4 +147,4 @@ Eigen::AlignedBox3d Ellipsoid::bounding_box() const noexcept {
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -15,7 +15,7 @@
 #include <tangency/geometry/symmetric3.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// What is wrong with the numbers of a would-be ellipsoid: the first offending field by its name
 /// in the file formats ("x" "y" "z" "r1" "r2" "r3" "qw" "qx" "qy" "qz"), its value, and the rule.
@@ -115,4 +115,4 @@ class Ellipsoid {
 /// R(q/|q|) for a finite quaternion of any length but 0, each entry as Ellipsoid::rotation().
 Mat3 rotation_of(const Quaternion& q) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -24,10 +24,10 @@
 #error "tangency: its proofs need double arithmetic that is rounded to double at every operation"
 #endif
 
-namespace tangency {
+namespace tangency::inline v0 {
 static_assert(std::numeric_limits<double>::is_iec559, "double must be IEEE 754 binary64");
 static_assert(std::numeric_limits<double>::digits == 53, "double must be IEEE 754 binary64");
 
 /// u: half the distance from 1 to the next double.
 inline constexpr double kUnitRoundoff = 0x1p-53;
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -18,7 +18,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::FactoredPair;
@@ -320,4 +320,4 @@ ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3&
   return in_default_environment([&] { return bounds(Pair({a, b, &separation}), gap); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -23,7 +23,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Gap, normal and witness points of an ordered pair (A, B).
 struct Gap {
@@ -90,4 +90,4 @@ ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& 
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                              const Gap& gap) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -13,7 +13,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::kBlock;
@@ -285,4 +285,4 @@ void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<co
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

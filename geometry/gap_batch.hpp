@@ -33,7 +33,7 @@
 #include <tangency/geometry/overlap_batch.hpp>
 #include <tangency/geometry/pair_list.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// How good a gap has to be: a point on the curve of speed against accuracy that
 /// docs/speed-accuracy.md measures. Sign, status and gap_error are proven at every point of it;
@@ -126,4 +126,4 @@ void bounded_gaps(const MovingBodies& bodies, const PairList& list, const Bounde
 void gap_derivatives(const BodyArray& bodies, const PairList& list, std::span<const Gap> gaps,
                      std::span<GapDerivatives> answers, int threads = 1) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -9,7 +9,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::PlaneBasis;
@@ -207,4 +207,4 @@ GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap
   return in_default_environment([&] { return answer({a, b}, gap); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -33,7 +33,7 @@
 
 #include <tangency/geometry/gap.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Where a body's three parameters of a kind start; B's are 9 further.
 enum GapParameter { kCentre = 0, kRotation = 3, kSemiAxes = 6, kOfBodyB = 9 };
@@ -84,4 +84,4 @@ GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -7,7 +7,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 /// What the exact relation tells of a pair, for detail::widened().
@@ -53,4 +53,4 @@ Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& e
                      a, b, edges, image);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

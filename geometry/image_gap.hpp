@@ -15,7 +15,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// What the separation is rounded by goes into gap_error. Allocates only where the exact relation
 /// decides the sign.
@@ -31,4 +31,4 @@ Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& e
 Gap widened_gap(const Gap& rounded, double off, const MatrixEllipsoid& a, const MatrixEllipsoid& b,
                 const Mat3& edges, const LatticeImage& image) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -6,11 +6,11 @@
 
 #include <cstdint>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// A and B of a pair by their places in a BodyArray.
 struct IndexedPair {
   std::uint32_t a, b;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Allocates cache-line-aligned memory, and where it is long enough asks for pages of 2 MiB;
 /// whether it gets them is up to the system.
@@ -41,4 +41,4 @@ struct LargePages {
   bool operator==(const LargePages&) const noexcept { return true; }
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

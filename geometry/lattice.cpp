@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 /// A sum of doubles, and how far it may be from that of the numbers that were added.
@@ -69,4 +69,4 @@ ImageSeparation separation(const Vec3& centre_a, const Vec3& centre_b, const Mat
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

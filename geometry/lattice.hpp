@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// How many edges a body is moved by along each axis.
 using LatticeImage = std::array<std::int32_t, 3>;
@@ -44,4 +44,4 @@ struct ImageSeparation {
 ImageSeparation separation(const Vec3& centre_a, const Vec3& centre_b, const Mat3& edges,
                            const LatticeImage& image) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -9,7 +9,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using exact::RationalMatrix;
@@ -101,4 +101,4 @@ MatrixEllipse MatrixEllipse::from_conic(const std::array<double, 6>& coefficient
   return {exact::shared(std::move(solid)), "conic"};
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

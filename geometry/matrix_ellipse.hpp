@@ -13,7 +13,7 @@
 #include <tangency/geometry/ellipse.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 namespace exact {
 template <std::size_t N>
@@ -69,4 +69,4 @@ class MatrixEllipse {
   double rounding_ = 0.0;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -13,7 +13,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using exact::RationalMatrix;
@@ -210,4 +210,4 @@ double level_of_confidence(double confidence, int dimensions) {
   });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -19,7 +19,7 @@
 #include <tangency/geometry/quadric.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 namespace exact {
 template <std::size_t N>
@@ -84,4 +84,4 @@ class MatrixEllipsoid {
 /// @param dimensions  2 or 3, else std::invalid_argument
 double level_of_confidence(double confidence, int dimensions);
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct Motion {
   Vec3 velocity = Vec3::Zero();          ///< of the pivot, length per time
@@ -20,4 +20,4 @@ struct Motion {
   Vec3 pivot_arm = Vec3::Zero();         ///< r: the body's centre at t = 0 less the pivot
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -11,7 +11,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quaternion) == 4 * sizeof(double),
@@ -221,4 +221,4 @@ void MovingBodies::separations(std::span<const NearPair> pairs, const Mat3& edge
   }
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -32,7 +32,7 @@
 #include <tangency/geometry/strided.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 namespace detail {
 struct LaneBody;
@@ -129,4 +129,4 @@ class MovingBodies {
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

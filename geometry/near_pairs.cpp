@@ -7,7 +7,7 @@
 #include <tangency/geometry/near/near_grids.hpp>
 #include <tangency/geometry/near/sorted_by_pair.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 NearPairSearch::NearPairSearch(std::span<const Vec3> centres, std::span<const double> reaches,
                                const Lattice& lattice)
@@ -40,4 +40,4 @@ std::vector<NearPair> near_pairs(std::span<const Vec3> centres, std::span<const 
   return sorted_pairs(parts, search.size());
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

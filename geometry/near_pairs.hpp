@@ -31,7 +31,7 @@
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 namespace detail {
 class NearGrids;
@@ -77,4 +77,4 @@ std::vector<NearPair> sorted_pairs(std::span<const std::vector<NearPair>> parts,
 std::vector<NearPair> near_pairs(std::span<const Vec3> centres, std::span<const double> reaches,
                                  const Lattice& lattice = Lattice::open());
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// What is wanted of each pair. Each adds columns to those before it.
 enum class NeighbourAnswers {
@@ -59,4 +59,4 @@ struct Neighbours {
   NeighbourBlock all() const&& = delete;  ///< the columns would be gone
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

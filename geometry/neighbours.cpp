@@ -19,7 +19,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 /// Bodies that are searched around in one go. Chosen: their pairs stay in the processor's cache,
@@ -174,4 +174,4 @@ void for_each_neighbours(const MovingBodies& bodies, const NeighbourQuestion& qu
   handed_over(detail::NearMovingBodies(bodies), question, take);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

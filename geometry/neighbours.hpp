@@ -30,7 +30,7 @@
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/neighbour_columns.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// All neighbours as one list.
 /// @throws std::invalid_argument  a reach that is negative or not finite, or so large that no
@@ -49,4 +49,4 @@ void for_each_neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuest
 void for_each_neighbours(const MovingBodies& bodies, const NeighbourQuestion& question,
                          const std::function<void(const NeighbourBlock&)>& take);
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

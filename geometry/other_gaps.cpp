@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::Direction;
@@ -306,4 +306,4 @@ OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
   return in_default_environment([&] { return answer<AlongTheNormal>({a, b, &separation}); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -31,7 +31,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 enum class OtherGapStatus {
   ok,
@@ -97,4 +97,4 @@ OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept
 OtherGap midpoint_potential_gap(const Ellipsoid& a, const Ellipsoid& b,
                                 const Vec3& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::kBlock;
@@ -64,4 +64,4 @@ void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
   run(task, answers, threads, [&](std::size_t i) { return task.overlaps_by_filter(i); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

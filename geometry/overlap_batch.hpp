@@ -16,7 +16,7 @@
 #include <tangency/geometry/pair_list.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// overlaps() of every pair. Exact for the stored doubles, in any floating-point environment; given
 /// separations are taken as they are.
@@ -36,4 +36,4 @@ void overlaps(const BodyArray& bodies, const PairList& list, std::span<std::uint
 void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
                         std::span<std::optional<bool>> answers, int threads = 1) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// The pairs of one call.
 struct PairList {
@@ -30,4 +30,4 @@ constexpr IndexedPair indexed_pair(std::integral auto a, std::integral auto b) n
           std::in_range<std::uint32_t>(b) ? static_cast<std::uint32_t>(b) : most};
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

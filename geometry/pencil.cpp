@@ -8,7 +8,7 @@
 #include <tangency/geometry/bodies/pencil_form.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 /// The three types that the published diagram marks as invalid.
@@ -61,4 +61,4 @@ PencilVerdict scan_solids(std::span<const PencilMember> members) noexcept {
   return verdict;
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

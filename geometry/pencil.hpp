@@ -20,7 +20,7 @@
 #include <tangency/geometry/pencil_member.hpp>
 #include <tangency/geometry/quadric.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// All members from f = -inf to +inf, at most 33: seven invariants have at most 16 roots.
 std::vector<PencilMember> pencil_members(const Quadric& a, const Quadric& b);
@@ -46,4 +46,4 @@ enum class PencilVerdict {
 /// Requires the members of two real ellipsoids, each negative inside.
 PencilVerdict scan_solids(std::span<const PencilMember> members) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/quadric_type.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 enum class Invariant { t1, t2, t3, d1, d2, d3, d4 };
 
@@ -30,4 +30,4 @@ struct PencilMember {
   bool is_positive() const noexcept { return high > 0.0 && (!is_root || low >= 0.0); }
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

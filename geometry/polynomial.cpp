@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/projective_quartic.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -161,4 +161,4 @@ QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept {
   return in_default_environment([&] { return found_roots(a); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

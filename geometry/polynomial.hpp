@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct QuarticRoot {
   double x;
@@ -42,4 +42,4 @@ struct QuarticRoots {
 /// @param a  finite (asserted)
 QuarticRoots quartic_roots(const std::array<double, 5>& a) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Is the value 0 or -0?
 inline bool is_zero(double value) noexcept {
@@ -80,4 +80,4 @@ inline constexpr double kLeastComponent = 0x1p-300;
 
 }  // namespace detail
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

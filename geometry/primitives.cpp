@@ -13,7 +13,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::DoubleDouble;
@@ -280,4 +280,4 @@ RelationAnswer relation(const MatrixEllipsoid& body, const Sheet& sheet) noexcep
   return in_default_environment([&] { return relation_to(body, sheet); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

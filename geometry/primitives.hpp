@@ -24,7 +24,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct Sphere {
   Vec3 centre;    ///< finite
@@ -94,4 +94,4 @@ RelationAnswer relation(const MatrixEllipsoid& body, const Plane& wall) noexcept
 /// To a wall without thickness: separate, external_touch, or overlap where it cuts the interior.
 RelationAnswer relation(const MatrixEllipsoid& body, const Sheet& sheet) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 #include <tangency/geometry/bodies/classify_coefficients.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 std::string describe(const QuadricFault& fault) {
@@ -180,4 +180,4 @@ std::optional<Ellipsoid> Quadric::to_ellipsoid() const {
   return in_default_environment([&] { return solid_of(*this); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

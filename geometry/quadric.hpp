@@ -18,7 +18,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/quadric_type.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// What is wrong with the coefficients of a would-be quadric: the first offending one by its name
 /// in the file formats ("A" "B" "C" "D" "E" "F" "G" "H" "J" "K"), its value, and the rule.
@@ -103,4 +103,4 @@ class Quadric {
   Coefficients coefficients_;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

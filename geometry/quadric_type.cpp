@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 std::string_view to_string(QuadricType type) noexcept {
   static constexpr std::array<std::string_view, 20> kNames{
@@ -37,4 +37,4 @@ bool is_empty(QuadricType type) noexcept {
          type == QuadricType::imaginary_parallel_planes || type == QuadricType::no_points;
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

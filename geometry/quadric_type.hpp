@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// A B C D E F G H J K, as quadric.hpp writes them.
 using QuadricCoefficients = std::array<double, 10>;
@@ -51,4 +51,4 @@ struct Classification {
   Tier tier;  ///< which tier answered; border types, with Q or Q_s singular, are always exact's
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

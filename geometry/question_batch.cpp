@@ -15,7 +15,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::LaneBlock;
@@ -373,4 +373,4 @@ void closest_points(const MovingBodies& bodies, std::span<const Vec3> points, co
   points_closest(bodies, points, list, answers, threads);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -30,7 +30,7 @@
 #include <tangency/geometry/pair_list.hpp>
 #include <tangency/geometry/primitives.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Answers by columns, as the fields of WallGap. Each span is as long as the list of pairs, or
 /// empty: not asked for.
@@ -77,4 +77,4 @@ void closest_points(const BodyArray& bodies, std::span<const Vec3> points, const
 void closest_points(const MovingBodies& bodies, std::span<const Vec3> points, const PairList& list,
                     const PointColumns& answers, int threads = 1) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

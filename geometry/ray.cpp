@@ -13,7 +13,7 @@
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::DoubleDouble;
@@ -240,4 +240,4 @@ RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, cons
   return intersect(body.moved_to(Vec3::Zero()), Ray{separation, direction}, t_begin, t_end);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -17,7 +17,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 struct Ray {
   Vec3 origin;     ///< finite
@@ -74,4 +74,4 @@ RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, cons
                              double t_begin = 0.0,
                              double t_end = std::numeric_limits<double>::infinity()) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

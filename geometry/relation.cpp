@@ -14,7 +14,7 @@
 #include <tangency/geometry/relation/exact_pair.hpp>
 #include <tangency/geometry/relation/overlap_filter.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::Filtered;
@@ -309,4 +309,4 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, cons
       [&] { return exact_relation(ExactPair(form_of(a), moved(form_of(b), edges, image))); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

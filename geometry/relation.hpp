@@ -37,7 +37,7 @@
 #include <tangency/geometry/tier.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 enum class Relation {
   separate,        ///< no common point
@@ -107,4 +107,4 @@ std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) n
 std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b,
                                        const Vec3& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

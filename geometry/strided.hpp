@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Rows whose numbers lie next to each other. A row may lie anywhere, aligned for no type.
 template <std::floating_point Number>
@@ -106,4 +106,4 @@ class QuaternionColumn : public NumberColumn<4> {
   QuaternionOrder order_ = QuaternionOrder::xyzw;
 };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -6,7 +6,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// A symmetric 3x3 matrix.
 struct Symmetric3 {
@@ -55,4 +55,4 @@ inline Symmetric3 adjugate(const Symmetric3& a) noexcept {
           a.zx * a.xy - a.xx * a.yz, a.xy * a.yz - a.yy * a.zx, a.yz * a.zx - a.zz * a.xy};
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

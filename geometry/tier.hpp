@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Which tier of a predicate gave an answer. Both give the same one: the filter answers only where
 /// a proven error bound leaves no doubt, everything else goes to exact arithmetic.
@@ -57,4 +57,4 @@ const char* to_string(TraceStatus status) noexcept;
 /// tried next. The whole sphere of directions where A's centre is in B's bounding ball.
 enum class TraceCone { published, common_part, whole };
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -16,7 +16,7 @@
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::LaneBlock;
@@ -350,4 +350,4 @@ void times_of_contact(const MovingBodies& bodies, std::span<const Motion> motion
       threads);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -24,7 +24,7 @@
 #include <tangency/geometry/pair_list.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
 struct TimeColumns {
@@ -54,4 +54,4 @@ void times_of_contact(const MovingBodies& bodies, std::span<const Motion> motion
                       const PairList& list, double horizon, double tolerance,
                       const TimeColumns& answers, int threads = 1) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

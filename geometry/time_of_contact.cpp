@@ -14,7 +14,7 @@
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 using detail::MovingPair;
@@ -236,4 +236,4 @@ TimeOfContact time_of_contact(const MatrixEllipsoid& a, const Motion& motion_a,
       [&] { return found_time(a, motion_a, b, motion_b, horizon, tolerance); });
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -14,7 +14,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/motion.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Turning about a fixed axis through a point while moving along it.
 /// @param body              at t = 0
@@ -81,4 +81,4 @@ TimeOfContact time_of_contact(const MatrixEllipsoid& a, const Motion& motion_a,
                               const MatrixEllipsoid& b, const Motion& motion_b, double horizon,
                               double tolerance) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -8,7 +8,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/trace/scheme.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 namespace {
 
 TraceContact nothing(TraceStatus status) {
@@ -70,4 +70,4 @@ TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b,
   return trace_contact(a.moved_to(Vec3::Zero()), b.moved_to(separation));
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

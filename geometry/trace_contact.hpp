@@ -32,7 +32,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// The contact of an ordered pair (A, B). The numbers are 0 unless `ok`.
 struct TraceContact {
@@ -64,4 +64,4 @@ TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
 TraceContact trace_contact(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

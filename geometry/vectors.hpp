@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3 = Eigen::Vector3d;  // three doubles are not aligned
@@ -23,4 +23,4 @@ using Mat4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 /// (w, x, y, z) in its constructor, stored as x, y, z, w.
 using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

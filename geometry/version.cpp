@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/version.hpp>
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 const char* version() noexcept { return TANGENCY_VERSION_STRING; }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -12,7 +12,7 @@
 
 #include "require_length.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 const Vec3& of_body(std::span<const Vec3> vectors, std::int64_t body) {
@@ -150,4 +150,4 @@ StrainOfEdges strain_of_edges(const StrainMesh& mesh, std::span<const Vec3> diff
   return parts;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

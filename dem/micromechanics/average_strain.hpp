@@ -23,7 +23,7 @@
 #include <tangency/dem/micromechanics/strain_mesh.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// The sum above.
 /// @param difference  of the image of l less that of k, one an edge of the net
@@ -118,4 +118,4 @@ struct StrainOfEdges {
 StrainOfEdges strain_of_edges(const StrainMesh& mesh, std::span<const Vec3> difference,
                               const PeriodicPairs& before, const PeriodicPairs& later);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

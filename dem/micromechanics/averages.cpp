@@ -14,7 +14,7 @@
 
 #include "contact_sides.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 /// With the harmonics of order 4 left out.
@@ -249,4 +249,4 @@ std::optional<PlaneState> plane_state(const Averages& averages, int dimensions) 
   return dimensions == 2 ? state_of<PlaneState>(averages) : std::nullopt;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

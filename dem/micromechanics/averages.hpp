@@ -22,7 +22,7 @@
 #include <tangency/dem/micromechanics/stress_force_fabric.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// How directions are sorted, by a number of the user.
 struct Classes {
@@ -95,4 +95,4 @@ Averages averages_of(const ContactArrays& contacts, const BodyArrays& bodies,
 std::optional<SecondOrderState> second_order_state(const Averages& averages, int dimensions);
 std::optional<PlaneState> plane_state(const Averages& averages, int dimensions);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -8,7 +8,7 @@
 
 #include "require_length.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -152,4 +152,4 @@ std::vector<Vec3> contact_vectors(const ContactArrays& contacts,
   return vectors;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -25,7 +25,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// Views of arrays that the caller keeps, one entry a contact.
 struct ContactArrays {
@@ -107,4 +107,4 @@ Coordination coordination_of(const ContactArrays& contacts);
 std::vector<Vec3> contact_vectors(const ContactArrays& contacts,
                                   std::span<const Quaternion> orientation = {});
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 void require_dimensions(const ContactArrays& contacts, int dimensions, const char* function) {
   if (contacts.dimensions != dimensions)
@@ -142,4 +142,4 @@ Estimate mean_of(std::span<const Side> sides, std::span<const double> values, st
   return found;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

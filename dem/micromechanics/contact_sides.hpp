@@ -13,7 +13,7 @@
 #include <tangency/dem/micromechanics/spheroid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// @throws std::invalid_argument unless contacts have the dimensions that the function takes
 void require_dimensions(const ContactArrays& contacts, int dimensions, const char* function);
@@ -86,4 +86,4 @@ class ClusteredErrors {
 /// The mean of a value a side, and its deviation.
 Estimate mean_of(std::span<const Side> sides, std::span<const double> values, std::size_t bodies);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

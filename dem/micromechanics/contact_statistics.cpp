@@ -11,7 +11,7 @@
 #include "contact_sides.hpp"
 #include "spheroid_integrals.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using std::numbers::pi;
@@ -291,4 +291,4 @@ std::vector<double> measured_distribution(const ContactArrays& contacts, const B
   return found;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -22,7 +22,7 @@
 #include <tangency/dem/micromechanics/spheroid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// S(beta), per solid angle (eq. 7.8).
 double local_density(double a1, double beta);
@@ -110,4 +110,4 @@ std::optional<ContactStatistics> contact_statistics_of(const ContactArrays& cont
 std::vector<double> measured_distribution(const ContactArrays& contacts, const BodyArrays& bodies,
                                           Shape shape, std::span<const double> beta);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -20,7 +20,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 /// By how much centres, and the cell, are moved in one try after the other, in mean distances.
@@ -331,4 +331,4 @@ std::vector<PeriodicSimplex> delaunay_simplices(const PeriodicCentres& centres) 
       "the Delaunay simplices of the centres were not found: Qhull cannot tell them apart");
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 /// The product of (p - 1)!! of all exponents over the first factors of `first`, `first` + 2, ...,
@@ -67,4 +67,4 @@ Mat3 sum_of_products(const Mat3& a, const Mat3& b, const Mat3& c) {
 
 double contracted(const Mat3& a, const Mat3& b) { return a.cwiseProduct(b).sum(); }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// The tensor B of order 2m at the given indices: the sum over all (2m - 1)!! pairings of the
 /// indices of the product of Kronecker deltas. It has an order, not a number of dimensions: indices
@@ -47,4 +47,4 @@ Mat3 sum_of_products(const Mat3& a, const Mat3& b, const Mat3& c);
 /// A:B, the sum of products of components.
 double contracted(const Mat3& a, const Mat3& b);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -9,7 +9,7 @@
 
 #include "require_length.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 void require_length(std::size_t length, std::size_t contacts) {
@@ -228,4 +228,4 @@ std::vector<RadialRing> radial_means(const DirectionGroups& groups,
   return rings;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

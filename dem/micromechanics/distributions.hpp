@@ -26,7 +26,7 @@
 #include <tangency/dem/micromechanics/sphere_partition.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// A side more in a class is a side more in its opposite: sides and densities of opposite classes
 /// are equal, and means of vectors are opposite.
@@ -129,4 +129,4 @@ struct RadialRing {
 std::vector<RadialRing> radial_means(const DirectionGroups& groups,
                                      std::span<const Vec3> tangential);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -11,7 +11,7 @@
 
 #include "regression.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 constexpr std::size_t kSecond = 5, kFourth = 9;  // free components of the orders
@@ -294,4 +294,4 @@ Fabric fabric_of(const ContactArrays& contacts, const SpherePartition& partition
   return found;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -23,7 +23,7 @@
 #include <tangency/dem/micromechanics/harmonics.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// How coefficients come from contacts.
 enum class Estimator {
@@ -110,4 +110,4 @@ struct Fabric {
 Fabric fabric_of(const ContactArrays& contacts, const SpherePartition& partition,
                  Estimator estimator = Estimator::unbiased, int order = 4);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 /// Sorted indices of each different component, in the order of SymmetricTensor4::components.
@@ -188,4 +188,4 @@ double TangentialHarmonics::radial(double beta, const Vec3& axis) const {
   return mean * (-0.375 * a * (s1 + s3) - 5.0 / 128.0 * b * (2.0 * s1 + 9.0 * s3 + 7.0 * s5));
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// A fully symmetric tensor of order 4 in space by its 15 different components.
 class SymmetricTensor4 {
@@ -123,4 +123,4 @@ struct TangentialHarmonics {
   double radial(double beta, const Vec3& axis) const;
 };
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

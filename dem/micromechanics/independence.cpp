@@ -11,7 +11,7 @@
 
 #include "contact_sides.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using std::numbers::pi;
@@ -159,4 +159,4 @@ std::optional<Contingency> plane_normal_independence(const ContactArrays& contac
   return table_of(local, local_classes, axis);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

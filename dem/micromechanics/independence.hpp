@@ -18,7 +18,7 @@
 #include <tangency/dem/micromechanics/contact_statistics.hpp>
 #include <tangency/dem/micromechanics/sphere_partition.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// The share of chi-squared's distribution above a value [AbramowitzStegun1964, eq. 26.4.4,
 /// 26.4.5].
@@ -58,4 +58,4 @@ std::optional<Contingency> plane_normal_independence(const ContactArrays& contac
                                                      const BodyArrays& bodies,
                                                      int local_classes = 8, int axis_classes = 12);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -7,7 +7,7 @@
 
 #include "contact_sides.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 double p2(double cosine) { return legendre2(cosine * cosine); }
@@ -197,4 +197,4 @@ std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays&
   return found;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -15,7 +15,7 @@
 #include <tangency/dem/micromechanics/rotation_models.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// Of all contact sides of bodies of one shape, in space.
 struct NormalRotation {
@@ -58,4 +58,4 @@ struct PlaneNormalRotation {
 std::optional<PlaneNormalRotation> plane_normal_rotation_of(const ContactArrays& contacts,
                                                             const BodyArrays& bodies);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

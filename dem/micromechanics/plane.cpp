@@ -14,7 +14,7 @@
 
 #include "regression.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using Complex = std::complex<double>;
@@ -234,4 +234,4 @@ std::optional<PlaneState> plane_state(const PlaneFabric& fabric) {
   return state;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -18,7 +18,7 @@
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// What the theory knows of a plane packing; names as in SecondOrderState.
 struct PlaneState {
@@ -87,4 +87,4 @@ PlaneFabric plane_fabric_of(const ContactArrays& contacts, int arcs = 36,
 /// Empty where a fit is.
 std::optional<PlaneState> plane_state(const PlaneFabric& fabric);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

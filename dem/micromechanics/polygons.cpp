@@ -15,7 +15,7 @@
 
 #include "require_length.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 /// How far areas of polygons may be off that of the cell, relatively: rounding of a million. Where
@@ -260,4 +260,4 @@ StrainMesh polygon_mesh(const PeriodicCentres& centres, const PeriodicPairs& con
   return net.mesh();
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 void Regression::add(const Coefficients& basis, double value, double weight) {
   for (std::size_t i = 0; i < size_; ++i) {
@@ -86,4 +86,4 @@ double Covariance::deviation(const Coefficients& direction) const {
   return std::sqrt(square);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 inline constexpr std::size_t kMostCoefficients = 15;  ///< 1 of order 0, 5 of order 2, 9 of order 4
 
@@ -55,4 +55,4 @@ class Covariance {
   CoefficientMatrix sum_{};
 };
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// @param name    of the array
 /// @param of      what the array must have one entry of each: "contacts"
@@ -19,4 +19,4 @@ inline void require_length(const char* name, std::size_t length, std::size_t wan
                                 " entries, and there are " + std::to_string(wanted) + " " + of);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

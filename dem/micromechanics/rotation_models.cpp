@@ -10,7 +10,7 @@
 
 #include "spheroid_integrals.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using std::numbers::pi;
@@ -162,4 +162,4 @@ RotationFactors rotation_by_area(const Spheroid& s) {
   return {legendre2(mean_square), legendre4(mean_square, w * w * fourth / area)};
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -19,7 +19,7 @@
 
 #include <tangency/dem/micromechanics/spheroid.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// Plane: a^r_rot/a^E = c1 + a_l c2, with signs as published, of contact vectors that have the
 /// density (1/2 pi)(1 + a_l cos 2 beta) (eq. 7.46-7.47). `along` is the long semi-axis.
@@ -67,4 +67,4 @@ SpaceRotation space_rotation(const Spheroid& s);
 /// (5) equals quadrature over the surface
 RotationFactors rotation_by_area(const Spheroid& s);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

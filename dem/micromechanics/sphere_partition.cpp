@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using std::numbers::pi;
@@ -137,4 +137,4 @@ std::size_t SpherePartition::ring_class(const Vec3& n) const {
          to_class(alpha / (2.0 * pi) * sectors, sectors_);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// (1) the areas add up to 4 pi
 /// (2) class_of(-n) is opposite(class_of(n)), to the bit
@@ -65,4 +65,4 @@ class SpherePartition {
   std::vector<Vec3> direction_;
 };
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -10,7 +10,7 @@
 
 #include "spheroid_integrals.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 using std::numbers::pi;
@@ -115,4 +115,4 @@ double mean_support_height(const Spheroid& s) {
   return s.across / half_zone(s.across / s.along);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

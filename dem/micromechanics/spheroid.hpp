@@ -15,7 +15,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// By its semi-axes: on the axis of symmetry, and across. Prolate: along > across. In the plane the
 /// ellipse with these semi-axes.
@@ -73,4 +73,4 @@ double largest_deviation(const Spheroid& s);
 /// The mean over the surface of the distance from the centre to the tangent plane: 3 V/A.
 double mean_support_height(const Spheroid& s);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

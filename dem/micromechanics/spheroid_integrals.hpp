@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// Chosen: closed forms in powers of 1/x, x = kappa or another number that is 0 of a sphere, lose
 /// up to 1/x^3 of rounding. Below this size of x series in powers of x stand for them.
@@ -41,4 +41,4 @@ double series(Term term) {
   return sum;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -12,7 +12,7 @@
 
 #include "require_length.hpp"
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -217,4 +217,4 @@ std::vector<std::optional<std::size_t>> pairs_of_edges(const StrainMesh& mesh,
   return found;
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

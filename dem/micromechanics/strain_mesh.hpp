@@ -31,7 +31,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// By how many edges a centre is moved, along each axis.
 using PeriodicImage = std::array<std::int32_t, 3>;
@@ -133,4 +133,4 @@ StrainMesh polygon_mesh(const PeriodicCentres& centres, const PeriodicPairs& con
 std::vector<std::optional<std::size_t>> pairs_of_edges(const StrainMesh& mesh,
                                                        const PeriodicPairs& pairs);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -10,7 +10,7 @@
 
 #include <tangency/dem/micromechanics/direction_integrals.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -247,4 +247,4 @@ double departure_from_axisymmetry(const Mat3& x) {
   return std::abs(value[1] - value[2]) / std::abs(value[0]);
 }
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -17,7 +17,7 @@
 #include <tangency/dem/micromechanics/fabric.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::micromechanics {
+namespace tangency::inline v0::micromechanics {
 
 /// What the theory knows of a packing, order 2. "Without shape": z and zt are 0.
 struct SecondOrderState {
@@ -123,4 +123,4 @@ Coaxiality coaxiality(const Mat3& x, const Mat3& y);
 /// axisymmetric, 1 is pure shear in a plane. NaN of 0.
 double departure_from_axisymmetry(const Mat3& x);
 
-}  // namespace tangency::micromechanics
+}  // namespace tangency::inline v0::micromechanics

@@ -7,7 +7,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// A number, two digits of it left.
@@ -231,4 +231,4 @@ std::string advice_on_cycles(const Simulation& simulation, double more) {
          whole_up(static_cast<double>(simulation.state().stage_cycle) + more);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 
 #include <tangency/dem/simulation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// For an inertial fraction above `sound`: "the motion is too fast ...; lower max_strain_rate to
 /// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs; where a
@@ -37,4 +37,4 @@ std::string advice_on_cycles(const Simulation& simulation, double more);
 /// mean weight along such axes is below that share of the mean contact force.
 std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

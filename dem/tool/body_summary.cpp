@@ -5,7 +5,7 @@
 
 #include <tangency/dem/micromechanics/spheroid.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -40,4 +40,4 @@ BodySummary body_summary(const mm::ContactArrays& contacts, const mm::BodyArrays
   return found;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -14,7 +14,7 @@
 #include <tangency/dem/micromechanics/independence.hpp>
 #include <tangency/dem/micromechanics/normal_rotation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct BodySummary {
   std::optional<micromechanics::ContactStatistics> contacts;    ///< in space
@@ -27,4 +27,4 @@ struct BodySummary {
 BodySummary body_summary(const micromechanics::ContactArrays& contacts,
                          const micromechanics::BodyArrays& bodies);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

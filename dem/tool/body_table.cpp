@@ -13,7 +13,7 @@
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using Columns = std::vector<tables::Column>;
@@ -122,4 +122,4 @@ void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
   set_bodies(scene, std::move(bodies), file);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -7,11 +7,11 @@
 
 #include <tangency/dem/scene.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Reads the table that the scene's place names, if it names one, from beside the scene: CSV with
 /// the columns type, x, y, z and, each group all or none, qw, qx, qy, qz; vx, vy, vz; wx, wy, wz.
 /// @throws SceneError  "bodies.csv:3: type = p: ..."
 void read_bodies(Scene& scene, const std::filesystem::path& scene_file);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 // Chosen: pixels.
@@ -232,4 +232,4 @@ std::string svg_of(const Chart& chart) {
   return svg + "</svg>\n";
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

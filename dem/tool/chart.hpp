@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct Curve {
   std::string name;
@@ -34,4 +34,4 @@ std::string svg_of(const Chart& chart);
 /// Text that HTML and SVG show as it is.
 std::string escaped(const std::string& text);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::array<std::string_view, 23> kContactColumns{
@@ -96,4 +96,4 @@ void ContactTables::add(const Simulation& simulation) {
   last_cycle_ = state.cycle;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

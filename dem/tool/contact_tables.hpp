@@ -11,7 +11,7 @@
 
 #include <tangency/dem/simulation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A row a touching contact between particles, a, b, ix, iy, iz, x, y, z, nx, ny, nz, gap, bx, by,
 /// bz, ax, ay, az, fn, fx, fy, fz, sliding; the header alone where there is none.
@@ -41,4 +41,4 @@ class ContactTables {
   std::int64_t last_cycle_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

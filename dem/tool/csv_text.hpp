@@ -12,7 +12,7 @@
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 class CsvText {
  public:
@@ -37,4 +37,4 @@ class CsvText {
   tables::RowText row_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

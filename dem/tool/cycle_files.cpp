@@ -10,7 +10,7 @@
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/whole_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,4 +60,4 @@ void remove_later_files(const fs::path& folder, std::int64_t last_cycle, CycleOf
   if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) fs::remove(folder, error);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// The cycle that a file is of; nothing for one of another kind.
 using CycleOf = std::optional<std::int64_t>(const std::filesystem::path& file);
@@ -29,4 +29,4 @@ std::optional<std::filesystem::path> first_file(const std::filesystem::path& fol
 void remove_later_files(const std::filesystem::path& folder, std::int64_t last_cycle,
                         CycleOf& cycle_of);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 using tables::to_text;
@@ -209,4 +209,4 @@ void Frames::finish() {
   std::filesystem::rename(part, directory_ / "frames.xyz");
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -17,7 +17,7 @@
 #include <tangency/dem/simulation.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 class Frames {
  public:
@@ -52,4 +52,4 @@ class Frames {
   std::vector<Entry> entries_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 #include <tangency/dem/micromechanics/harmonics.hpp>
 #include <tangency/dem/tool/csv_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -97,4 +97,4 @@ std::string histogram_csv(const Packing& packing, const MicroSummary& summary) {
   return kColumns + std::string(row.view());
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

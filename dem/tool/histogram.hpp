@@ -9,7 +9,7 @@
 #include <tangency/dem/tool/micro_summary.hpp>
 #include <tangency/dem/tool/packing.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// CSV, a row a class of the partition. Means of a class without contacts, and models that are not
 /// defined, are empty cells.
@@ -18,4 +18,4 @@ namespace tangency::dem {
 /// (1) E times area adds up to 1 over all classes, and sides to twice the contacts
 std::string histogram_csv(const Packing& packing, const MicroSummary& summary);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

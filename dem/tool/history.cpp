@@ -8,7 +8,7 @@
 #include <tangency/dem/observe.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 History::History(const std::filesystem::path& file) {
   tables::Reader reader(file.string());
   const tables::Column stage = reader.header().require("stage");
@@ -57,4 +57,4 @@ std::optional<ShearPeaks> peaks_of_stage(const History& history, const std::stri
   return shear_peaks(rows);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

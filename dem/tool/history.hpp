@@ -14,7 +14,7 @@
 
 #include <tangency/dem/shear_peaks.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// A history's columns, one entry a row; they are those of history_fields().
 class History {
@@ -45,4 +45,4 @@ std::vector<StageRows> stages_of(const History& history);
 /// The peaks of the last stage of that name; nothing where it has no row.
 std::optional<ShearPeaks> peaks_of_stage(const History& history, const std::string& name);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -26,7 +26,7 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/version.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -365,7 +365,7 @@ void add_schema(tables::Program& program) {
 }
 
 }  // namespace
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem
 
 int main(int argc, char** argv) {
   using namespace tangency::dem;

@@ -19,7 +19,7 @@
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Files that appear all or not at all.
@@ -79,4 +79,4 @@ int micro(const MicroOptions& options) {
   return success;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

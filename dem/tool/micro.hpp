@@ -8,7 +8,7 @@
 
 #include <tangency/dem/micromechanics/averages.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct MicroOptions {
   std::string state;
@@ -27,4 +27,4 @@ micromechanics::Classes::Kind partition_named(const std::string& name);
 /// @throws StateError, tables::Error  as every command, and then nothing is left of either file
 int micro(const MicroOptions& options);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -11,7 +11,7 @@
 #include <tangency/dem/micromechanics/direction_integrals.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -205,4 +205,4 @@ class Columns {
 
 std::vector<Field> micro_fields(const MicroSummary& summary) { return Columns(summary).all(); }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,10 +9,10 @@
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/tool/micro_summary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// All columns after cycle, time, stage, stage_cycle and axial_strain, in their order; numbers that
 /// are not defined are NaN.
 std::vector<Field> micro_fields(const MicroSummary& summary);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

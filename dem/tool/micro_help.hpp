@@ -3,7 +3,7 @@
 /// What `tangency-dem micro --help` says.
 #pragma once
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 inline constexpr const char* kMicroHelp = R"(
 Contacts are those between particles: contacts with walls are counted and in no average but the
@@ -108,4 +108,4 @@ models of order 2 (E2, fn2, ...) and of orders 2 and 4 (E4, ...) there. All side
 contacts, and E times area adds up to 1.
 )";
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

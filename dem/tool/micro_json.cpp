@@ -16,7 +16,7 @@
 #include <tangency/dem/micromechanics/direction_integrals.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -328,4 +328,4 @@ std::string micro_json(const State& state, const Packing& packing, const MicroSu
   return lines_of(all);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,11 +10,11 @@
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/strain_report.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// One object with all averages by the unbiased estimator, and under `published` and `contact_sums`
 /// those by the other two. Numbers read back to the same double; what is not defined is null.
 std::string micro_json(const State& state, const Packing& packing, const MicroSummary& summary,
                        const StrainReport& strain);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -13,7 +13,7 @@
 #include <tangency/dem/micromechanics/direction_integrals.hpp>
 #include <tangency/dem/micromechanics/harmonics.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -282,4 +282,4 @@ Named<std::optional<int>> joint_signs_of(const mm::Averages& averages) {
           {"df_zt", sign(df, zt)}, {"df_dz", sign(df, dz)}};
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -23,7 +23,7 @@
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 using micromechanics::kNotDefined;
 
@@ -132,4 +132,4 @@ Named<double> body_numbers(const BodySummary& bodies);
 /// sgn((XY)':a^r) of r_t r_df r_zt r_dz t_zt t_dz df_zt df_dz.
 Named<std::optional<int>> joint_signs_of(const micromechanics::Averages& averages);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

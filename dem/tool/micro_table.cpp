@@ -11,7 +11,7 @@
 #include <tangency/dem/micromechanics/harmonics.hpp>
 #include <tangency/dem/tool/text_columns.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -132,4 +132,4 @@ std::string micro_table(const MicroSummary& summary) {
   return text;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -7,9 +7,9 @@
 
 #include <tangency/dem/tool/micro_summary.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Lines of at most 100 characters; what is not defined is `-`.
 std::string micro_table(const MicroSummary& summary);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Of the Coulomb limit. Chosen: a force that was cut back to it is off by rounding alone, and one
@@ -146,4 +146,4 @@ std::int64_t contacts_above_limit(const State& state, const ContactLaws& laws) {
   return above;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -26,7 +26,7 @@
 #include <tangency/dem/simulation.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// One entry a contact.
 struct PackingContacts {
@@ -86,4 +86,4 @@ ContactLaws with_friction(ContactLaws laws, double friction_coefficient);
 /// Contacts that bear more shear than the laws let them: these are not those of their stage.
 std::int64_t contacts_above_limit(const State& state, const ContactLaws& laws);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

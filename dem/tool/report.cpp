@@ -20,7 +20,7 @@
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -268,4 +268,4 @@ int report(const fs::path& directory) {
   return success;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

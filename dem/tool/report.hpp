@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Prints a table of the stages that a run's directory has rows of, and writes report.html there.
 /// The run need not be complete.
@@ -14,4 +14,4 @@ namespace tangency::dem {
 /// @throws WriteError
 int report(const std::filesystem::path& directory);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

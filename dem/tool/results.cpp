@@ -28,7 +28,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -257,4 +257,4 @@ void Results::finish(const Simulation& simulation, const RunCost& cost) {
   write_summary(directory_, simulation, cost);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -24,7 +24,7 @@
 #include <tangency/dem/tool/summary.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 class Results {
  public:
@@ -82,4 +82,4 @@ class Results {
   StateKeeper kept_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -25,7 +25,7 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// Above it the motion is no longer slow, and the stresses are not those of a sound run: measured
@@ -423,4 +423,4 @@ int run(const RunOptions& options) {
   return Run(std::move(simulation), options).execute();
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

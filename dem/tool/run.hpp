@@ -5,7 +5,7 @@
 
 #include <tangency/dem/tool/run_options.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What the program returns beside tables::kRefused, which is that of a bad scene, state or command
 /// line, where nothing was written, and of a failed write. A run that a signal ended returns 128 +
@@ -20,4 +20,4 @@ enum ExitStatus : int {
 /// @throws WriteError, std::filesystem::filesystem_error  where a result cannot be written
 int run(const RunOptions& options);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -19,4 +19,4 @@ struct RunOptions {
   bool reproducible = false;  ///< the same bits on every machine
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

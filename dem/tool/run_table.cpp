@@ -12,7 +12,7 @@
 #include <tangency/dem/tool/csv_text.hpp>
 #include <tangency/dem/whole_file.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 std::string header_line(const std::vector<Field>& columns) {
@@ -89,4 +89,4 @@ void RunTable::add(const Moment& moment, const std::vector<Field>& row) {
 
 void RunTable::write() const { write_whole(file_, header_ + rows_); }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -15,7 +15,7 @@
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/simulation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// --out DIR that cannot be used, or is being written to; what() is one line.
 class OutputError : public std::runtime_error {
@@ -66,4 +66,4 @@ class RunTable {
   std::optional<Moment> last_;  ///< nothing where it is of no moment that this run may come to
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

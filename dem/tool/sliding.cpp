@@ -8,7 +8,7 @@
 #include <tangency/dem/contact_law.hpp>
 #include <tangency/dem/micromechanics/average_strain.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 /// d(c + F_n tan(phi))/dt.
@@ -49,4 +49,4 @@ std::vector<Vec3> sliding_of(const Packing& packing, const ContactLaws& laws,
   return sliding;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

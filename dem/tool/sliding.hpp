@@ -17,7 +17,7 @@
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// (1) Along the shear force it is what the contact's next step loses to sliding, as the step
 ///     becomes short; 0 where the force is not at the limit.
@@ -28,4 +28,4 @@ namespace tangency::dem {
 std::vector<Vec3> sliding_of(const Packing& packing, const ContactLaws& laws,
                              std::span<const Vec3> velocity);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

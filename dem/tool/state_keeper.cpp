@@ -15,7 +15,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ StateKeeper::Outcome StateKeeper::run_again(const Simulation& simulation, const 
   return keep_here(simulation) ? Outcome{} : of_another;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -26,7 +26,7 @@
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/history.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Where A, B, C and D of a stage lie.
 struct StagePoints {
@@ -97,4 +97,4 @@ class StateKeeper {
   std::vector<double> missed_;
 };
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -14,7 +14,7 @@
 #include <tangency/dem/tool/text_columns.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace mm = micromechanics;
@@ -283,4 +283,4 @@ Tensors are 3x3, compression positive: minus velocity or displacement gradients,
 the table has the symmetric part.
 )";
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -25,7 +25,7 @@
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What one net says; without a net `why_not` says why, and the rest is 0.
 struct StrainOfNet {
@@ -67,4 +67,4 @@ std::string strain_table(const StrainReport& report);
 /// What the help of the command says of both.
 extern const char* const kStrainHelp;
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -18,7 +18,7 @@
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ std::optional<SummaryLines> read_summary(const fs::path& directory) {
   return lines;
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -14,7 +14,7 @@
 #include <tangency/dem/profile.hpp>
 #include <tangency/dem/simulation.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// What it took.
 struct RunCost {
@@ -38,4 +38,4 @@ using SummaryLines = std::vector<std::pair<std::string, std::string>>;
 /// Nothing where there is none, as of a run that is not complete.
 std::optional<SummaryLines> read_summary(const std::filesystem::path& directory);
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::dem {
+namespace tangency::inline v0::dem {
 
 /// Characters. Chosen: a name and six columns of numbers have 92, within a terminal's 100.
 inline constexpr std::size_t kNameWidth = 26, kCellWidth = 11;
@@ -31,4 +31,4 @@ inline std::string cell(double x, std::size_t width = kCellWidth) {
   return right(std::isfinite(x) ? tables::rounded_text(x, 4) : "-", width);
 }
 
-}  // namespace tangency::dem
+}  // namespace tangency::inline v0::dem

@@ -9,7 +9,7 @@
 #include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 inline double largest_if_moderate(const Ellipsoid& body) {
   return body.moderate() ? body.largest_semi_axis() : std::numeric_limits<double>::quiet_NaN();
@@ -35,4 +35,4 @@ inline void fill(LaneShape& lane, const Ellipsoid& body) {
   std::copy_n(entries, 6, lane.shape);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

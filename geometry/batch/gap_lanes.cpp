@@ -16,7 +16,7 @@
 #include <tangency/geometry/batch/perram_wertheim_lanes-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
@@ -237,11 +237,11 @@ HWY_ATTR std::uint64_t gap_lanes(LaneBlock& block) {
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(gap_lanes);
 }  // namespace
@@ -250,5 +250,5 @@ std::uint64_t gap_lanes(LaneBlock& block) noexcept {
   return HWY_DYNAMIC_DISPATCH(gap_lanes)(block);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/batch/lane_block.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Bit i of the result: pair i is settled, with its proof. Assumes rounding to nearest.
 std::uint64_t gap_lanes(LaneBlock& block) noexcept;
@@ -24,4 +24,4 @@ struct LaneOverlaps {
 /// Reads shapes, pairs, count and separations of the block. In any rounding mode.
 LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

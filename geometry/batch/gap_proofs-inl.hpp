@@ -13,7 +13,7 @@
 #include <tangency/geometry/gap/error_bounds.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 // Of u L, what a better normal may still gain; half of it is in doubt. Chosen: no more than
@@ -234,7 +234,7 @@ HWY_INLINE PackMask meet(const PackPair& pair, const PackSymmetric3& shape_a,
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

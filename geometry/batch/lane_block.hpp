@@ -7,7 +7,7 @@
 
 #include <tangency/geometry/indexed_pair.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A body as the lanes read it: two lines of cache, for random access.
 struct alignas(64) LaneBody {
@@ -76,4 +76,4 @@ struct LaneBlock {
   double* arm_b;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

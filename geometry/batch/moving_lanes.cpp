@@ -14,7 +14,7 @@
 #include <tangency/geometry/batch/packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 // The least radius of curvature is a lower bound: two quotients are rounded.
@@ -104,11 +104,11 @@ HWY_ATTR void fill_moving_lanes(const double* semi_axes, const double* orientati
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(fill_moving_lanes);
 }  // namespace
@@ -118,5 +118,5 @@ void fill_moving_lanes(const double* semi_axes, const double* orientations, std:
   HWY_DYNAMIC_DISPATCH(fill_moving_lanes)(semi_axes, orientations, count, to);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

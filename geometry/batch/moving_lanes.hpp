@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/batch/lane_block.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// The rows of bodies centred at the origin, whose factors are right to kOfRotation. A body that is
 /// not moderate(), or no ellipsoid, or whose |q|^2 is not within [2^-60, 2^60], has a row that no
@@ -19,4 +19,4 @@ namespace tangency::detail {
 void fill_moving_lanes(const double* semi_axes, const double* orientations, std::size_t count,
                        LaneBody* to) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

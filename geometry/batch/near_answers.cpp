@@ -17,7 +17,7 @@
 #include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// How two bodies lie, exactly; or that it is not known yet.
@@ -242,4 +242,4 @@ void answer_candidates(const NearMovingBodies& bodies, const NeighbourQuestion& 
   answer(bodies, question, candidates, found);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -15,7 +15,7 @@
 #include <tangency/geometry/neighbour_columns.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Ellipsoids as their owner has them, with rows for the lanes.
 class NearEllipsoids {
@@ -69,4 +69,4 @@ void for_each_column(const Use& use) {
   use(&Neighbours::separation);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

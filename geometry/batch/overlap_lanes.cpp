@@ -14,7 +14,7 @@
 #include <tangency/geometry/batch/perram_wertheim_lanes-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 constexpr double kPolynomial = 720 * 0x1p-52;  // E1 of relation-filter.md: (W) of gap-batch.md
@@ -92,11 +92,11 @@ HWY_ATTR LaneOverlaps overlap_lanes(const LaneBlock& block) {
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 HWY_EXPORT(overlap_lanes);
 }  // namespace
@@ -105,5 +105,5 @@ LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept {
   return HWY_DYNAMIC_DISPATCH(overlap_lanes)(block);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 #endif

@@ -13,7 +13,7 @@
 #include <tangency/geometry/batch/packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 /// Where the bodies of the lanes of one register start.
@@ -112,7 +112,7 @@ HWY_INLINE PackVec3 separation(const LaneBlock& block, std::size_t i, const Pack
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -10,7 +10,7 @@
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 static_assert(kLaneErrorBound == kOrdinaryGapErrorBound,
@@ -228,4 +228,4 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   }
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

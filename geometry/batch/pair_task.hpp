@@ -15,7 +15,7 @@
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/pair_list.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 inline constexpr std::size_t kBlock = LaneBlock::kPairs;
 
@@ -91,4 +91,4 @@ struct Workspace {
 /// Pairs first to first + count as the lanes read them, count at most kBlock and at least 1.
 void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 void in_parts(std::size_t parts, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
@@ -39,4 +39,4 @@ void in_parts(std::size_t parts, int threads, const std::function<void(std::size
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

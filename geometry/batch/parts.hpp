@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// work(k) for every k below `parts`, on this thread and up to threads - 1 others that end before
 /// it returns. Which thread does which part is left to chance.
@@ -32,4 +32,4 @@ void in_ranges(std::size_t count, int threads, std::size_t block, const Work& wo
   in_parts(parts, threads, [&](std::size_t part) { work(begin(part), begin(part + 1)); });
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -11,7 +11,7 @@
 #include <tangency/geometry/batch/packs-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace tangency::detail::HWY_NAMESPACE {
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 /// The X of adj(A + l B) = adj A + l X + l^2 adj B.
@@ -96,7 +96,7 @@ HWY_INLINE Pack next(const PackPerramWertheimAt& at) {
 }
 
 }  // namespace
-}  // namespace tangency::detail::HWY_NAMESPACE
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

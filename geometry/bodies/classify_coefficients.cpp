@@ -9,7 +9,7 @@
 #include <tangency/geometry/bodies/exact_quadric_type.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::filter {
+namespace tangency::inline v0::filter {
 namespace {
 
 constexpr int kBias = 1023;
@@ -115,9 +115,9 @@ std::optional<QuadricType> regular_type(const QuadricCoefficients& coefficients)
   return d4 > 0 ? QuadricType::hyperboloid_one_sheet : QuadricType::hyperboloid_two_sheets;
 }
 
-}  // namespace tangency::filter
+}  // namespace tangency::inline v0::filter
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 Classification classify_coefficients(const QuadricCoefficients& coefficients) noexcept {
   if (const auto type = filter::regular_type(coefficients)) return {*type, 4, 3, Tier::filter};
@@ -125,4 +125,4 @@ Classification classify_coefficients(const QuadricCoefficients& coefficients) no
       exact::quadric_form(coefficients, exact::common_exponent(coefficients)));
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

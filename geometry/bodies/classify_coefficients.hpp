@@ -13,14 +13,14 @@
 
 #include <tangency/geometry/quadric_type.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// The type of the quadric with these coefficients. Requires finite ones. As classify().
 Classification classify_coefficients(const QuadricCoefficients& coefficients) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail
 
-namespace tangency::filter {
+namespace tangency::inline v0::filter {
 
 /// A computed value with the sum of the absolute values of its monomials, computed alike.
 struct Estimate {
@@ -52,4 +52,4 @@ Determinants determinants(const QuadricCoefficients& coefficients) noexcept;
 /// where the estimates do not prove that.
 std::optional<QuadricType> regular_type(const QuadricCoefficients& coefficients) noexcept;
 
-}  // namespace tangency::filter
+}  // namespace tangency::inline v0::filter

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 DoubleDoubleSide::DoubleDoubleSide(const Ellipsoid& body, const DoubleDoubleVector& normal) noexcept
     : rotation(double_double_rotation(body.orientation())),
@@ -19,4 +19,4 @@ DoubleDoubleVector DoubleDoubleSide::support_point() const noexcept {
   return turned(rotation, body);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

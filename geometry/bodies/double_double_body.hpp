@@ -9,7 +9,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A body seen along a normal of any length but 0.
 struct DoubleDoubleSide {
@@ -25,4 +25,4 @@ struct DoubleDoubleSide {
   DoubleDoubleVector support_point() const noexcept;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 using IntegerVector = std::array<mpz_class, 3>;
@@ -100,4 +100,4 @@ EllipsoidForm ellipsoid_form(const Ellipsoid& e) {
   return result;
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

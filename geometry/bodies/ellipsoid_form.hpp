@@ -16,7 +16,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 using EllipsoidForm = SolidForm<4>;
 
@@ -38,4 +38,4 @@ EllipsoidForm ellipsoid_form(const Ellipsoid& e, int exponent);
 /// In the coordinates x themselves: for what does depend on the unit, such as D2 and D3.
 EllipsoidForm ellipsoid_form(const Ellipsoid& e);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

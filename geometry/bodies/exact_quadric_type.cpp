@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 struct Row {
@@ -65,4 +65,4 @@ Classification classify_form(const IntegerForm<4>& form) {
   return {type_of(q, s), q.rank(), s.rank(), Tier::exact};
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -7,7 +7,7 @@
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/quadric_type.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// The type of a quadric whose discriminant matrix and sub-discriminant have these inertias; the
 /// same for both negated.
@@ -17,4 +17,4 @@ QuadricType type_of(Inertia discriminant, Inertia sub_discriminant) noexcept;
 /// The type of the quadric with this discriminant matrix, up to a factor > 0 or < 0.
 Classification classify_form(const IntegerForm<4>& form);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

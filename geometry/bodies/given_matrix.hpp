@@ -17,7 +17,7 @@
 #include <tangency/geometry/bodies/rational_solid.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 inline constexpr const char* kFiniteEntry = "an entry of a matrix must be finite";
 inline constexpr const char* kPositiveDefinite = "the smallest eigenvalue must be > 0";
@@ -71,4 +71,4 @@ std::shared_ptr<const RationalSolid<N>> shared(RationalSolid<N> solid) {
   return std::make_shared<const RationalSolid<N>>(std::move(solid));
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/numbers/double_double.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr double kRounding = 64 * kUnitRoundoff;  // docs/derivations/time-of-contact.md, section 3
@@ -331,4 +331,4 @@ double MovingPair::safe_step(const PairAt& now, const Vec3& normal, double longe
       longest);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

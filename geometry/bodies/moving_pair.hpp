@@ -6,7 +6,7 @@
 
 #include <tangency/geometry/motion.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Of the tolerance in time: steps shorter than that look for the overlap. Chosen.
 inline constexpr double kNearContact = 0.5;
@@ -94,4 +94,4 @@ class MovingPair {
   MotionBounds bounds_;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

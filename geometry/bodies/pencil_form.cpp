@@ -9,7 +9,7 @@
 #include <tangency/geometry/bodies/exact_quadric_type.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 using LinearForm = std::array<std::array<IntegerPolynomial, 4>, 4>;
@@ -177,4 +177,4 @@ std::vector<PencilMember> pencil_members(const IntegerForm<4>& a, const IntegerF
   return members;
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

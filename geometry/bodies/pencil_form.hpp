@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/pencil_member.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// T1, T2, T3, D1, D2, D3, D4 of A + f B: sums of principal minors, of degrees at most 1 2 3 1 2
 /// 3 4.
@@ -26,4 +26,4 @@ IntegerPolynomial pencil_determinant(const IntegerForm<4>& a, const IntegerForm<
 /// As pencil_members() of pencil.hpp.
 std::vector<PencilMember> pencil_members(const IntegerForm<4>& a, const IntegerForm<4>& b);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 using PlaneBasis = Eigen::Matrix<double, 3, 2>;  ///< columns e_1, e_2
 
@@ -94,4 +94,4 @@ inline PlaneTensor radius_tensor(const Ellipsoid& body, const PlaneBasis& basis,
   return tensor;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/numbers/real_roots.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 // Floating-point numbers of so many bits that what they round is lost beside a double's rounding.
@@ -338,4 +338,4 @@ template SolidForm<4> integer_form<3>(const RationalSolid<3>&);
 template NearestSolid<2> nearest_solid<2>(const RationalSolid<2>&);
 template NearestSolid<3> nearest_solid<3>(const RationalSolid<3>&);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

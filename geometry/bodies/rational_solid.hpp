@@ -18,7 +18,7 @@
 
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 template <std::size_t N>
 using RationalMatrix = std::array<std::array<mpq_class, N>, N>;
@@ -61,4 +61,4 @@ struct NearestSolid {
 template <std::size_t N>
 NearestSolid<N> nearest_solid(const RationalSolid<N>& solid);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

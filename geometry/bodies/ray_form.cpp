@@ -9,7 +9,7 @@
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 int common_exponent_of(const Vec3& v) {
@@ -130,4 +130,4 @@ RayForm::Hit RayForm::hit(int side, int exponent) const {
   return {quotient(numerator, denominator, long{exponent} + unit_), unit_vector(gradient)};
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -14,7 +14,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 class RayForm {
  public:
@@ -57,4 +57,4 @@ class RayForm {
   mpz_class c0_, c1_, c2_, discriminant_;
 };
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

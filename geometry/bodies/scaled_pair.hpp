@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// What d lacks of c_B - c_A, exactly in the default environment: the error term of Knuth's two-sum
 /// of c_B and -c_A.
@@ -156,4 +156,4 @@ bool thick_enough(const Body& a, const Body& b) noexcept {
   return std::min(a.smallest_semi_axis(), b.smallest_semi_axis()) >= kThinnestAxis;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

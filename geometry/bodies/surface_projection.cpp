@@ -9,7 +9,7 @@
 #include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr int kSteps = 200;  // chosen: docs/derivations/primitives.md, section 2, expects 90
@@ -149,4 +149,4 @@ double error_of_distance(double distance, double size, int exponent) noexcept {
          kSubnormal;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -7,7 +7,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/numbers/double_double.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A body and a point seen from its centre, in units of 2^exponent: the largest of the semi-axes
 /// and of the separation's components in [1, 4). A semi-axis below kThinnestAxisSeen of that is
@@ -59,4 +59,4 @@ double size_of(const SeenFromCentre& seen) noexcept;
 /// @param distance, size  rounded once; L; in units of 2^exponent
 double error_of_distance(double distance, double size, int exponent) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

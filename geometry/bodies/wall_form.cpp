@@ -9,7 +9,7 @@
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 std::array<mpq_class, 3> to_rationals(const Vec3& v) {
@@ -43,4 +43,4 @@ WallSigns wall_signs(const RationalSolid<3>& body, const Vec3& normal, double of
   return {sgn(height), sgn(mpq_class(height * height - square))};
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

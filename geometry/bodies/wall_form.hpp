@@ -11,7 +11,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// The solid itself: the quaternion means R(q/|q|), whose square roots cancel in the shape matrix.
 RationalSolid<3> rational_solid(const Ellipsoid& body);
@@ -24,4 +24,4 @@ struct WallSigns {
 /// @param normal, offset  finite, normal not 0
 WallSigns wall_signs(const RationalSolid<3>& body, const Vec3& normal, double offset);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

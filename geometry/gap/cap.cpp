@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 using Root = Eigen::Matrix<double, 6, 1>;  ///< of A, and below it of B
@@ -230,4 +230,4 @@ Cap cap_around(const Hessian& hessian, const Gradient& gradient, double widest) 
   return cap;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -8,7 +8,7 @@
 #include <tangency/geometry/bodies/double_double_body.hpp>
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A pair in a unit in which nothing overflows: its size is within [2^-60, 2^62], semi-axes are at
 /// least 2^-300.
@@ -97,4 +97,4 @@ inline double in_inverse_norm(const Cap& cap, double v1, double v2) noexcept {
   return v1 / cap.least[0] + v2 / cap.least[1];
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

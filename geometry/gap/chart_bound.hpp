@@ -20,7 +20,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// (Q) of the derivation, of the size |d| + a_A + a_B: `noise` in double and in double-double.
 inline constexpr double kChartNoise = 0x1p-44, kChartNoiseInDoubleDouble = 0x1p-86;
@@ -179,4 +179,4 @@ double Chart<Real, Corners>::excess(const Real& value, double noise) const noexc
   return most > 0.0 ? kSlack * most / g_low : most / (kSlack * longest_ * g_high);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -10,7 +10,7 @@
 #include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Of L: the error of an ordinary answer, beyond which another method is tried.
 inline constexpr double kOrdinaryError = kOrdinaryGapErrorBound * kUnitRoundoff;
@@ -45,4 +45,4 @@ inline double reach_squared(double rest_squared, double rest_error) noexcept {
   return 1.01 * (rest_squared + rest_error * rest_error);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

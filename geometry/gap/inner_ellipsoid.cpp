@@ -6,7 +6,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr double kOrthogonal = 16 * kUnitRoundoff;  // (O) of docs/derivations/bounded-gap.md
@@ -173,4 +173,4 @@ InnerEllipsoid::Bound InnerEllipsoid::best() const noexcept {
   return at(std::min(found.multiplier, (1.0 - std::min(16.0 * below, 0.5)) * found.least));
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

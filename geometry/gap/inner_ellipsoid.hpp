@@ -9,7 +9,7 @@
 #include <tangency/geometry/gap/cap.hpp>
 #include <tangency/geometry/symmetric3.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// The ellipsoid { T y : |y| <= 1 } with T = S_A + S_B O', S = R diag(a) of a body and O
 /// orthogonal: its support function |T'n| is nowhere above h_A + h_B. O is the one that makes them
@@ -46,4 +46,4 @@ class InnerEllipsoid {
   double size_;       ///< of the pair
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

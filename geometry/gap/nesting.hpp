@@ -18,7 +18,7 @@
 #include <tangency/geometry/relation/exact_margin.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Of B in A, as settle_sign() asks: f < 0 where B is in the interior of A, 0 where it touches A's
 /// boundary from within.
@@ -90,4 +90,4 @@ Result as_clearance(const AnyGap& gap, const Vector& arm_b) {
   return {0.0 - gap.gap, gap.normal, arm_b, gap.arm_a, gap.gap_error, gap.status, gap.tier};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

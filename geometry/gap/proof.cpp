@@ -9,7 +9,7 @@
 #include <tangency/geometry/gap/error_bounds.hpp>
 #include <tangency/geometry/numbers/two_lanes.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 struct Sides {
@@ -193,4 +193,4 @@ ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept {
   return {kMore * turn, shift(axis_a, at.hessian.a), shift(axis_b, at.hessian.b)};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/gap/cap.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// An enclosure of the gap of the branch that a normal is on, with what was evaluated there.
 struct GapProof {
@@ -56,4 +56,4 @@ CapProof prove_gap_in_double_double(const Pair& pair, const Vec3& normal,
 /// Of a gap, and without moving the normal: the distance to the maximum.
 ContactShift bound_shift(const Pair& pair, const Vec3& normal) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

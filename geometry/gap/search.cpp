@@ -11,7 +11,7 @@
 #include <tangency/geometry/gap/chart_bound.hpp>
 #include <tangency/geometry/gap/error_bounds.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr std::size_t kMostPeaks = 16;     // chosen: 2 to 6 are common
@@ -335,4 +335,4 @@ std::optional<GapProof> search_sphere(const Pair& pair, const FactoredPair& fact
   return search.result(search.found() && search.prove(budget));
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -10,7 +10,7 @@
 #include <tangency/geometry/gap/proof.hpp>
 #include <tangency/geometry/normals/factored.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 // What is searched is f(n) = n.d - h_A(n) - h_B(n), or that of a clearance, n.d - h_A(n) + h_B(n):
 // docs/derivations/containment.md, section 4. Both calls take a FactoredPair of the same kind.
@@ -33,4 +33,4 @@ std::optional<GapProof> search_sphere(const Pair& pair, const FactoredPair& fact
 /// of A (of B, if A is a sphere).
 std::optional<GapProof> search_meridian(const Pair& pair, const FactoredPair& factored) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -9,7 +9,7 @@
 #include <tangency/geometry/gap/chart_bound.hpp>
 #include <tangency/geometry/gap/search.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 // Of a direction: chosen, above the 3.2 u that parallel bodies may be off by, and small enough that
@@ -308,4 +308,4 @@ std::optional<GapProof> search_meridian(const Pair& pair, const FactoredPair& fa
   return meridian.result();
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

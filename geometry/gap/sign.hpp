@@ -12,7 +12,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// u L; chosen: what is proven no better is not called ok.
 inline constexpr double kWidestOk = 100.0;
@@ -104,4 +104,4 @@ AnyGap finished_gap(Solved& solved, const Exact& exact, const Pair& pair, double
           solved.tier};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -14,7 +14,7 @@
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// Width of a box in largest reaches of its level. Measured on 8001 equal spheres and on sizes from
@@ -385,4 +385,4 @@ void NearGrids::Look::meet(const NearGrids& grids, std::size_t first, std::size_
   }
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

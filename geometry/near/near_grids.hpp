@@ -12,7 +12,7 @@
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Bodies sorted into boxes, a grid a level, level 0 that of the largest.
 class NearGrids {
@@ -83,4 +83,4 @@ class NearGrids {
   std::vector<std::uint8_t> level_at_;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// @param bodies    every a is below
 /// @param for_each  for_each(use) calls use(const Entry&) for every entry, each time in one order
@@ -30,4 +30,4 @@ std::vector<Entry> sorted_by_pair(std::size_t bodies, const ForEach& for_each,
   return sorted;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr int kClimbSteps = 200;       // chosen: far beyond the 5 to 30 steps seen
@@ -163,4 +163,4 @@ Stationary FactoredPair::climb(const Vec3& start) const noexcept {
   return {n, false};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

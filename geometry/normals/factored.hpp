@@ -8,7 +8,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/normals/newton.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A pair whose size |d| + a_A + a_B is within [2^-60, 2^62].
 class FactoredPair {
@@ -44,4 +44,4 @@ class FactoredPair {
   double sign_b_;  ///< f = n.d - h_A - sign_b h_B
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

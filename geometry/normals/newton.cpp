@@ -6,7 +6,7 @@
 #include <tangency/geometry/normals/perram_wertheim.hpp>
 #include <tangency/geometry/numbers/two_lanes.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
@@ -84,4 +84,4 @@ Stationary newton(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, Finish 
   return newton_from(a, b, d, form.normal_direction(l).normalized(), finish);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -5,7 +5,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Where a search stopped, and whether it may be believed.
 struct Stationary {
@@ -34,4 +34,4 @@ Stationary newton_from(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, co
 /// The same from the Perram-Wertheim normal. Requires moderate() bodies and d != 0.
 Stationary newton(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, Finish finish) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 double PerramWertheimSearch::between(double l, double slope) const noexcept {
   return std::sqrt(l) * std::sqrt(slope > 0.0 ? high_ : low_);
@@ -29,4 +29,4 @@ double PerramWertheimForm::maximise(int steps) const noexcept {
   return l;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

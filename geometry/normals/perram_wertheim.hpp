@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// D and N at one l by their terms, and what Euler's operator l d/dl makes of them once and twice.
 struct PerramWertheimAt {
@@ -103,4 +103,4 @@ class PerramWertheimForm {
   double num_[3];
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -7,7 +7,7 @@
 #include <tangency/geometry/normals/perram_wertheim.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr int kFirstSteps = 40;  // chosen: Newton's method in double takes 2 to 10
@@ -265,4 +265,4 @@ template std::optional<PerramWertheimPoint<WideFloat>> find_perram_wertheim_poin
     const PreciseShape<WideFloat>& a, const PreciseShape<WideFloat>& b,
     const Direction<WideFloat>& d, double& ratio) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

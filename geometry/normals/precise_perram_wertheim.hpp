@@ -20,7 +20,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/wide_float.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Relative errors below the first are squared by a factor below the second, and more.
 inline constexpr double kSmallError = 0x1p-10, kSlack = 1.0625;
@@ -113,4 +113,4 @@ std::optional<PerramWertheimPoint<T>> find_perram_wertheim_point(const PreciseSh
                                                                  const Direction<T>& d,
                                                                  double& ratio) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// atan(k / 8), rounded to double from 60 digits.
@@ -48,4 +48,4 @@ double angle_of(double sine, double cosine) noexcept {
   return std::signbit(cosine) ? kPi - first : first;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -7,7 +7,7 @@
 ///     docs/derivations/common-volume.md, section 6.
 #pragma once
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Of the angle, over u.
 inline constexpr double kAngleError = 10.0;
@@ -20,4 +20,4 @@ inline constexpr double kPi = 0x1.921fb54442d18p+1;
 /// @param cosine  finite; neither the larger of the two nor its sum of both overflows
 double angle_of(double sine, double cosine) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace tangency::contract {
+namespace tangency::inline v0::contract {
 
 void wrong_length(const char* call, const char* what, std::size_t length,
                   std::size_t pairs) noexcept {
@@ -48,4 +48,4 @@ void not_finite(const char* call, const char* what, const Vec3& value) noexcept 
   std::abort();
 }
 
-}  // namespace tangency::contract
+}  // namespace tangency::inline v0::contract

@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::contract {
+namespace tangency::inline v0::contract {
 
 /// "tangency: signed_gaps: answers: 3 entries, and there are 4 pairs"
 [[noreturn]] void wrong_length(const char* call, const char* what, std::size_t length,
@@ -43,4 +43,4 @@ inline void require_finite(const char* call, const char* what, const Vec3& v) no
   if (!(finite(v[0]) && finite(v[1]) && finite(v[2]))) not_finite(call, what, v);
 }
 
-}  // namespace tangency::contract
+}  // namespace tangency::inline v0::contract

@@ -11,7 +11,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 // Below it cos t > 1 - 2^-55 and |sin t - t| < 2^-56 |t|: they round to 1 and to t.
@@ -158,4 +158,4 @@ CosineSine rounded_cosine_sine(double angle) {
   return rounded_cosine_sine_in_integers(angle);
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

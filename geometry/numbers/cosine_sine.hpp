@@ -6,7 +6,7 @@
 /// (2) cosine(-t) = cosine(t), sine(-t) = -sine(t).
 #pragma once
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 struct CosineSine {
   double cosine, sine;
@@ -20,4 +20,4 @@ CosineSine rounded_cosine_sine(double angle);
 /// The same in integers alone: for tests.
 CosineSine rounded_cosine_sine_in_integers(double angle);
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

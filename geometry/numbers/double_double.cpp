@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 DoubleDoubleMatrix double_double_rotation(const Quaternion& q) noexcept {
   // A power of two brings the largest component to [1, 2), so that squares stay in range.
@@ -15,4 +15,4 @@ DoubleDoubleMatrix double_double_rotation(const Quaternion& q) noexcept {
                                        [](double a, double b) { return two_product(a, b); });
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -16,7 +16,7 @@
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// An upper bound of the relative error of one operation on numbers of one sign; and, for sums of
 /// both signs, relative to the sum of the absolute values.
@@ -157,4 +157,4 @@ inline DoubleDouble2 double_double_direction(const Vec2& direction) noexcept {
   return normalised(exactly(scaled_by_power(direction, -exponent_of(direction))));
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

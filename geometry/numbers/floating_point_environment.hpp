@@ -15,7 +15,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace tangency {
+namespace tangency::inline v0 {
 
 /// Does this thread round to nearest, keep subnormal results and read subnormal operands as they
 /// are?
@@ -116,4 +116,4 @@ auto in_default_environment(const Compute& compute) {
   return detail::computed_elsewhere(compute);
 }
 
-}  // namespace tangency
+}  // namespace tangency::inline v0

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 static_assert(sizeof(long) == sizeof(std::int64_t), "GMP reads and writes 64-bit values as long");
@@ -240,4 +240,4 @@ TANGENCY_INSTANTIATE(4);
 #undef TANGENCY_INSTANTIATE
 // NOLINTEND(bugprone-macro-parentheses)
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <span>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// mantissa 2^exponent, the mantissa odd or (with exponent 0) zero.
 struct Dyadic {
@@ -100,4 +100,4 @@ IntegerForm<N> combine(const mpz_class& weight_a, const IntegerForm<N>& a,
 /// @param coefficients  A B C D E F G H J K, finite
 IntegerForm<4> quadric_form(std::span<const double, 10> coefficients, int exponent);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

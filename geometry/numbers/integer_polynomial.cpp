@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 /// Changes of sign in a sequence, zeros skipped.
@@ -291,4 +291,4 @@ int SturmSequence::roots_above(const mpq_class& low) const {
          variations(sequence_, [](const auto& p) { return p.sign_at_plus_infinity(); });
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// c[0] + c[1] x + ... + c[n] x^n with c[n] != 0, or zero.
 class IntegerPolynomial {
@@ -100,4 +100,4 @@ class SturmSequence {
   std::vector<IntegerPolynomial> sequence_;
 };
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

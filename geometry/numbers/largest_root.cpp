@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 /// A polynomial in coordinates y, t = x + 2^e y, that move: x comes down on the largest root, which
@@ -146,4 +146,4 @@ bool largest_root_exceeds_one(const IntegerPolynomial& p) {
   return !to_p.is_above_all_roots();
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

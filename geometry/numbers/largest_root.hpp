@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// -1, 0 or 1 as f's is less, the same, greater. Requires two polynomials without multiple roots,
 /// of degree >= 1, all of whose roots are real and > 0.
@@ -23,4 +23,4 @@ int multiplicity_of_largest_root(const IntegerPolynomial& p);
 /// Requires a polynomial other than 0 all of whose roots are real.
 bool largest_root_exceeds_one(const IntegerPolynomial& p);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// A polynomial of the given degree on [-1, 1], lowest coefficient first.
@@ -239,4 +239,4 @@ template ProjectiveRoots<double> projective_roots(const QuarticCoefficients<doub
 template ProjectiveRoots<long double> projective_roots(
     const QuarticCoefficients<long double>&) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

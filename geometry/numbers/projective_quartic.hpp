@@ -15,7 +15,7 @@
 #include <array>
 #include <cmath>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// a_0, ..., a_4, finite.
 template <class Real>
@@ -52,4 +52,4 @@ extern template ProjectiveRoots<double> projective_roots(
 extern template ProjectiveRoots<long double> projective_roots(
     const QuarticCoefficients<long double>&) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

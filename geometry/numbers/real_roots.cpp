@@ -13,7 +13,7 @@
 
 #include <tangency/geometry/numbers/integer_forms.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
@@ -270,4 +270,4 @@ double double_above(const mpq_class& x) {
   return std::bit_cast<double>(bits == 0 ? 0 : bits | kSignBit);
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

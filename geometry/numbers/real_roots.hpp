@@ -15,7 +15,7 @@
 
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// A real root of a square-free polynomial p: equal to low = high, or the only root of p in
 /// low < x < high. In the latter case an end may be another root of p.
@@ -70,4 +70,4 @@ double double_below(const mpq_class& x);
 /// The smallest double >= x, or infinity; zero is +0.
 double double_above(const mpq_class& x);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

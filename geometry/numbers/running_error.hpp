@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/floating_point.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 struct Bounded {
   double value;
@@ -41,4 +41,4 @@ inline Bounded operator*(const Bounded& a, const Bounded& b) noexcept {
 }
 inline Bounded square(const Bounded& a) noexcept { return a * a; }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/symmetric3.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 using TwoLanes = double __attribute__((vector_size(16)));  ///< of A, of B
 
@@ -82,4 +82,4 @@ struct TwoLanesRotations {
   }
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 template <class T>
 using Vector3 = std::array<T, 3>;
@@ -67,4 +67,4 @@ Matrix3<T> rotation_matrix(const Component& w, const Component& x, const Compone
            {t * (zx - wy), t * (yz + wx), s * (ww + zz - (xx + yy))}}};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr mp_limb_t kTop = mp_limb_t{1} << 63;
@@ -154,4 +154,4 @@ WideMatrix wide_rotation(const Quaternion& q) noexcept {
                                     [](const WideFloat& a, const WideFloat& b) { return a * b; });
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

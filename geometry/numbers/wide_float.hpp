@@ -16,7 +16,7 @@
 #include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 inline constexpr double kWideEpsilon = 0x1p-510;
 
@@ -72,4 +72,4 @@ inline Vec3 rounded(const WideVector& v) noexcept {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -16,7 +16,7 @@
 #include <tangency/geometry/numbers/running_error.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 struct Forms {
@@ -162,9 +162,9 @@ ConicAnswer conic_relation(const IntegerForm<3>& a, const IntegerForm<3>& b) {
                                       Relation::overlap, Inner::none);
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 using exact::ConicAnswer;
@@ -300,4 +300,4 @@ MeetingAnswer ellipse_meeting(const Ellipse& a, const Ellipse& b) noexcept {
   return {exact::conic_relation(a, b), Tier::exact};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -23,7 +23,7 @@
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/relation.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// How the boundaries meet in real points, by their multiplicities.
 enum class Meeting {
@@ -53,9 +53,9 @@ IntegerForm<3> conic_form(const Ellipse& e);
 /// The same of an ellipse given in any form.
 IntegerForm<3> conic_form(const MatrixEllipse& e);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// The answer where running error bounds prove it; nothing where they leave a doubt and where
 /// numbers overflow. Requires the default floating-point environment.
@@ -69,4 +69,4 @@ struct MeetingAnswer {
 /// The filter, and the exact tier behind it.
 MeetingAnswer ellipse_meeting(const Ellipse& a, const Ellipse& b) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 using exact::Meeting;
@@ -279,4 +279,4 @@ double PlaneLens::level_between(int i) const noexcept {
   return level(second_frame(arc_middle((*this)[i].unit[0], next(i).unit[0], is_last(i)))).high;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

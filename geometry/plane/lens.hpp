@@ -12,7 +12,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/plane/ellipse_meeting.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// Sorts the first few of an array. (std::sort's branch for more than sixteen makes g++ 12 warn of
 /// accesses beyond so short an array.)
@@ -105,4 +105,4 @@ class PlaneLens {
   std::array<LensVertex, 4> vertex_;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -6,7 +6,7 @@
 
 #include <tangency/geometry/gap/error_bounds.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr int kMostSteps = 12;        // chosen: ordinary contacts take 2 to 4
@@ -98,4 +98,4 @@ bool settle_plane_gap(const PlanePair& pair, Vec2& normal, PlaneProof& proof) no
   return false;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -8,7 +8,7 @@
 #include <tangency/geometry/bodies/scaled_pair.hpp>
 #include <tangency/geometry/ellipse.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// A pair in a unit in which nothing overflows or underflows: the largest of semi-axes and d within
 /// [2^-60, 2^62], no semi-axis below 2^-300.
@@ -59,4 +59,4 @@ inline constexpr int kPlaneBudget = 4000;  // arcs; chosen: pairs of aspect 1e8 
 PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first,
                             int budget = kPlaneBudget) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

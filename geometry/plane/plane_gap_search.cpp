@@ -8,7 +8,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/plane/plane_gap.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -344,4 +344,4 @@ PlaneProof search_plane_gap(const PlanePair& pair, const Vec2& first, int budget
   return proof;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -11,7 +11,7 @@
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/numbers/real_roots.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 using Polynomial = IntegerPolynomial;
@@ -233,4 +233,4 @@ RoundedMargin rounded(const MarginEnclosure& enclosure, int side) {
           double_above(std::max(mpq_class(enclosure.high - at), mpq_class(at - enclosure.low)))};
 }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

@@ -20,7 +20,7 @@
 
 #include <tangency/geometry/bodies/rational_solid.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// Of a number that is not negative.
 struct MarginEnclosure {
@@ -42,4 +42,4 @@ struct RoundedMargin {
 /// @param side  of the true number: -1 below 1, 0 at 1, 1 above 1
 RoundedMargin rounded(const MarginEnclosure& enclosure, int side);
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

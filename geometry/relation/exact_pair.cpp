@@ -14,7 +14,7 @@
 #include <tangency/geometry/numbers/integer_forms.hpp>
 #include <tangency/geometry/numbers/largest_root.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 namespace {
 
 /// xx yy zz yz zx xy
@@ -201,4 +201,4 @@ Containment ExactPair::containment() const {
 
 bool ExactPair::equal() const { return is_binomial(shapes_) && is_binomial(quartic_); }
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

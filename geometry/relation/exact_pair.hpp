@@ -20,7 +20,7 @@
 #include <tangency/geometry/numbers/integer_polynomial.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::exact {
+namespace tangency::inline v0::exact {
 
 /// The exponent of the unit in which the edges that the image counts are integers; at most
 /// `otherwise`.
@@ -75,4 +75,4 @@ class ExactPair {
   IntegerPolynomial quartic_, shapes_;
 };
 
-}  // namespace tangency::exact
+}  // namespace tangency::inline v0::exact

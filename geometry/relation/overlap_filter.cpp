@@ -8,7 +8,7 @@
 #include <tangency/geometry/normals/perram_wertheim.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// The most by which one operation errs relative to its result, whatever the rounding mode.
@@ -233,4 +233,4 @@ Filtered filter_overlap_in_double_double(const Ellipsoid& a, const Ellipsoid& b,
   return meet ? Filtered::interiors_meet : Filtered::unknown;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

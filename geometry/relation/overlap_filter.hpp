@@ -6,7 +6,7 @@
 
 #include <tangency/geometry/normals/perram_wertheim.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 enum class Filtered { apart, interiors_meet, unknown };
 
@@ -52,4 +52,4 @@ bool proves_inside(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexce
 Filtered filter_overlap_in_double_double(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d,
                                          const Vec3& d_low, const Vec3& n) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -19,7 +19,7 @@
 
 #include <tangency/geometry/tables/output_file.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 namespace {
 
 int complain(const std::string& message) {
@@ -198,4 +198,4 @@ int Program::run(int argc, const char* const* argv) {
   end_by_broken_pipe();
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

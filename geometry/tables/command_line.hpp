@@ -21,7 +21,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// Of every program: a refused command line, input or write.
 inline constexpr int kRefused = 2;
@@ -114,4 +114,4 @@ class Program : public Command {
   std::deque<Command> subcommands_;
 };
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -19,7 +19,7 @@
 #include <tangency/geometry/tables/csv_cells.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 namespace {
 
 // Chosen: large enough that a read costs nothing beside its parsing, small enough for a cache.
@@ -414,4 +414,4 @@ void RowText::truncate(std::size_t size) noexcept {
   at_row_start_ = true;
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

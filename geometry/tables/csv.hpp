@@ -34,7 +34,7 @@
 
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// What standard input is called in messages.
 inline constexpr std::string_view kStandardInputName = "<stdin>";
@@ -220,4 +220,4 @@ class RowText {
   bool at_row_start_ = true;
 };
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 inline bool is_space(char c) noexcept { return c <= ' ' && (c == ' ' || c == '\t' || c == '\r'); }
 
@@ -150,4 +150,4 @@ inline std::string without_doubles(std::string_view text) {
   return single;
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

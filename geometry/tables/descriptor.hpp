@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// Closed at the latest with its scope; the three standard ones stay open.
 class Descriptor {
@@ -46,4 +46,4 @@ inline bool write_all(int file, std::string_view text) noexcept {
   return true;
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

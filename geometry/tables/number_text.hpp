@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// Appends the shortest text that reads back to the same number, in that std::chars_format if any.
 template <class Number, class... Format>
@@ -37,4 +37,4 @@ std::string formatted(const char* pattern, Values... values) {
 /// So many significant digits, fewer where the last are 0, as an ostream shows them.
 inline std::string rounded_text(double x, int digits) { return formatted("%.*g", digits, x); }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

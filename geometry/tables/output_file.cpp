@@ -18,7 +18,7 @@
 #include <string>
 #include <system_error>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 namespace {
 
 /// A file that a signal must remove. Fixed storage, because a signal handler may neither allocate
@@ -185,4 +185,4 @@ void OutputFile::commit() {
 
 bool OutputFile::is_terminal() const noexcept { return ::isatty(output_.get()) == 1; }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

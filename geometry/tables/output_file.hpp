@@ -10,7 +10,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// What standard output is called in messages.
 inline constexpr std::string_view kStandardOutputName = "<stdout>";
@@ -68,4 +68,4 @@ class OutputFile {
   std::unique_ptr<Placeholder> placeholder_;  // empty when written to directly
 };
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -11,7 +11,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 namespace {
 
 constexpr int kBarWidth = 30;  // characters: leaves room for the note on 100 columns
@@ -71,4 +71,4 @@ void Progress::finish() {
   std::fflush(stderr);
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

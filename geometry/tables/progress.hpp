@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// On a terminal a bar that is drawn over itself; elsewhere a plain line now and then; or nothing.
 /// The time left is what the fraction done took so far, carried on, and at most what the run has:
@@ -49,4 +49,4 @@ class Progress {
   std::optional<Clock::time_point> last_;
 };
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -15,7 +15,7 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 namespace {
 
 // Chosen: enough to see what is wrong with a file, and not a second file.
@@ -295,4 +295,4 @@ ExitStatus run_row_stream(const RowTask& task, const RowStreamOptions& options) 
   return RowStream(task, options).run();
 }
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -20,7 +20,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::tables {
+namespace tangency::inline v0::tables {
 
 /// Exit statuses of every subcommand beside kRefused.
 enum ExitStatus : int {
@@ -75,4 +75,4 @@ struct RowStreamOptions {
 /// @throws Error  refused input, or a failed read or write
 ExitStatus run_row_stream(const RowTask& task, const RowStreamOptions& options);
 
-}  // namespace tangency::tables
+}  // namespace tangency::inline v0::tables

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 using Fields = std::vector<std::string_view>;
@@ -207,4 +207,4 @@ void write_inner(Inner inner, tables::RowText& out) {
   }
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -11,7 +11,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tool/columns.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 
 /// How a quadric's D, E, F, G, H and J are written, and a conic's B, D and E.
 enum class MixedTerms {
@@ -67,4 +67,4 @@ class EllipseColumns {
 /// The cell of the column inner: a, b or nothing.
 void write_inner(Inner inner, tables::RowText& out);
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

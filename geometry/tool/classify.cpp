@@ -13,7 +13,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 5> kOutputColumns{"row", "type", "rank4", "rank3", "tier"};
@@ -111,4 +111,4 @@ void add_classify(tables::Program& program) {
                 }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

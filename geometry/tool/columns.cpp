@@ -8,7 +8,7 @@
 #include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 std::string listed(const std::vector<std::string_view>& fields) {
@@ -141,4 +141,4 @@ tables::Error FormColumns::refused(const tables::RowCursor& row, std::string_vie
                         .rule = std::string(rule)});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

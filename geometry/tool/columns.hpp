@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 
 /// The columns that were found; the names of the others, prefix and field, are added to `missing`.
 template <std::size_t N>
@@ -103,4 +103,4 @@ class FormColumns {
   std::optional<tables::Column> level_, confidence_;
 };
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

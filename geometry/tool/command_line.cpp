@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <thread>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 // Chosen: beyond any machine this was tried on, and far below what a slip of the keyboard asks for.
@@ -56,4 +56,4 @@ void add_mixed_terms_option(tables::Command& command, ConicOptions& options) {
       .type_name("half|full");
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

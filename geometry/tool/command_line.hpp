@@ -12,7 +12,7 @@
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/row_stream.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 
 /// Adds --threads, --out and FILE. The options must outlive the parsing, here and below.
 void add_table_options(tables::Command& command, tables::RowStreamOptions& options);
@@ -78,4 +78,4 @@ void add_ray(tables::Program& program);
 void add_time(tables::Program& program);
 void add_neighbours(tables::Program& program);
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -18,7 +18,7 @@
 #include <tangency/geometry/tool/contact_columns.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 using ContactColumns = FurtherColumns<ContactRow>;
@@ -300,4 +300,4 @@ void add_contact(tables::Program& program) {
                 .task = task});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -15,7 +15,7 @@
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 void sizes(const ContactRow& row, Cells cells) {
@@ -149,4 +149,4 @@ constexpr std::array<ColumnGroup<EllipseRow>, 2> kEllipseGroups{
 std::span<const ColumnGroup<ContactRow>> contact_column_groups() { return kContactGroups; }
 std::span<const ColumnGroup<EllipseRow>> ellipse_column_groups() { return kEllipseGroups; }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -13,7 +13,7 @@
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/tool/further_columns.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 
 /// What a row of `contact` has to say before its further columns.
 struct ContactRow {
@@ -34,4 +34,4 @@ struct EllipseRow {
 std::span<const ColumnGroup<ContactRow>> contact_column_groups();
 std::span<const ColumnGroup<EllipseRow>> ellipse_column_groups();
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

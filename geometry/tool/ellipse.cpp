@@ -16,7 +16,7 @@
 #include <tangency/geometry/tool/contact_columns.hpp>
 #include <tangency/geometry/tool/further_columns.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 using Further = FurtherColumns<EllipseRow>;
@@ -233,4 +233,4 @@ void add_ellipse(tables::Program& program) {
        .task = task});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tangency::tool::further {
+namespace tangency::inline v0::tool::further {
 namespace {
 
 /// "F, mu and F_error"
@@ -47,4 +47,4 @@ std::string refused(std::string_view asked, const std::vector<std::string_view>&
   return {};
 }
 
-}  // namespace tangency::tool::further
+}  // namespace tangency::inline v0::tool::further

@@ -16,7 +16,7 @@
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 
 /// As many as the group has columns; nothing where the row has no such number.
 using Cells = std::span<std::optional<double>>;
@@ -119,4 +119,4 @@ void add_columns_option(tables::Command& command, std::string& columns,
       .type_name("NAME,...");
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

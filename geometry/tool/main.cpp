@@ -2,7 +2,7 @@
 #include <tangency/geometry/tool/command_line.hpp>
 #include <tangency/version.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr const char* kProgramDescription =
@@ -20,7 +20,7 @@ Exit status:
 )";
 
 }  // namespace
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool
 
 int main(int argc, char** argv) {
   using namespace tangency::tool;

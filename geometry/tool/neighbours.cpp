@@ -19,7 +19,7 @@
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 20> kOutputColumns{
@@ -284,4 +284,4 @@ void add_neighbours(tables::Program& program) {
   });
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -7,7 +7,7 @@
 #include <tangency/geometry/tool/body_columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 4> kOutputColumns{"row", "relation", "overlaps", "tier"};
@@ -62,4 +62,4 @@ void add_overlap(tables::Program& program) {
                 }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

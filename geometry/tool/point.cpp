@@ -11,7 +11,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 10> kOutputColumns{
@@ -147,4 +147,4 @@ void add_ellipse_point(tables::Program& program) {
                 }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -12,7 +12,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 4> kOutputColumns{"row", "result", "t1", "t2"};
@@ -130,4 +130,4 @@ void add_ray(tables::Program& program) {
                 }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

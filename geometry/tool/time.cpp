@@ -11,7 +11,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 4> kOutputColumns{"row", "status", "time", "latest"};
@@ -202,4 +202,4 @@ void add_time(tables::Program& program) {
                 }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -10,7 +10,7 @@
 #include <tangency/geometry/tool/columns.hpp>
 #include <tangency/geometry/tool/command_line.hpp>
 
-namespace tangency::tool {
+namespace tangency::inline v0::tool {
 namespace {
 
 constexpr std::array<std::string_view, 15> kOutputColumns{
@@ -139,4 +139,4 @@ void add_wall(tables::Program& program) {
            }});
 }
 
-}  // namespace tangency::tool
+}  // namespace tangency::inline v0::tool

@@ -21,7 +21,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/tier.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 template <class Real>
 using TraceVector = Eigen::Matrix<Real, 3, 1>;
@@ -206,4 +206,4 @@ Interval<Real> theta_box(const Poled<Real>& a, const Cone<Real>& cone) {
   return {theta_of(centre - half), theta_of(centre + half)};
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -9,7 +9,7 @@
 #include <tangency/geometry/numbers/projective_quartic.hpp>
 #include <tangency/geometry/trace/frame.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// Halvings of the box: 2^10 - 1 curves at most. Chosen: the thesis says "and so on".
@@ -269,4 +269,4 @@ template TraceFound<long double> trace_scheme(const TraceBody<long double>&,
                                               const TraceVector<long double>&,
                                               const TraceOptions&) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

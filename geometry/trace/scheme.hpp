@@ -14,7 +14,7 @@
 #include <tangency/geometry/tier.hpp>
 #include <tangency/geometry/trace/frame.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 struct TraceOptions {
   /// Turn the frame of A to the pair where equal semi-axes leave a choice, and take the longest arc
@@ -54,4 +54,4 @@ extern template TraceFound<long double> trace_scheme(const TraceBody<long double
                                                      const TraceVector<long double>&,
                                                      const TraceOptions&) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/normals/precise_perram_wertheim.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 /// diag(1/b) R_B' R_A diag(a) before its columns are turned, and what turns them.
@@ -237,4 +237,4 @@ template CircularSections<DoubleDouble> circular_sections(const Ellipsoid&, cons
 template CircularSections<WideFloat> circular_sections(const Ellipsoid&, const Ellipsoid&,
                                                        const WideVector&) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -20,7 +20,7 @@
 #include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/vectors.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 template <class T>
 struct CircularSections {
@@ -50,4 +50,4 @@ template <class T>
 CircularSections<T> circular_sections(const Ellipsoid& first, const Ellipsoid& second,
                                       const Vector3<T>& d) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

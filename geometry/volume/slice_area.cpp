@@ -9,7 +9,7 @@
 
 #include <tangency/geometry/numbers/arc_tangent.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 struct Node {
@@ -247,4 +247,4 @@ std::optional<SliceShare> crossing_share(const SliceExpansion& e, SliceRange ran
   return std::nullopt;
 }
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

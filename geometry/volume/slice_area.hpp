@@ -9,7 +9,7 @@
 #include <tangency/geometry/vectors.hpp>
 #include <tangency/geometry/volume/slice_expansion.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// What a range of heights adds to the integrals.
 struct SliceShare {
@@ -46,4 +46,4 @@ double discriminant_error(const SliceExpansion& e, SliceRange range) noexcept;
 std::optional<SliceShare> crossing_share(const SliceExpansion& e, SliceRange range,
                                          double volume_budget, double gradient_budget) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

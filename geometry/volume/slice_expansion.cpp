@@ -3,7 +3,7 @@
 
 #include <tangency/geometry/normals/precise_perram_wertheim.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 template <class T>
@@ -80,4 +80,4 @@ template SliceExpansion::SliceExpansion(const CircularSections<DoubleDouble>&, c
 template SliceExpansion::SliceExpansion(const CircularSections<WideFloat>&, const DoubleDouble&,
                                         double) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -19,7 +19,7 @@
 #include <tangency/geometry/numbers/double_double.hpp>
 #include <tangency/geometry/volume/circular_sections.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// c_0 + c_1 v + ...
 template <std::size_t N>
@@ -70,4 +70,4 @@ struct SliceExpansion {
   static constexpr double kFarthest = 4.5;
 };
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

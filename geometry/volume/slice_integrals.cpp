@@ -11,7 +11,7 @@
 #include <tangency/geometry/numbers/wide_float.hpp>
 #include <tangency/geometry/volume/slice_area.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 namespace {
 
 constexpr double kU = kUnitRoundoff;
@@ -325,4 +325,4 @@ template SliceIntegrals slice_integrals(const CircularSections<DoubleDouble>&, d
 template SliceIntegrals slice_integrals(const CircularSections<WideFloat>&, double,
                                         double) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

@@ -7,7 +7,7 @@
 #include <tangency/geometry/vectors.hpp>
 #include <tangency/geometry/volume/circular_sections.hpp>
 
-namespace tangency::detail {
+namespace tangency::inline v0::detail {
 
 /// In the unit of CircularSections.
 struct SliceIntegrals {
@@ -26,4 +26,4 @@ template <class T>
 SliceIntegrals slice_integrals(const CircularSections<T>& bodies, double volume_tolerance,
                                double area_tolerance) noexcept;
 
-}  // namespace tangency::detail
+}  // namespace tangency::inline v0::detail

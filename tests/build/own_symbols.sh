@@ -10,7 +10,7 @@ for library in "$@"; do
   # Type descriptions and what ends a program hold no arithmetic; tangency::exact and
   # tangency::detail are in no public header.
   shared=$(nm --defined-only "$library" 2>/dev/null | awk '$2 ~ /^[WVun]$/ { print $3 }' | sort -u |
-           grep -vE '^_ZT|^DW\.ref\.|^__clang_call_terminate$|^_ZNK?8tangency(5exact|6detail)')
+           grep -vE '^_ZT|^DW\.ref\.|^__clang_call_terminate$|^_ZNK?8tangency2v0(5exact|6detail)')
   own=$(grep -cF "$suffix" <<< "$shared" || true)
   left=$(grep -vF "$suffix" <<< "$shared" || true)
   taken=$(nm --undefined-only "$library" 2>/dev/null | awk '{ print $NF }' | grep '^_ZNK\?5Eigen' |

@@ -25,7 +25,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -282,4 +282,4 @@ ToolRun run_tool(const std::string& command, const std::string& inputs, const To
   return run;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

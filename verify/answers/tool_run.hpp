@@ -8,7 +8,7 @@
 
 #include <tangency/geometry/tables/descriptor.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct ToolLimits {
   double seconds;          ///< of wall time
@@ -36,4 +36,4 @@ struct ToolRun {
 /// Throws tables::Error where the inputs cannot be read, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

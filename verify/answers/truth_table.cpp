@@ -9,7 +9,7 @@
 #include <tangency/verify/oracles/classification.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using tables::Column;
@@ -266,4 +266,4 @@ TruthTable read_truth(const std::string& path, Definition definition) {
   return std::move(table);
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -14,7 +14,7 @@
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// A number of 40 digits as the sum of two doubles, to 2^-106 of itself.
 struct TwoDoubles {
@@ -66,4 +66,4 @@ constexpr bool interiors_meet(Relation relation) {
 /// Nothing for a word that names none.
 std::optional<Relation> relation_named(std::string_view word);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

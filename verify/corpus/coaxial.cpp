@@ -6,7 +6,7 @@
 
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using ascent::dot;
@@ -127,4 +127,4 @@ std::optional<CoaxialGap> coaxial_gap(const RealEllipsoid& a, const RealEllipsoi
   return found;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -18,7 +18,7 @@
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct CoaxialGap {
   Real gap;
@@ -31,4 +31,4 @@ struct CoaxialGap {
 /// separation() does; not two spheres apart from each other, which signed_gap() answers as well.
 std::optional<CoaxialGap> coaxial_gap(const RealEllipsoid& a, const RealEllipsoid& b);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

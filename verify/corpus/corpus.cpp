@@ -13,7 +13,7 @@
 #include <tangency/verify/corpus/truth.hpp>
 #include <tangency/verify/families/families.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr std::array kCorpora{
@@ -239,4 +239,4 @@ CorpusText generate(std::string_view name, std::size_t most_per_family) {
   return tables<QuadricFormat>(*found, quadric_families(), most_per_family);
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

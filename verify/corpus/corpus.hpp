@@ -24,7 +24,7 @@
 #include <string>
 #include <string_view>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 enum class CorpusKind { pairs, ellipses, quadrics };
 
@@ -45,4 +45,4 @@ inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 /// Throws std::invalid_argument for a name that corpora() does not list.
 CorpusText generate(std::string_view name, std::size_t most_per_family = kWholeFamily);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

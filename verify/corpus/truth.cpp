@@ -9,7 +9,7 @@
 #include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // A multiple of the oracles' error (gap.hpp: 1e-140 L; 1e-130 L for the normal).
@@ -92,4 +92,4 @@ EllipsePairTruth ellipse_truth(const EllipsePair& pair) {
   return truth;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -11,7 +11,7 @@
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// Normals that reach the gap.
 struct TrueNormals {
@@ -48,4 +48,4 @@ struct EllipsePairTruth {
 /// Throws std::logic_error as above.
 EllipsePairTruth ellipse_truth(const EllipsePair& pair);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

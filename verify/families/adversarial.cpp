@@ -13,7 +13,7 @@
 #include <tangency/verify/families/placing.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using namespace construction;
@@ -419,4 +419,4 @@ void for_each_adversarial_pair(std::uint64_t seed, std::size_t count,
   }
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

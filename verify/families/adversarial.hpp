@@ -17,7 +17,7 @@
 #include <tangency/verify/families/pair.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct AdversarialPair : EllipsoidPair {
   std::string_view family;
@@ -32,4 +32,4 @@ std::span<const std::string_view> adversarial_family_names();
 void for_each_adversarial_pair(std::uint64_t seed, std::size_t count,
                                const std::function<void(const AdversarialPair&)>& use);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

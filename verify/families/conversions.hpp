@@ -6,7 +6,7 @@
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 inline Ellipsoid to_ellipsoid(const RawEllipsoid& raw) {
   const auto& [c, r, q] = raw;
@@ -19,4 +19,4 @@ inline RawEllipsoid to_raw(const Ellipsoid& e) {
   return {{c[0], c[1], c[2]}, {r[0], r[1], r[2]}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

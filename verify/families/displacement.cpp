@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Mat2 = Eigen::Matrix2d;
@@ -124,4 +124,4 @@ double published_overlap(const DisplacementContact& contact, Motion motion, doub
   return contact.overlap + expected_overlap(contact, motion).slope * amount;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -14,7 +14,7 @@
 
 #include <tangency/geometry/ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// A contact of two spheroids, A at the origin. Unit of length: the short semi-axis.
 struct DisplacementContact {
@@ -55,4 +55,4 @@ OverlapExpansion expected_overlap(const DisplacementContact& contact, Motion mot
 /// and a straight line, here of the right slope, for the rotation.
 double published_overlap(const DisplacementContact& contact, Motion motion, double amount);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

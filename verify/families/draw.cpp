@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // Chosen: 24 digits more than a double has, in half the time that those of Real take.
@@ -37,4 +37,4 @@ std::array<double, 4> Draw::orientation() {
   }
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

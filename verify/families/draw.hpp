@@ -12,7 +12,7 @@
 #include <random>
 #include <utility>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 class Draw {
  public:
@@ -56,4 +56,4 @@ class Sequence {
   Draw draw_;
 };
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

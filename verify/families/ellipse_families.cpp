@@ -12,7 +12,7 @@
 #include <tangency/verify/families/families.hpp>
 #include <tangency/verify/families/placing.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 std::array<double, 2> any_direction(Draw& draw) {
@@ -182,4 +182,4 @@ std::vector<InputFamily<EllipsePair>> ellipse_families(double extreme_aspect) {
   };
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace tangency::verify::construction {
+namespace tangency::inline v0::verify::construction {
 namespace {
 
 // norm(q) R(q), by rows.
@@ -132,4 +132,4 @@ std::optional<Contact> contact(Draw& draw, bool inside) {
   return c;
 }
 
-}  // namespace tangency::verify::construction
+}  // namespace tangency::inline v0::verify::construction

@@ -11,7 +11,7 @@
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify::construction {
+namespace tangency::inline v0::verify::construction {
 
 using Vector = std::array<mpz_class, 3>;
 using Quaternion = std::array<int, 4>;  ///< w x y z
@@ -59,4 +59,4 @@ struct Contact {
 /// Nothing if this draw leads to no contact.
 std::optional<Contact> contact(Draw& draw, bool inside);
 
-}  // namespace tangency::verify::construction
+}  // namespace tangency::inline v0::verify::construction

@@ -13,7 +13,7 @@
 #include <tangency/verify/oracles/newton_ascent.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Form = ExtremeFamily::Shape;
@@ -172,4 +172,4 @@ EllipsoidPair drawn(Draw& draw, const HeaviestFamily& family) {
   return pair;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

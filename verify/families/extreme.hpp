@@ -10,7 +10,7 @@
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/families/pair.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// How the pairs of a family are drawn. Normals: a third uniform, a third along an axis of a body,
 /// a third near one (1e-12 to 1 rad). Gaps: log-uniform from 1e-16 of the smallest semi-axis to
@@ -65,4 +65,4 @@ EllipsoidPair drawn(Draw& draw, const HeaviestFamily& family);
 
 using HeaviestPairs = Sequence<HeaviestFamily>;
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

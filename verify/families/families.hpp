@@ -18,7 +18,7 @@
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct EllipsePair {
   RawEllipse a, b;
@@ -59,4 +59,4 @@ PairFamilies profile_families();
 std::vector<InputFamily<EllipsePair>> ellipse_families(double extreme_aspect = 1e6);
 std::vector<InputFamily<RawQuadric>> quadric_families();
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -6,7 +6,7 @@
 
 #include <tangency/verify/families/placing.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 std::span<const ContactFamily> contact_classes() {
   using F = ContactFamily;
@@ -55,4 +55,4 @@ ManufacturedContact drawn(Draw& draw, const ContactFamily& family) {
   return contact;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -11,7 +11,7 @@
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/families/pair.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// How shapes, sizes and gaps of a family are drawn.
 struct ContactFamily {
@@ -47,4 +47,4 @@ ManufacturedContact drawn(Draw& draw, const ContactFamily& family);
 
 using ManufacturedContacts = Sequence<ContactFamily>;
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

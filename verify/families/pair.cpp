@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 std::array<double, 3> triaxial_axes(Draw& draw, double shortest, double aspect) {
   std::array<double, 3> axes{shortest * aspect, shortest * draw.log_uniform(1, aspect), shortest};
@@ -27,4 +27,4 @@ double least_radii(const EllipsoidPair& pair) {
          least_axis(pair.b) * (least_axis(pair.b) / most_axis(pair.b));
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

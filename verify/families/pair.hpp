@@ -9,7 +9,7 @@
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct EllipsoidPair {
   RawEllipsoid a, b;
@@ -28,4 +28,4 @@ double least_axis(const EllipsoidPair& pair);
 /// rho, a_min^2 / a_max of both added: deeper overlaps may have other answers than the one placed.
 double least_radii(const EllipsoidPair& pair);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

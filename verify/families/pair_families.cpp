@@ -17,7 +17,7 @@
 #include <tangency/verify/families/manufactured.hpp>
 #include <tangency/verify/families/placing.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // What drawn() makes of a family that benchmarks and tests draw from as well.
@@ -201,4 +201,4 @@ PairFamilies pair_families(std::string_view corpus) {
   return deep();
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -5,7 +5,7 @@
 
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 Real3 drawn_direction(Draw& draw) {
   for (;;) {
@@ -32,4 +32,4 @@ Real place_b(EllipsoidPair& pair, const Real3& n, const Real& gap, const Real& s
   return left;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -9,7 +9,7 @@
 #include <tangency/verify/families/pair.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 inline double rounded(const Real& v) { return v.convert_to<double>(); }
 
@@ -21,4 +21,4 @@ Real3 drawn_direction(Draw& draw);
 /// curvature.
 Real place_b(EllipsoidPair& pair, const Real3& n, const Real& gap, const Real& share = 1);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

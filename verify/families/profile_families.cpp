@@ -9,7 +9,7 @@
 #include <tangency/verify/families/families.hpp>
 #include <tangency/verify/families/placing.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr double kOverlap = 0.02, kShortOverLong = 0.7;
@@ -83,4 +83,4 @@ PairFamilies profile_families() {
   return families;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -11,7 +11,7 @@
 #include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/families/families.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Matrix = std::array<std::array<std::int64_t, 4>, 4>;
@@ -124,4 +124,4 @@ std::vector<InputFamily<RawQuadric>> quadric_families() {
           family("beside a border", 200, beside_a_border), family("rounded", 100, rounded_image)};
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

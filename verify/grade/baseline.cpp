@@ -21,7 +21,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -151,4 +151,4 @@ Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& basel
   return result;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -16,7 +16,7 @@
 
 #include <tangency/verify/grade/report.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// Values by name.
 using Baseline = std::map<std::string, double>;
@@ -34,4 +34,4 @@ struct Comparison {
 /// `slack` >= 0 is a share of the baseline's error. Corpora that were not graded are left out.
 Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -88,4 +88,4 @@ CallGrade grade_calls(std::span<const std::optional<CallAnswer>> answers,
   return g;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -13,7 +13,7 @@
 
 #include <tangency/verify/grade/judge.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 // What is true of one pair.
 struct CallTruth {
@@ -57,4 +57,4 @@ struct CallGrade {
 CallGrade grade_calls(std::span<const std::optional<CallAnswer>> answers,
                       std::span<const CallTruth> truth);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -9,7 +9,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using tables::Column;
@@ -309,4 +309,4 @@ Grade grade(const TruthTable& truth, const std::string& answers, const Demands& 
   return grader.result();
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

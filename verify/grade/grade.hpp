@@ -32,7 +32,7 @@
 
 #include <tangency/verify/grade/judge.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct FamilyGrade {
   std::string name;
@@ -66,4 +66,4 @@ struct Demands {
 /// `answers` is a path. Never throws for what stands in it.
 Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

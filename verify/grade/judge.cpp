@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -78,4 +78,4 @@ NormalVerdict judge_normal(const TruthTable& truth, const TruthRow& row, const V
   return best;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -11,7 +11,7 @@
 
 #include <tangency/verify/answers/truth_table.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 inline constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
@@ -43,4 +43,4 @@ struct NormalVerdict {
 NormalVerdict judge_normal(const TruthTable& truth, const TruthRow& row,
                            const std::array<double, 3>& n);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -9,7 +9,7 @@
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/verify/grade/report.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
@@ -170,4 +170,4 @@ std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& t
   return page + "</body></html>\n";
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

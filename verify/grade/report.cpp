@@ -10,7 +10,7 @@
 
 #include <tangency/geometry/tables/number_text.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 std::string number(double value) { return tables::rounded_text(value, 2); }
@@ -234,4 +234,4 @@ std::string as_json(const std::vector<CorpusGrade>& grades) {
   return text + "\n]\n";
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

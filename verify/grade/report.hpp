@@ -10,7 +10,7 @@
 
 #include <tangency/verify/grade/grade.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct RunNote {
   bool sound;  ///< ended by itself
@@ -63,4 +63,4 @@ std::string as_json(const std::vector<CorpusGrade>& grades);
 std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& title,
                     const std::vector<std::string>& failures, const std::string& verdict);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace tangency::verify::cap {
+namespace tangency::inline v0::verify::cap {
 namespace {
 
 using ascent::dot;
@@ -191,4 +191,4 @@ bool holds_no_maximum(const Separation<Interval>& pair, const Point& at, double 
   return gradient.inf() > Interval(Interval(angle) * bend).sup();
 }
 
-}  // namespace tangency::verify::cap
+}  // namespace tangency::inline v0::verify::cap

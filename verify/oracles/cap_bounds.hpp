@@ -17,7 +17,7 @@
 
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify::cap {
+namespace tangency::inline v0::verify::cap {
 
 using Interval = CGAL::Interval_nt<false>;
 using Interval3 = std::array<Interval, 3>;
@@ -100,4 +100,4 @@ double least_radius(const Separation<Interval>& pair, const Point& at, double si
 /// (4): f has proven to have no maximum on the cap, whose angle is at most `angle`.
 bool holds_no_maximum(const Separation<Interval>& pair, const Point& at, double angle);
 
-}  // namespace tangency::verify::cap
+}  // namespace tangency::inline v0::verify::cap

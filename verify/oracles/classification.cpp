@@ -7,7 +7,7 @@
 
 #include <tangency/verify/oracles/inertia.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // The inertia of a form and of its negative are the same evidence: keep the one whose quadratic
@@ -79,4 +79,4 @@ Classification classify(const RawQuadric& quadric) {
   return {type_of(q4, q3), q4.rank(), q3.rank()};
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -17,7 +17,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 enum class QuadricType {
   real_ellipsoid,
@@ -55,4 +55,4 @@ struct Classification {
 /// Throws std::invalid_argument if a coefficient is not finite.
 Classification classify(const RawQuadric& quadric);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

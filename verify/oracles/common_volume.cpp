@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Digits80 = boost::multiprecision::number<
@@ -379,4 +379,4 @@ double common_volume_by_rays(const RawEllipsoid& a, const RawEllipsoid& b, int s
   return sum * step * step / 3.0;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -16,7 +16,7 @@
 #include <tangency/verify/oracles/plain_bodies.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct CommonVolumeTruth {
   Real volume;
@@ -31,4 +31,4 @@ CommonVolumeTruth common_volume(const RawEllipsoid& a, const RawEllipsoid& b);
 /// whose interiors meet: to some 10 / steps^2 of itself for moderate shapes.
 double common_volume_by_rays(const RawEllipsoid& a, const RawEllipsoid& b, int steps);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 template <class T, std::size_t N>
@@ -418,4 +418,4 @@ MarginTruth margin_truth(const RawEllipse& inner, const RawEllipse& outer) {
   return margin(nest(inner, outer));
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

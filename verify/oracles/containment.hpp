@@ -27,7 +27,7 @@
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// phi(n / |n|). n of any length but 0.
 Real clearance_at(const RawEllipsoid& inner, const RawEllipsoid& outer,
@@ -53,4 +53,4 @@ struct MarginTruth {
 MarginTruth margin_truth(const RawEllipsoid& inner, const RawEllipsoid& outer);
 MarginTruth margin_truth(const RawEllipse& inner, const RawEllipse& outer);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

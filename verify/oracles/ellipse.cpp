@@ -15,7 +15,7 @@
 #include <tangency/verify/oracles/inertia.hpp>
 #include <tangency/verify/oracles/square_free.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
@@ -342,4 +342,4 @@ Real common_area(const RawEllipse& a, const RawEllipse& b) {
   return ldexp(area, 2 * q.unit);
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

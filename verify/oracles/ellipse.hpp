@@ -24,7 +24,7 @@
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// The solid { centre + semi_axes[0] y_1 u/|u| + semi_axes[1] y_2 v/|u| : |y| <= 1 }, u =
 /// direction, v = u turned by a quarter. Requires finite numbers, semi-axes > 0 and u != 0.
@@ -75,4 +75,4 @@ struct PlaneGapTruth {
 PlaneGapTruth plane_gap_truth(const RawEllipse& a, const RawEllipse& b);
 Real plane_gap(const RawEllipse& a, const RawEllipse& b);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -10,7 +10,7 @@
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/quadrature.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
@@ -138,4 +138,4 @@ std::vector<std::array<double, 2>> ellipse_crossings_by_gsl(const RawEllipse& a,
   return points;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

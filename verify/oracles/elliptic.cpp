@@ -9,7 +9,7 @@
 #include <span>
 #include <stdexcept>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
@@ -92,4 +92,4 @@ double ellipsoid_surface(const std::array<double, 3>& semi_axes) {
   return 2 * kPi * g * r[2] * r[2];
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

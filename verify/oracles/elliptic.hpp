@@ -13,7 +13,7 @@
 
 #include <array>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// From 0 to pi/2, of (1 - m sin^2)^(-1/2), of (1 - m sin^2)^(1/2) and of sin^2 (1 - m
 /// sin^2)^(-1/2), each to 1e-15 of itself (D too where m is small, where (K - E) / m is not). Throw
@@ -37,4 +37,4 @@ JacobiElliptic jacobi_elliptic(double u, double m);
 double ellipse_perimeter(const std::array<double, 2>& semi_axes);
 double ellipsoid_surface(const std::array<double, 3>& semi_axes);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

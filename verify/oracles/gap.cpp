@@ -11,7 +11,7 @@
 #include <tangency/verify/oracles/gap_enclosure.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using ascent::cross;
@@ -253,4 +253,4 @@ GapTruth signed_gap(const RawEllipsoid& a, const RawEllipsoid& b) {
   return signed_gap(real(a), real(b));
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

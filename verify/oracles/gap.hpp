@@ -32,7 +32,7 @@
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct GapTruth {
   Real gap;
@@ -58,4 +58,4 @@ GapTruth signed_gap(const RawEllipsoid& a, const RawEllipsoid& b);
 /// marked so. Where normals tie along a curve some of them. Throws as above.
 std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

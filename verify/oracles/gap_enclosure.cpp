@@ -10,7 +10,7 @@
 #include <tangency/verify/oracles/cap_bounds.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using ascent::dot;
@@ -270,4 +270,4 @@ GapEnclosure gap_enclosure(const RawEllipsoid& a, const RawEllipsoid& b,
   return gap_enclosure(real(a), real(b), limits);
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

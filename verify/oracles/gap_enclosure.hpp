@@ -36,7 +36,7 @@
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct EnclosureLimits {
   double width = 0;                 ///< stop once upper - lower is no more; in the unit of length
@@ -66,4 +66,4 @@ GapEnclosure gap_enclosure(const RealEllipsoid& a, const RealEllipsoid& b,
 GapEnclosure gap_enclosure(const RawEllipsoid& a, const RawEllipsoid& b,
                            const EnclosureLimits& limits = {});
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // The block [from, size) has a zero diagonal; makes one of its diagonal entries nonzero by a
@@ -105,4 +105,4 @@ Inertia inertia(IntegerMatrix m, int size) {
   return result;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

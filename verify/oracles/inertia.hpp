@@ -12,7 +12,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// The integers m with values[i] = m[i] 2^exponent, for the largest exponent that keeps all of them
 /// integers. All zero: exponent 0.
@@ -46,4 +46,4 @@ struct Inertia {
 /// the entries minors of the (unimodularly transformed) matrix, so they do not grow beyond those.
 Inertia inertia(IntegerMatrix m, int size);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -20,7 +20,7 @@
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify::ascent {
+namespace tangency::inline v0::verify::ascent {
 
 template <class T>
 using Triple = std::array<T, 3>;
@@ -243,4 +243,4 @@ Arrival<T> ascend(const Separation<T>& pair, const Triple<T>& start, const T& to
   return {at, at.residual <= tolerance};
 }
 
-}  // namespace tangency::verify::ascent
+}  // namespace tangency::inline v0::verify::ascent

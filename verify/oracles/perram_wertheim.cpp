@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Rows = std::array<Real3, 3>;
@@ -149,4 +149,4 @@ std::optional<PerramWertheimTruth> perram_wertheim(const RawEllipsoid& a, const 
   return perram_wertheim(real(a), real(b));
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

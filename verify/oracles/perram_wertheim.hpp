@@ -15,7 +15,7 @@
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 struct DefinedGap {
   Real gap;
@@ -39,4 +39,4 @@ struct PerramWertheimTruth {
 std::optional<PerramWertheimTruth> perram_wertheim(const RealEllipsoid& a, const RealEllipsoid& b);
 std::optional<PerramWertheimTruth> perram_wertheim(const RawEllipsoid& a, const RawEllipsoid& b);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// The solid { centre + R(q/|q|) diag(semi_axes) u : |u| <= 1 }. Requires finite numbers, semi-axes
 /// > 0 in any order and q != 0; q = (w, x, y, z) need not be normalised and means R(q/|q|) exactly.
@@ -22,4 +22,4 @@ struct RawQuadric {
   double A, B, C, D, E, F, G, H, J, K;
 };
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

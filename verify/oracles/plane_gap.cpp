@@ -9,7 +9,7 @@
 
 #include <tangency/verify/oracles/ellipse.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 // Support function of one body, its derivative along the tangent, and its radius of curvature.
@@ -192,4 +192,4 @@ PlaneGapTruth plane_gap_truth(const RawEllipse& a, const RawEllipse& b) {
 
 Real plane_gap(const RawEllipse& a, const RawEllipse& b) { return plane_gap_truth(a, b).gap; }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Vector = Vector120;
@@ -165,4 +165,4 @@ Digits120 plane_distance(const RawEllipse& body, const std::array<double, 2>& po
   return w1 * w1 + w2 * w2 < 1 ? Digits120(-distance) : distance;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

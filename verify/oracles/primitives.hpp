@@ -20,7 +20,7 @@
 #include <tangency/verify/oracles/ellipse.hpp>
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 using Digits120 = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<120>,
                                                 boost::multiprecision::et_off>;
@@ -55,4 +55,4 @@ WallTruth wall(const RawEllipsoid& body, const std::array<double, 3>& normal, do
 /// The signed distance of a point from an ellipse in the plane, < 0 inside.
 Digits120 plane_distance(const RawEllipse& body, const std::array<double, 2>& point);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 double integral(const std::function<double(double)>& f, double from, double to) {
   constexpr std::size_t kMostIntervals = 1000;
@@ -31,4 +31,4 @@ double integral(const std::function<double(double)>& f, double from, double to) 
   return value;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// The integral of f from `from` to `to`, both finite, to 1e-11 of itself (or to 1e-14 where it is
 /// next to nothing), by the adaptive Gauss-Kronrod rule with extrapolation, for which ends may be
@@ -13,4 +13,4 @@ namespace tangency::verify {
 /// several threads: GSL's error handler, which would end the program, is put aside meanwhile.
 double integral(const std::function<double(double)>& f, double from, double to);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

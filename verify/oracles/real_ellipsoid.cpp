@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 void require_ellipsoid(const RealEllipsoid& body) {
@@ -55,4 +55,4 @@ Separation<Real> separation(const RealEllipsoid& a, const RealEllipsoid& b) {
   return result;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -10,7 +10,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// MPFR, 150 decimal digits, round to nearest, no overflow within reach of doubles. Chosen: 50
 /// digits more than are promised, for the shapes, sizes and depths that take some away.
@@ -46,4 +46,4 @@ struct Separation {
 /// R(q/|q|) and d to 149 digits of themselves. Throws std::invalid_argument as real() does.
 Separation<Real> separation(const RealEllipsoid& a, const RealEllipsoid& b);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -22,7 +22,7 @@
 #include <tangency/verify/oracles/square_free.hpp>
 #include <tangency/verify/oracles/witness_guess.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
@@ -374,4 +374,4 @@ ExactRelation exact_relation_by_pencil(const RawQuadric& a, const RawQuadric& b)
   return PencilWalk(ellipsoid_matrix(a), ellipsoid_matrix(b)).relation();
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -41,7 +41,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 enum class Relation {
   separate,        ///< no common point
@@ -80,4 +80,4 @@ ExactRelation exact_relation_by_pencil(const RawEllipsoid& a, const RawEllipsoid
 /// std::invalid_argument unless both are real ellipsoids.
 ExactRelation exact_relation_by_pencil(const RawQuadric& a, const RawQuadric& b);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 void trim(IntegerPolynomial& p) {
@@ -108,4 +108,4 @@ DistinctRoots distinct_roots(const IntegerPolynomial& p) {
   return {quotient(p, repeated), quotient(repeated, with_derivative(repeated))};
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// Coefficients from the constant upwards, the last one not 0. Empty: the zero polynomial.
 using IntegerPolynomial = std::vector<mpz_class>;
@@ -26,4 +26,4 @@ struct DistinctRoots {
 /// Requires p not zero.
 DistinctRoots distinct_roots(const IntegerPolynomial& p);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Triple = std::array<double, 3>;
@@ -321,4 +321,4 @@ FirstContact first_contact(const MovingBody& a, const MovingBody& b, double hori
   return Search(a, b).run(horizon, resolution);
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -17,7 +17,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 /// With E(t) = exp(t [w]x): centre(t) = centre + t v + (E(t) - 1) r and R(t) = E(t) R(0); radians.
 struct RawMotion {
@@ -46,4 +46,4 @@ struct FirstContact {
 FirstContact first_contact(const MovingBody& a, const MovingBody& b, double horizon,
                            double resolution);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

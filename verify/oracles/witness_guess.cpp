@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 using Form = std::array<Point, 3>;
@@ -136,4 +136,4 @@ std::optional<Point> guess_protruding_point(const ApproximateBody& body,
   return std::nullopt;
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -13,7 +13,7 @@
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 using Point = std::array<long double, 3>;
 
@@ -48,4 +48,4 @@ Guess guess_member(const ApproximateBody& a, const ApproximateBody& b, int sign_
 std::optional<Point> guess_protruding_point(const ApproximateBody& body,
                                             const ApproximateBody& other);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

@@ -5,7 +5,7 @@
 
 #include <tangency/geometry/tables/command_line.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 
 enum ExitStatus : int {
   passed = 0,
@@ -15,4 +15,4 @@ enum ExitStatus : int {
 void add_generate(tables::Program& program);
 void add_grade(tables::Program& program);
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

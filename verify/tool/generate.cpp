@@ -10,7 +10,7 @@
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr const char* kHelp = R"(
@@ -88,4 +88,4 @@ void add_generate(tables::Program& program) {
   });
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

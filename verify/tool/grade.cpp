@@ -21,7 +21,7 @@
 #include <tangency/verify/grade/report.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 namespace fs = std::filesystem;
@@ -354,4 +354,4 @@ void add_grade(tables::Program& program) {
   });
 }
 
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify

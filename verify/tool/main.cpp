@@ -2,7 +2,7 @@
 #include <tangency/verify/tool/command_line.hpp>
 #include <tangency/version.hpp>
 
-namespace tangency::verify {
+namespace tangency::inline v0::verify {
 namespace {
 
 constexpr const char* kProgramDescription =
@@ -20,7 +20,7 @@ Exit status:
 )";
 
 }  // namespace
-}  // namespace tangency::verify
+}  // namespace tangency::inline v0::verify
 
 int main(int argc, char** argv) {
   using namespace tangency::verify;
