@@ -18,15 +18,22 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
+    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()), rows_(bodies.size()) {
+  in_default_environment([&] {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      detail::fill(lanes_[i], bodies[i]);
+      detail::fill(shapes_[i], bodies[i]);
+    }
+    detail::fill(rows_.data(), bodies.data(), bodies.size());
+  });
 }
 BodyArray::~BodyArray() = default;
 BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
-      shapes_(std::move(other.shapes_)) {}
+      shapes_(std::move(other.shapes_)),
+      rows_(std::move(other.rows_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   BodyArray taken(std::move(other));
@@ -34,6 +41,7 @@ BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
   std::swap(shapes_, taken.shapes_);
+  std::swap(rows_, taken.rows_);
   return *this;
 }
 
@@ -42,6 +50,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
     detail::fill(shapes_[i], bodies_[i]);
+    detail::fill(&rows_[i], &bodies_[i], 1);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/batch/pair_task.hpp>
@@ -17,6 +18,7 @@ namespace tangency::inline v0 {
 namespace {
 
 using detail::kBlock;
+using detail::OpenPairs;
 using detail::PairTask;
 using detail::Workspace;
 
@@ -78,8 +80,9 @@ struct ToColumns {
     copy(work.arm_b, to.arm_b);
   }
 
-  void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    write(task, i, task.single(i, previous_normal));
+  void lane(const PairTask& task, std::size_t i, const Gap& gap) const { write(task, i, gap); }
+  void single(const PairTask& task, std::size_t i, const std::optional<Vec3>& previous_normal) const {
+    write(task, i, task.single(i, previous_normal ? &*previous_normal : nullptr));
   }
 
   void write(const PairTask& task, std::size_t i, const Gap& gap) const {
@@ -112,7 +115,11 @@ struct ToBounded {
     columns.lanes(task, work, first, count);
     if (!above.empty()) std::copy_n(work.block.gap_error, count, &above[first]);
   }
-  void single(const PairTask& task, std::size_t i, const Vec3*) const {
+  void lane(const PairTask& task, std::size_t i, const Gap& gap) const {
+    columns.write(task, i, gap);
+    if (!above.empty()) above[i] = gap.gap_error;
+  }
+  void single(const PairTask& task, std::size_t i, const std::optional<Vec3>&) const {
     const BoundedGap gap = task.bounded(i);
     columns.write(task, i, gap);
     if (!above.empty()) above[i] = gap.above;
@@ -129,31 +136,57 @@ struct ToGaps {
                        work.gap_error[i], GapStatus::ok,  GapTier::fast};
     }
   }
-  void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    to[i] = task.single(i, previous_normal);
+  void lane(const PairTask&, std::size_t i, const Gap& gap) const { to[i] = gap; }
+  void single(const PairTask& task, std::size_t i, const std::optional<Vec3>& previous_normal) const {
+    to[i] = task.single(i, previous_normal ? &*previous_normal : nullptr);
   }
 };
 
-/// Pairs first to last.
+/// What the lanes left of open pairs go to the single call.
+template <class Write>
+void answer_open(const PairTask& task, const Write& write, OpenPairs& open) {
+  if (open.count == 0) return;
+  open.complete(task);
+  Workspace& work = open.work;
+  const std::uint64_t settled = detail::gap_lanes(work.block);
+  for (std::size_t k = 0; k < open.count; ++k) {
+    const std::size_t i = open.place[k];
+    if ((settled >> k & 1) != 0) {
+      const bool local = (work.block.local >> k & 1) != 0;
+      write.lane(task, i,
+                 {work.gap[k], work.normal[k], work.arm_a[k], work.arm_b[k], work.gap_error[k],
+                  local ? GapStatus::local : GapStatus::ok, GapTier::fast});
+    } else {
+      write.single(task, i, work.previous_normal(k));
+    }
+  }
+  open.count = 0;
+}
+
 template <class Write>
 void run_here(const PairTask& task, const Write& write, std::size_t begin, std::size_t end) {
   Workspace work;
+  OpenPairs open;
   for (std::size_t first = begin; first < end; first += kBlock) {
     const std::size_t count = std::min(kBlock, end - first);
     if (task.indexed()) task.require_indices(first, count);
     gather(task, first, count, work);
     write.aim(work, first, count);
-    std::uint64_t open = ~detail::gap_lanes(work.block);
-    if (count < kBlock) open &= (std::uint64_t{1} << count) - 1;
+    std::uint64_t left =
+        ~(task.polish ? detail::gap_lanes(work.block) : detail::mixed_gap_lanes(work.block));
+    if (count < kBlock) left &= (std::uint64_t{1} << count) - 1;
     write.lanes(task, work, first, count);
-    for (; open != 0; open &= open - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(open));
-      Vec3 previous = Vec3::Zero();
-      if (work.block.normals != nullptr) previous = Vec3::Map(work.block.normals + 3 * i);
-      const Vec3* const given = task.previous_normals != nullptr ? &previous : nullptr;
-      write.single(task, first + i, given);
+    for (; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (task.polish) {
+        write.single(task, first + i, work.previous_normal(i));
+      } else {
+        open.add(work, first, i);
+        if (open.full()) answer_open(task, write, open);
+      }
     }
   }
+  answer_open(task, write, open);
 }
 
 template <class Write>

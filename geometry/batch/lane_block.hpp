@@ -28,6 +28,16 @@ struct alignas(64) LaneShape {
 };
 static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 64);
 
+/// A body as the first tier of the gap reads it.
+struct alignas(32) ShapeRow {
+  double centre[3];
+  double largest;       ///< as LaneBody's, here and below
+  double least_radius;
+  double reach;     ///< of the matrix of |M_ij|: its largest sum of a row, rounded up
+  double shape[6];  ///< xx yy zz yz zx xy of M, each rounded once: (N)
+};
+static_assert(sizeof(ShapeRow) == 12 * sizeof(double));
+
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 
@@ -44,6 +54,8 @@ struct LaneBlock {
   const LaneBody* bodies_b;
   const LaneShape* shapes_a;  ///< the same bodies; read by overlap_lanes() in place of the others
   const LaneShape* shapes_b;
+  const ShapeRow* rows_a;  ///< the same bodies; read by mixed_gap_lanes() alone
+  const ShapeRow* rows_b;
   const IndexedPair* pairs;
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;

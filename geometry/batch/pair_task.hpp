@@ -25,6 +25,7 @@ struct PairTask {
   const BodyArray* bodies = nullptr;     ///< null: moving bodies or plain pairs
   const MovingBodies* moving = nullptr;  ///< null: the bodies above or plain pairs
   const LaneBody* lanes = nullptr;       ///< of the bodies
+  const ShapeRow* rows = nullptr;        ///< of the bodies
   std::size_t body_count = 0;
   const IndexedPair* pairs = nullptr;
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
@@ -81,11 +82,31 @@ struct Workspace {
   IndexedPair pairs[kBlock];
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
+  ShapeRow rows_a[kBlock], rows_b[kBlock];
   double gap[kBlock], gap_error[kBlock];
   Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
 
+  /// None where all are asked afresh.
+  std::optional<Vec3> previous_normal(std::size_t i) const noexcept {
+    if (block.normals == nullptr) return std::nullopt;
+    return Vec3::Map(block.normals + 3 * i);
+  }
   /// The answers are to stand here.
   void take_answers() noexcept;
+};
+
+/// Pairs that the first tier left open, wherever they stand in the list, until there are a block of
+/// them for the next.
+struct OpenPairs {
+  Workspace work;
+  std::size_t place[kBlock];  ///< of each in the list
+  std::size_t count = 0;
+
+  bool full() const noexcept { return count == kBlock; }
+  /// Pair i of a block that begins with pair `first`.
+  void add(const Workspace& from, std::size_t first, std::size_t i) noexcept;
+  /// Ready for the lanes, which are to answer here. count is at least 1.
+  void complete(const PairTask& task) noexcept;
 };
 
 /// Pairs first to first + count as the lanes read them, count at most kBlock and at least 1.
