@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -24,7 +25,7 @@ BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
       detail::fill(lanes_[i], bodies[i]);
       detail::fill(shapes_[i], bodies[i]);
     }
-    detail::fill(rows_.data(), bodies.data(), bodies.size());
+    detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
   });
 }
 BodyArray::~BodyArray() = default;
@@ -50,7 +51,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
     detail::fill(shapes_[i], bodies_[i]);
-    detail::fill(&rows_[i], &bodies_[i], 1);
+    detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
   });
 }
 

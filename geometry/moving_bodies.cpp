@@ -18,6 +18,9 @@ namespace {
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quaternion) == 4 * sizeof(double),
               "the lanes read the columns as numbers");
 
+// Bodies whose rows of one kind are still near when those of the other are made. Chosen.
+constexpr std::size_t kNear = 64;
+
 /// Is there a body in every place of the range?
 void require_range(const char* call, std::size_t first, std::size_t count, std::size_t size) {
   if (first > size || count > size - first) contract::no_body(call, std::max(first, size), size);
@@ -112,16 +115,15 @@ void MovingBodies::refresh(std::size_t first, std::size_t last) noexcept {
 void MovingBodies::fill(std::size_t first, std::size_t count) noexcept {
   if (count == 0) return;
   in_default_environment([&] {
-    const double* const axes = semi_axes_[first].data();
-    const double* const turns = orientations_[first].coeffs().data();
-    detail::fill_moving_lanes(axes, turns, count, lanes_.data() + first);
-    detail::fill_shape_rows(axes, turns, count, rows_.data() + first);
+    for (std::size_t i = first; i < first + count; i += kNear) {
+      const std::size_t some = std::min(kNear, first + count - i);
+      detail::LaneBody* const to = lanes_.data() + i;
+      detail::fill_moving_lanes(semi_axes_[i].data(), orientations_[i].coeffs().data(), some, to);
+      for (std::size_t k = 0; k < some && !centres_.empty(); ++k)
+        std::copy_n(centres_[i + k].data(), 3, to[k].centre);
+      detail::fill_shape_rows(to, some, rows_.data() + i);
+    }
   });
-  if (centres_.empty()) return;
-  for (std::size_t i = first; i < first + count; ++i) {
-    std::copy_n(centres_[i].data(), 3, lanes_[i].centre);
-    std::copy_n(centres_[i].data(), 3, rows_[i].centre);
-  }
 }
 
 void MovingBodies::look_at_own() noexcept {

@@ -4,11 +4,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 
 #include <tangency/geometry/batch/lane_block.hpp>
-#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::inline v0::detail {
@@ -26,22 +24,6 @@ inline void fill(LaneBody& lane, const Ellipsoid& body) {
   }
   lane.largest = largest_if_moderate(body);
   lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
-}
-
-/// The rows of bodies for the first tier of the gap.
-inline void fill(ShapeRow* rows, const Ellipsoid* bodies, std::size_t count) {
-  constexpr std::size_t kSome = 64;  // chosen: what is copied stays near
-  double axes[3 * kSome], turns[4 * kSome];
-  for (std::size_t first = 0; first < count; first += kSome) {
-    const std::size_t some = std::min(kSome, count - first);
-    for (std::size_t i = 0; i < some; ++i) {
-      std::copy_n(bodies[first + i].semi_axes().data(), 3, axes + 3 * i);
-      std::copy_n(bodies[first + i].orientation().coeffs().data(), 4, turns + 4 * i);
-    }
-    fill_shape_rows(axes, turns, some, rows + first);
-    for (std::size_t i = 0; i < some; ++i)
-      std::copy_n(bodies[first + i].centre().data(), 3, rows[first + i].centre);
-  }
 }
 
 /// The row of a body for the yes/no question.

@@ -31,7 +31,7 @@ static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 
 /// A body as the first tier of the gap reads it.
 struct alignas(32) ShapeRow {
   double centre[3];
-  double largest;       ///< as LaneBody's, here and below
+  double largest;       ///< as LaneBody's, or NaN
   double least_radius;
   double reach;     ///< of the matrix of |M_ij|: its largest sum of a row, rounded up
   double shape[6];  ///< xx yy zz yz zx xy of M, each rounded once: (N)

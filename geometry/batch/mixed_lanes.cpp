@@ -218,7 +218,7 @@ HWY_INLINE std::uint64_t certify(const LaneBlock& block, MixedColumns& work, std
                       load(work.size, i),         load(work.tolerance, i)};
   const FloatVec3 delta =
       (load(work.adjugate, i) * at.rest) * load(work.inverse_determinant, i);
-  const FloatProof proof = prove(at, delta, block.centres_are_exact);
+  const FloatProof proof = prove(at, delta, block.centres_are_exact, block.factor_error);
   const Pack unit = load(work.unit, i);
   if (block.gap != nullptr)
     store(multiply_add(to_double(proof.beyond), unit, load(work.value, i)), block.gap + i);

@@ -19,7 +19,7 @@ namespace {
 
 // (V'), over u: of q/h, of the semi-axes and of |gap|; of the last two more where the separation is
 // that of the centres, exactly.
-constexpr double kOfReachOverH = 3.55, kOfAxes = 4.2, kOfValue = 9.1, kOfCentres = 1.02;
+constexpr double kOfReachOverH = 3.55, kOfAxes = 7.6, kOfValue = 9.1, kOfCentres = 1.02;
 // (R'), over u.
 constexpr double kOfRest = 8.0;
 // (E): of T |delta| in e, and of T |delta|^2 in the value.
@@ -63,7 +63,8 @@ HWY_INLINE FloatVec3 bend(const FloatBody& body, const FloatVec3& v) {
 }
 
 /// (Q): the value at n + step and how far the maximum is above it.
-HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool centres_are_exact) {
+HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool centres_are_exact,
+                            double factor_error) {
   const auto c = [](double x) HWY_ATTR { return all<FloatPack>(x); };
   const FloatPack size = absolute(at.gap);
   const FloatVec3 left =
@@ -83,7 +84,7 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
   const FloatPack value_error =
       c(kUnitRoundoff) *
       multiply_add(c(kOfReachOverH), over_h,
-                   multiply_add(c(kOfAxes + more), axes, c(kOfValue + more) * size));
+                   multiply_add(c(kOfAxes + factor_error + more), axes, c(kOfValue + more) * size));
   const FloatPack step_error =
       step2 * multiply_add(c(kThird) * length, cubes,
                            multiply_add(c(kFourth) * step2, size, c(kOfStep) * most));
@@ -109,7 +110,7 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
                              (absolute(along) <= c(kAlong)) & (thin <= c(kThinnest));
   const FloatPack doubt = multiply_add(c(kOfFloatSum), size + absolute(beyond), error);
   const FloatMask settled = in_reach & (ball > c(0.0)) & (absolute(answer) > doubt) &
-                            (error <= within(kLaneErrorBound));
+                            (error <= within(kLaneErrorBound + factor_error));
   return {beyond, error, settled, settled & (half + half <= within(kWorthAnother))};
 }
 

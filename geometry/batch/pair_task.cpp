@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -249,8 +250,8 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
       fill(work.plain_a[i], task.plain_a[first + i]);
       fill(work.plain_b[i], task.plain_b[first + i]);
     }
-    fill(work.rows_a, task.plain_a + first, count);
-    fill(work.rows_b, task.plain_b + first, count);
+    fill_shape_rows(work.plain_a, count, work.rows_a);
+    fill_shape_rows(work.plain_b, count, work.rows_b);
   }
   aim(task, block);
   block.separations = nullptr;
