@@ -81,6 +81,10 @@ struct LaneBlock {
   bool branches;
 
   std::uint64_t local;  ///< answer: bit i, pair i is settled as the value of its branch alone
+  // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and may
+  // this tier itself settle the pair from there?
+  std::uint64_t nearer, promising;
+  double* nearer_normals;  ///< x y z of each; read by no lane
   double* gap;          ///< null, here and below: not wanted
   double* gap_error;
   double* normal;  ///< x y z of each

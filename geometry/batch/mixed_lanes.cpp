@@ -132,12 +132,14 @@ HWY_INLINE FloatVec3 perram_wertheim_normal(const MixedColumns& work, std::size_
   return normalised(direction * rough_inverse(largest_component(direction)));
 }
 
+HWY_INLINE FloatMask every_lane() { return all<FloatPack>(0.0) <= all<FloatPack>(0.0); }
+
 /// Where the search starts.
 /// @return  lanes that have no normal of a moment ago
 HWY_INLINE FloatMask first_normal(const LaneBlock& block, MixedColumns& work, std::size_t i) {
   if (block.normals == nullptr) {
     store(perram_wertheim_normal(work, i), work.start, i);
-    return all<FloatPack>(0.0) <= all<FloatPack>(0.0);
+    return every_lane();
   }
   const FloatVec3 previous = to_float(load_vectors(block.normals + 3 * i));
   FloatVec3 start = normalised(previous);
@@ -212,7 +214,7 @@ HWY_INLINE FloatBody load_body(const FloatBodyColumns& from, std::size_t i) {
 
 /// The last step, in float, and what it proves.
 /// @return  settled lanes
-HWY_INLINE std::uint64_t certify(const LaneBlock& block, MixedColumns& work, std::size_t i) {
+HWY_INLINE std::uint64_t certify(LaneBlock& block, MixedColumns& work, std::size_t i) {
   const FloatPoint at{load_body(work.float_a, i), load_body(work.float_b, i), load(work.start, i),
                       load(work.rest, i),         load(work.gap, i),          load(work.radii, i),
                       load(work.size, i),         load(work.tolerance, i)};
@@ -229,7 +231,13 @@ HWY_INLINE std::uint64_t certify(const LaneBlock& block, MixedColumns& work, std
   const PackVec3 n = m * inverse;
   store(n, work.normal, i);
   if (block.normal != nullptr) store(n, block.normal + 3 * i);
-  return bits(proof.best);
+  const std::uint64_t settled = bits(proof.settled);
+  if (settled != bits(every_lane())) {
+    store(n, block.nearer_normals + 3 * i);
+    block.nearer |= bits(without(proof.nearer, proof.settled)) << i;
+    block.promising |= bits(without(proof.promising, proof.settled)) << i;
+  }
+  return settled;
 }
 
 /// Support points of the normals that are answered, by the factors.
@@ -246,17 +254,16 @@ HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
   load_rows_of(block.rows_a, block.pairs, &IndexedPair::a, work.a);
   load_rows_of(block.rows_b, block.pairs, &IndexedPair::b, work.b);
   for (std::size_t i = 0; i < kPairs; i += lanes) scale(block, work, i);
-  const FloatMask every = all<FloatPack>(0.0) <= all<FloatPack>(0.0);
   if (block.normals == nullptr) {
     for (std::size_t i = 0; i < kPairs; i += lanes) first_normal(block, work, i);
-    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every);
+    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
   } else {
     for (std::size_t i = 0; i < kPairs; i += lanes) {
       const FloatMask fresh = first_normal(block, work, i);
       if (!none(fresh)) step(work, i, fresh);
     }
   }
-  for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every);
+  for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
   for (std::size_t i = 0; i < kPairs; i += lanes) evaluate(work, i);
   std::uint64_t settled = 0;
   for (std::size_t i = 0; i < count; i += lanes) settled |= certify(block, work, i) << i;
@@ -276,7 +283,7 @@ HWY_EXPORT(mixed_gap_lanes);
 }  // namespace
 
 std::uint64_t mixed_gap_lanes(LaneBlock& block) noexcept {
-  block.local = 0;
+  block.local = block.nearer = block.promising = 0;
   return HWY_DYNAMIC_DISPATCH(mixed_gap_lanes)(block);
 }
 

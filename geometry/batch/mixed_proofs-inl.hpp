@@ -52,8 +52,9 @@ struct FloatPoint {
 struct FloatProof {
   FloatPack beyond;  ///< to be added to the value: it is then in the middle of what is proven
   FloatPack error;
-  FloatMask settled;
-  FloatMask best;
+  FloatMask settled;    ///< and no better normal would make `error` much smaller
+  FloatMask nearer;     ///< does the step lead to where it can be trusted?
+  FloatMask promising;  ///< nearer, and the value is good enough where the step is small enough
 };
 
 /// (Hess h) v
@@ -109,9 +110,11 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
   const FloatMask in_reach = (thin * length <= c(kTurnOfBody)) & (step2 <= c(kTurn2)) &
                              (absolute(along) <= c(kAlong)) & (thin <= c(kThinnest));
   const FloatPack doubt = multiply_add(c(kOfFloatSum), size + absolute(beyond), error);
-  const FloatMask settled = in_reach & (ball > c(0.0)) & (absolute(answer) > doubt) &
-                            (error <= within(kLaneErrorBound + factor_error));
-  return {beyond, error, settled, settled & (half + half <= within(kWorthAnother))};
+  const FloatPack most_error = within(kLaneErrorBound + factor_error);
+  const FloatMask nearer = in_reach & (ball > c(0.0));
+  const FloatMask settled = nearer & (absolute(answer) > doubt) & (error <= most_error) &
+                            (half + half <= within(kWorthAnother));
+  return {beyond, error, settled, nearer, nearer & (value_error < most_error)};
 }
 
 }  // namespace

@@ -186,19 +186,23 @@ void PairTask::name_outside(std::size_t first, std::size_t n) const noexcept {
   std::abort();  // never: the caller saw one
 }
 
-void OpenPairs::add(const Workspace& from, std::size_t first, std::size_t i) noexcept {
+void OpenPairs::add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
+                    const Vec3& start) noexcept {
   const LaneBlock& block = from.block;
-  place[count] = first + i;
+  place[count] = at;
+  previous[count] = given;
+  work.normals[count] = start;
   work.pairs[count] = block.pairs[i];
   if (block.bodies_a == from.plain_a) {
     const auto here = static_cast<std::uint32_t>(count);
     work.pairs[count] = {here, here};
     work.plain_a[count] = from.plain_a[i];
     work.plain_b[count] = from.plain_b[i];
+    work.rows_a[count] = from.rows_a[i];
+    work.rows_b[count] = from.rows_b[i];
   }
   if (block.separations != nullptr)
     work.separations[count] = Vec3::Map(block.separations + 3 * i);
-  if (block.normals != nullptr) work.normals[count] = Vec3::Map(block.normals + 3 * i);
   ++count;
 }
 
@@ -209,9 +213,12 @@ void OpenPairs::complete(const PairTask& task) noexcept {
   block.next_pairs = nullptr;
   block.bodies_a = task.indexed() ? task.lanes : work.plain_a;
   block.bodies_b = task.indexed() ? task.lanes : work.plain_b;
+  block.rows_a = task.indexed() ? task.rows : work.rows_a;
+  block.rows_b = task.indexed() ? task.rows : work.rows_b;
   block.pairs = work.pairs;
   block.separations = task.separations != nullptr ? work.separations[0].data() : nullptr;
-  block.normals = task.previous_normals != nullptr ? work.normals[0].data() : nullptr;
+  block.normals = work.normals[0].data();
+  block.nearer_normals = work.nearer_normals[0].data();
   std::fill(work.pairs + count, work.pairs + kBlock, work.pairs[0]);
   std::fill(work.separations + count, work.separations + kBlock, work.separations[0]);
   std::fill(work.normals + count, work.normals + kBlock, work.normals[0]);
@@ -230,6 +237,7 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
+  block.nearer_normals = work.nearer_normals[0].data();
   if (task.indexed()) {
     block.bodies_a = block.bodies_b = task.lanes;
     block.rows_a = block.rows_b = task.rows;

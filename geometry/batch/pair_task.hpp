@@ -83,28 +83,30 @@ struct Workspace {
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
   ShapeRow rows_a[kBlock], rows_b[kBlock];
+  Vec3 nearer_normals[kBlock];
   double gap[kBlock], gap_error[kBlock];
   Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
 
-  /// None where all are asked afresh.
-  std::optional<Vec3> previous_normal(std::size_t i) const noexcept {
-    if (block.normals == nullptr) return std::nullopt;
-    return Vec3::Map(block.normals + 3 * i);
+  /// Where the search of a pair starts; 0 is anywhere.
+  Vec3 start(std::size_t i) const noexcept {
+    return block.normals != nullptr ? Vec3(Vec3::Map(block.normals + 3 * i)) : Vec3(Vec3::Zero());
   }
   /// The answers are to stand here.
   void take_answers() noexcept;
 };
 
-/// Pairs that the first tier left open, wherever they stand in the list, until there are a block of
-/// them for the next.
+/// Pairs that lanes left open, wherever they stand in the list, until there are a block of them.
 struct OpenPairs {
   Workspace work;
   std::size_t place[kBlock];  ///< of each in the list
+  Vec3 previous[kBlock];      ///< normals that the caller gave
   std::size_t count = 0;
 
   bool full() const noexcept { return count == kBlock; }
-  /// Pair i of a block that begins with pair `first`.
-  void add(const Workspace& from, std::size_t first, std::size_t i) noexcept;
+  /// Pair i of a block. The search starts at `start`.
+  /// @param at  its place in the list
+  void add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
+           const Vec3& start) noexcept;
   /// Ready for the lanes, which are to answer here. count is at least 1.
   void complete(const PairTask& task) noexcept;
 };
