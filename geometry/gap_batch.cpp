@@ -154,14 +154,15 @@ class Run {
       if (task_.indexed()) task_.require_indices(first, count);
       gather(task_, first, count, work_);
       write_.aim(work_, first, count);
-      const std::uint64_t settled =
-          task_.polish ? detail::gap_lanes(work_.block) : detail::mixed_gap_lanes(work_.block);
+      std::uint64_t settled = task_.polish ? 0 : detail::mixed_gap_lanes(work_.block);
+      const bool by_doubles = task_.polish || !work_.block.within_float;
+      if (by_doubles) settled = detail::gap_lanes(work_.block);
       write_.lanes(task_, work_, first, count);
       std::uint64_t left = ~settled;
       if (count < kBlock) left &= (std::uint64_t{1} << count) - 1;
       for (; left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        if (task_.polish)
+        if (by_doubles)
           single(first + i, work_.start(i));
         else
           hand_on(work_, i, first + i, work_.start(i), again_);
@@ -211,6 +212,7 @@ class Run {
 
   void answer_again() {
     again_.complete(task_);
+    again_.work.block.followed_steps = 2;  // one was not enough
     answer(again_, detail::mixed_gap_lanes(again_.work.block), [&](std::size_t k) {
       hand_on(again_.work, k, again_.place[k], again_.previous[k], again_);
     });
@@ -218,7 +220,6 @@ class Run {
 
   void answer_open() {
     open_.complete(task_);
-    if (!open_.work.block.branches) open_.work.block.followed_steps = 0;  // it was stepped to
     answer(open_, detail::gap_lanes(open_.work.block),
            [&](std::size_t k) { single(open_.place[k], open_.previous[k]); });
   }

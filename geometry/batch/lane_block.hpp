@@ -84,6 +84,7 @@ struct LaneBlock {
   // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and may
   // this tier itself settle the pair from there?
   std::uint64_t nearer, promising;
+  bool within_float;  ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
   double* nearer_normals;  ///< x y z of each; read by no lane
   double* gap;          ///< null, here and below: not wanted
   double* gap_error;

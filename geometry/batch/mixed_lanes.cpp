@@ -93,7 +93,8 @@ HWY_INLINE FloatSymmetric3 to_float(const PackSymmetric3& s) {
 }
 
 /// The bodies in float, in the unit of the pair.
-HWY_INLINE void scale(const LaneBlock& block, MixedColumns& work, std::size_t i) {
+/// @return  is any of them one that this tier may settle?
+HWY_INLINE bool scale(const LaneBlock& block, MixedColumns& work, std::size_t i) {
   const PackVec3 d = block.separations != nullptr
                          ? load_vectors(block.separations + 3 * i)
                          : load(work.b.centre, i) - load(work.a.centre, i);
@@ -118,6 +119,7 @@ HWY_INLINE void scale(const LaneBlock& block, MixedColumns& work, std::size_t i)
   store(to_float(multiply_add(all(block.tolerance_of_size), size * unit.inverse,
                               all(block.tolerance) * unit.inverse)),
         work.tolerance, i);
+  return !none(in_range);
 }
 
 HWY_INLINE FloatVec3 perram_wertheim_normal(const MixedColumns& work, std::size_t i) {
@@ -253,7 +255,9 @@ HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
   const std::size_t lanes = pack_lanes(), count = static_cast<std::size_t>(block.count);
   load_rows_of(block.rows_a, block.pairs, &IndexedPair::a, work.a);
   load_rows_of(block.rows_b, block.pairs, &IndexedPair::b, work.b);
-  for (std::size_t i = 0; i < kPairs; i += lanes) scale(block, work, i);
+  block.within_float = false;
+  for (std::size_t i = 0; i < kPairs; i += lanes) block.within_float |= scale(block, work, i);
+  if (!block.within_float) return 0;
   if (block.normals == nullptr) {
     for (std::size_t i = 0; i < kPairs; i += lanes) first_normal(block, work, i);
     for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
@@ -263,7 +267,8 @@ HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
       if (!none(fresh)) step(work, i, fresh);
     }
   }
-  for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
+  for (int k = 0; k < block.followed_steps; ++k)
+    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
   for (std::size_t i = 0; i < kPairs; i += lanes) evaluate(work, i);
   std::uint64_t settled = 0;
   for (std::size_t i = 0; i < count; i += lanes) settled |= certify(block, work, i) << i;

@@ -31,6 +31,8 @@ constexpr double kTurnOfBody = 0x1p-8, kTurn2 = 0x1p-20, kAlong = 0x1p-20, kThin
 // (F): what roundings in float may do to a bound, relative; and to the sign's and the ball's own
 // differences.
 constexpr double kFloatBound = 1.0 + 0x1p-18, kOfFloatSum = 0x1p-21;
+// The square of the longest step that is taken further, without a proof. Chosen: Newton's method.
+constexpr double kLongest2 = 0x1p-4;
 // Of u L, what a better normal may still gain: as in gap_proofs-inl.hpp.
 constexpr double kWorthAnother = 1.0;
 
@@ -53,8 +55,8 @@ struct FloatProof {
   FloatPack beyond;  ///< to be added to the value: it is then in the middle of what is proven
   FloatPack error;
   FloatMask settled;    ///< and no better normal would make `error` much smaller
-  FloatMask nearer;     ///< does the step lead to where it can be trusted?
-  FloatMask promising;  ///< nearer, and the value is good enough where the step is small enough
+  FloatMask nearer;     ///< does the step lead on, and to a pair that is not deep?
+  FloatMask promising;  ///< nearer, and is the value good enough where the step is small enough?
 };
 
 /// (Hess h) v
@@ -111,8 +113,8 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
                              (absolute(along) <= c(kAlong)) & (thin <= c(kThinnest));
   const FloatPack doubt = multiply_add(c(kOfFloatSum), size + absolute(beyond), error);
   const FloatPack most_error = within(kLaneErrorBound + factor_error);
-  const FloatMask nearer = in_reach & (ball > c(0.0));
-  const FloatMask settled = nearer & (absolute(answer) > doubt) & (error <= most_error) &
+  const FloatMask nearer = (step2 <= c(kLongest2)) & (at.gap + at.radii > c(0.0));
+  const FloatMask settled = in_reach & (ball > c(0.0)) & (absolute(answer) > doubt) & (error <= most_error) &
                             (half + half <= within(kWorthAnother));
   return {beyond, error, settled, nearer, nearer & (value_error < most_error)};
 }
