@@ -31,7 +31,7 @@ static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 
 /// A body as the first tier of the gap reads it.
 struct alignas(32) ShapeRow {
   double centre[3];
-  double largest;       ///< as LaneBody's, or NaN
+  double largest;  ///< as LaneBody's, or NaN
   double least_radius;
   double reach;     ///< of the matrix of |M_ij|: its largest sum of a row, rounded up
   double shape[6];  ///< xx yy zz yz zx xy of M, each rounded once: (N)
@@ -81,12 +81,12 @@ struct LaneBlock {
   bool branches;
 
   std::uint64_t local;  ///< answer: bit i, pair i is settled as the value of its branch alone
-  // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and may
-  // this tier itself settle the pair from there?
+  // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and
+  // may this tier itself settle the pair from there?
   std::uint64_t nearer, promising;
-  bool within_float;  ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
+  bool within_float;       ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
   double* nearer_normals;  ///< x y z of each; read by no lane
-  double* gap;          ///< null, here and below: not wanted
+  double* gap;             ///< null, here and below: not wanted
   double* gap_error;
   double* normal;  ///< x y z of each
   double* arm_a;

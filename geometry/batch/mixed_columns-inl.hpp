@@ -30,9 +30,7 @@ struct ColumnsOf {
 };
 
 HWY_INLINE Pack load(const Column<double>& from, std::size_t i) { return load(from.entry + i); }
-HWY_INLINE FloatPack load(const Column<float>& from, std::size_t i) {
-  return load(from.entry + i);
-}
+HWY_INLINE FloatPack load(const Column<float>& from, std::size_t i) { return load(from.entry + i); }
 template <class T>
 HWY_INLINE auto load(const ColumnsOf<T, 3>& from, std::size_t i) {
   const Column<T>* c = from.column;
@@ -78,8 +76,8 @@ static_assert(sizeof(BodyColumns) == sizeof(ShapeRow) * kPairs);
 struct FloatBodyColumns {
   ColumnsOf<float, 6> shape;
   Column<float> largest, reach;
-  Column<float> inverse_h;      ///< at the normal
-  ColumnsOf<float, 3> point;    ///< of support there
+  Column<float> inverse_h;    ///< at the normal
+  ColumnsOf<float, 3> point;  ///< of support there
 };
 
 struct MixedColumns {
@@ -92,10 +90,10 @@ struct MixedColumns {
   Column<double> unit;
   FloatBodyColumns float_a, float_b;
   ColumnsOf<float, 3> float_d;
-  Column<float> size;         ///< L, NaN where float does not reach
-  Column<float> radii;        ///< of curvature, the least ones' sum
+  Column<float> size;   ///< L, NaN where float does not reach
+  Column<float> radii;  ///< of curvature, the least ones' sum
   Column<float> tolerance;
-  ColumnsOf<float, 3> start;  ///< the normal that is looked at
+  ColumnsOf<float, 3> start;     ///< the normal that is looked at
   ColumnsOf<float, 6> adjugate;  ///< of K where the last step was taken
   Column<float> inverse_determinant;
   Column<float> gap;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Each stage is a short loop over the block: the chain of operations of one pack is long, and the
 // processor works at the next ones meanwhile.
-#include <tangency/geometry/batch/gap_lanes.hpp>
-
 #include <cstddef>
+#include <cstdint>
 
+#include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 #undef HWY_TARGET_INCLUDE
@@ -74,8 +74,10 @@ struct PackUnit {
 };
 HWY_INLINE PackUnit unit_of(const Pack& x) {
   const hn::RebindToUnsigned<D> bits;
-  const auto mask = hn::Set(bits, 0x7FF0000000000000u), twice_one = hn::Set(bits, 0x7FE0000000000000u);
-  const auto power = [&](const Register& v) HWY_ATTR { return hn::And(hn::BitCast(bits, v), mask); };
+  const auto mask = hn::Set(bits, 0x7FF0000000000000u),
+             twice_one = hn::Set(bits, 0x7FE0000000000000u);
+  const auto power = [&](const Register& v)
+                         HWY_ATTR { return hn::And(hn::BitCast(bits, v), mask); };
   const auto low = power(x.low), high = power(x.high);
   return {{hn::BitCast(D(), low), hn::BitCast(D(), high)},
           {hn::BitCast(D(), twice_one - low), hn::BitCast(D(), twice_one - high)}};
@@ -95,9 +97,8 @@ HWY_INLINE FloatSymmetric3 to_float(const PackSymmetric3& s) {
 /// The bodies in float, in the unit of the pair.
 /// @return  is any of them one that this tier may settle?
 HWY_INLINE bool scale(const LaneBlock& block, MixedColumns& work, std::size_t i) {
-  const PackVec3 d = block.separations != nullptr
-                         ? load_vectors(block.separations + 3 * i)
-                         : load(work.b.centre, i) - load(work.a.centre, i);
+  const PackVec3 d = block.separations != nullptr ? load_vectors(block.separations + 3 * i)
+                                                  : load(work.b.centre, i) - load(work.a.centre, i);
   store(d, work.d, i);
   const Pack a = load(work.a.largest, i), b = load(work.b.largest, i);
   const Pack size = largest_component(d) + (a + b);
@@ -163,7 +164,8 @@ HWY_INLINE FloatSide look(const FloatSymmetric3& shape, const FloatVec3& n) {
 
 /// newton_step() of gap_proofs-inl.hpp, and what is kept of it for the last one.
 HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) {
-  const FloatSymmetric3 shape_a = load(work.float_a.shape, i), shape_b = load(work.float_b.shape, i);
+  const FloatSymmetric3 shape_a = load(work.float_a.shape, i),
+                        shape_b = load(work.float_b.shape, i);
   const FloatVec3 n = load(work.start, i);
   const FloatSide a = look(shape_a, n), b = look(shape_b, n);
   const FloatVec3 rest = (load(work.float_d, i) - a.point) - b.point;
@@ -187,9 +189,8 @@ HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) 
 /// f and its gradient at the normal, in double.
 HWY_INLINE void evaluate(MixedColumns& work, std::size_t i) {
   const PackVec3 m = to_double(load(work.start, i));
-  const auto side = [&](const ColumnsOf<double, 6>& shape) HWY_ATTR {
-    return glance(load(shape, i), m);
-  };
+  const auto side = [&](const ColumnsOf<double, 6>& shape)
+                        HWY_ATTR { return glance(load(shape, i), m); };
   const PackSupport a = side(work.a.shape), b = side(work.b.shape);
   const PackVec3 rest = (load(work.d, i) - a.point) - b.point;
   // 1 / |m| by its series: |m|^2 - 1 is below 2^-20.
@@ -220,8 +221,7 @@ HWY_INLINE std::uint64_t certify(LaneBlock& block, MixedColumns& work, std::size
   const FloatPoint at{load_body(work.float_a, i), load_body(work.float_b, i), load(work.start, i),
                       load(work.rest, i),         load(work.gap, i),          load(work.radii, i),
                       load(work.size, i),         load(work.tolerance, i)};
-  const FloatVec3 delta =
-      (load(work.adjugate, i) * at.rest) * load(work.inverse_determinant, i);
+  const FloatVec3 delta = (load(work.adjugate, i) * at.rest) * load(work.inverse_determinant, i);
   const FloatProof proof = prove(at, delta, block.centres_are_exact, block.factor_error);
   const Pack unit = load(work.unit, i);
   if (block.gap != nullptr)

@@ -201,8 +201,7 @@ void OpenPairs::add(const Workspace& from, std::size_t i, std::size_t at, const 
     work.rows_a[count] = from.rows_a[i];
     work.rows_b[count] = from.rows_b[i];
   }
-  if (block.separations != nullptr)
-    work.separations[count] = Vec3::Map(block.separations + 3 * i);
+  if (block.separations != nullptr) work.separations[count] = Vec3::Map(block.separations + 3 * i);
   ++count;
 }
 
