@@ -105,17 +105,23 @@ function(tangency_install_descriptions target)
   install(DIRECTORY "${dir}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
   install(DIRECTORY "${dir}/bash/" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
           COMPONENT tools)
-  install(DIRECTORY "${dir}/zsh/" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT tools)
+  set(functions site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(functions vendor-completions)  # where Debian's zsh looks for those of packages
+  endif()
+  install(DIRECTORY "${dir}/zsh/" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/${functions}" COMPONENT tools)
 endfunction()
 
-# tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE): the file tangency-COMPONENT.pc. Who links a
-# static library needs what is private to it, and is not to know of which kind it is.
+# tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE [LIBRARY ...]): the file tangency-COMPONENT.pc.
+# Who links a static library needs what is private to it, packages and libraries, and is not to know of
+# which kind it is.
 function(tangency_pkg_config component description requires private)
   get_target_property(type tangency_${component} TYPE)
   set(libraries "-L\${libdir} -ltangency_${component}")
   if(type STREQUAL "STATIC_LIBRARY")
     list(APPEND requires ${private})
-    string(APPEND libraries " -pthread")
+    list(JOIN ARGN " " others)
+    string(APPEND libraries " ${others} -pthread")
   endif()
   list(JOIN requires ", " requires)
   set(pkg_config_dir "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig")
@@ -147,11 +153,15 @@ function(tangency_install_package)
                 "${PROJECT_BINARY_DIR}/tangencyConfigVersion.cmake" .ci/packaging/dependencies.cmake
           DESTINATION "${package_dir}" COMPONENT geometry)
 
-  tangency_pkg_config(geometry "How two ellipsoids touch, exactly" "eigen3 >= 3.4" "gmpxx;libhwy")
+  tangency_pkg_config(geometry "How two ellipsoids touch, exactly (C++20)" "eigen3 >= 3.4" "gmpxx;libhwy")
   if(TARGET tangency_dem)
-    tangency_pkg_config(micromechanics "Fabric and stress of any contacts" "eigen3 >= 3.4" qhull_r)
-    tangency_pkg_config(dem "Assemblies of ellipsoids in a periodic cell"
+    tangency_pkg_config(micromechanics "Fabric and stress of any contacts (C++20)" "eigen3 >= 3.4" qhull_r)
+    tangency_pkg_config(dem "Assemblies of ellipsoids in a periodic cell (C++20)"
                         "tangency-geometry = ${PROJECT_VERSION}" "tbb;tomlplusplus;libhwy")
+  endif()
+
+  if(TARGET tangency_c)
+    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}" -lstdc++)
   endif()
 
   include(.ci/packaging/debian.cmake)

@@ -37,9 +37,12 @@ all_is_there() {
               include/tangency/verify/oracles/gap.hpp share/tangency/scenes/growth-1000.toml \
               share/tangency/corpora/touching.csv share/man/man1/tangency{,-dem,-verify}.1 \
               share/bash-completion/completions/tangency{,-dem,-verify} \
-              share/zsh/site-functions/_tangency{,-dem,-verify} \
               share/doc/tangency/LICENSE share/doc/tangency/LICENSES/{MIT,GPL-3.0-or-later}.txt; do
     [ -s "$prefix/$file" ] || { echo "$file is not installed"; exit 1; }
+  done
+  for program in tangency{,-dem,-verify}; do
+    [ -s "$prefix/share/zsh/site-functions/_$program" ] || [ -s "$prefix/share/zsh/vendor-completions/_$program" ] ||
+      { echo "zsh's completion of $program is not installed"; exit 1; }
   done
 }
 
@@ -103,11 +106,23 @@ old_dialect() {
   grep -m 1 'error' "$work/cxx17" | grep 'tangency needs C++20' || { head "$work/cxx17"; exit 1; }
 }
 
+# The interface in C, by CMake and by pkg-config.
+c89() {
+  cmake -G Ninja -S "$consumers/c" -B "$work/c" -DCMAKE_PREFIX_PATH="$prefix"
+  cmake --build "$work/c"
+  "$work/c/contact"
+  # shellcheck disable=SC2046  # options, one a word
+  "${CC:-cc}" -std=c89 -pedantic-errors "$consumers/c/contact.c" $(pkg-config --cflags --libs tangency-c) \
+    -o "$work/c_by_pkg_config"
+  LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") "$work/c_by_pkg_config"
+}
+
 # What a shared library shows: names of this project that are public.
 shows() {
-  local library hidden=0
-  for library in geometry micromechanics dem; do
-    library=$(find "$prefix" -name "libtangency_$library.so")
+  local library name
+  export LC_ALL=C
+  for name in geometry micromechanics dem; do
+    library=$(find "$prefix" -name "libtangency_$name.so")
     readelf -d "$library" | grep -qE 'SONAME.*\.so\.[0-9]+\.[0-9]+\]' || { echo "$library: soname"; exit 1; }
     nm -D --defined-only "$library" | awk '{ print $3 }' | c++filt >"$work/shown"
     grep -q 'tangency::' "$work/shown" || { echo "$library shows nothing: this test cannot fail"; exit 1; }
@@ -117,6 +132,10 @@ shows() {
       echo "$library shows these"
       exit 1
     fi
+    sed 's/tangency::v0::/tangency::/g' "$work/shown" | sort -u >"$work/shown_names"
+    sed -n "s/^libtangency_$name: //p" "$source/tests/build/public_symbols" | sort -u |
+      comm -23 - "$work/shown_names" >"$work/not_shown"
+    [ ! -s "$work/not_shown" ] || { echo "$library does not show"; cat "$work/not_shown"; exit 1; }
   done
 }
 
@@ -128,5 +147,6 @@ consumer "find_package() of each component, and of none" components
 consumer "plug-in by dlopen(), hidden names, exceptions" plugin
 consumer "pkg-config" by_pkg_config
 consumer "C++17 is told what it lacks" old_dialect
+[ ! -e "$prefix/include/tangency.h" ] || consumer "C89 by find_package() and pkg-config" c89
 [ $kind = static ] || consumer "soname, and public names alone" shows
 exit $failed

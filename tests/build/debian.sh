@@ -72,4 +72,5 @@ USE
 chroot "$work/fresh" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 sh /use | tee "$work/used"
 grep -qx 'separate' "$work/used"
 grep -q 'external_touch' "$work/used"
+rm -rf --one-file-system "$work/fresh"
 says "done"

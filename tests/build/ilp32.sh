@@ -42,5 +42,6 @@ for corpus in "$source"/verify/corpora/*.truth.csv; do
   cmp <("$build/geometry/tool/tangency" $command "$source/verify/corpora/$name.csv") \
       <(inside $tool $command <"$source/verify/corpora/$name.csv") || { echo "$name: other bytes"; status=1; }
 done
+[ $status -ne 0 ] || rm -rf --one-file-system "$root"
 says "done"
 exit $status

@@ -31,6 +31,7 @@ path() {
   if chroot "$root" env LC_ALL=C.UTF-8 bash /way >"$work/said" 2>&1 </dev/null; then
     echo "$heading: $((SECONDS - start)) s of $bar from the clone to"
     tail -n 3 "$work/said"
+    rm -rf --one-file-system "$root"
   else
     echo "$heading: FAILED after $((SECONDS - start)) s:"
     tail -n 20 "$work/said"
