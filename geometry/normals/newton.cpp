@@ -9,7 +9,6 @@
 namespace tangency::inline v0::detail {
 namespace {
 
-constexpr int kPerramWertheimSteps = 2;  // measured: more do not shorten what follows
 constexpr int kNewtonSteps = 12;         // measured: ordinary pairs need 2 or 3
 constexpr double kShort = 0x1p-12;       // of |step|^2; chosen: the old Hessian serves once more
 constexpr int kOldSteps = 3;             // chosen

@@ -15,6 +15,9 @@
 
 namespace tangency::inline v0::detail {
 
+/// Of maximise(), where Newton's method on the normal follows; measured: more do not shorten it.
+inline constexpr int kPerramWertheimSteps = 2;
+
 /// D and N at one l by their terms, and what Euler's operator l d/dl makes of them once and twice.
 struct PerramWertheimAt {
   double l;
