@@ -117,10 +117,9 @@ class Checker {
     };
     if (gap.status != single.gap.status) return broken(Breach::status, i, said());
     if (sign(gap.gap) != sign(single.gap.gap)) return broken(Breach::sign, i, said());
-    if (same_bits(gap, single.gap)) {
-      judge(call, i, gap);
-      return;
-    }
+    const bool in_lane = !same_bits(gap, single.gap);
+    judge(call, i, gap, in_lane);
+    if (!in_lane) return;
     const Wide off = std::abs(Wide(gap.gap) - single.gap.gap);
     const bool beyond = !(off <= (Wide(gap.gap_error) + single.gap.gap_error) * kRounded);
     if (gap.status == GapStatus::local) {
@@ -131,7 +130,6 @@ class Checker {
       bound(call, i, gap, said);
       contact(call, i, gap, single, said);
     }
-    judge(call, i, gap);
   }
 
   std::string printed_normal(std::size_t i) const {
@@ -199,7 +197,7 @@ class Checker {
     if (!holds) broken(Breach::contact, i, said());
   }
 
-  void judge(const Call& call, std::size_t i, const Gap& gap) {
+  void judge(const Call& call, std::size_t i, const Gap& gap, bool in_lane) {
     const auto& truths = call.in_place ? part_.truth : part_.truth_separated;
     if (i >= truths.size()) return;
     const GapTruth& truth = truths[i];
@@ -210,7 +208,7 @@ class Checker {
     if (gap.status == GapStatus::ok && truth.global) {
       const Real error = abs(below);
       holds = error <= Real(gap.gap_error) + off_by_oracle;
-      if (gap.gap_error > 0) tightest(call, i, gap, (error / gap.gap_error).convert_to<double>());
+      if (in_lane && gap.gap_error > 0) tightest(call, i, gap, (error / gap.gap_error).convert_to<double>());
     }
     if (truth.global)
       holds = holds && sign(gap.gap) == (abs(truth.gap) <= off_by_oracle ? 0 : truth.gap.sign());

@@ -31,7 +31,7 @@ enum class Breach {
 inline constexpr std::size_t kBreaches = 9;
 const char* to_string(Breach breach);
 
-/// The largest error over gap_error, by the oracle.
+/// The largest error over gap_error of what lanes answer, by the oracle.
 struct Tightness {
   double ratio = 0;
   std::string where;
