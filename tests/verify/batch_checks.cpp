@@ -30,20 +30,7 @@ const Real kErrorOfOracle("1e-139");
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-std::string printed(const verify::RawEllipsoid& body) {
-  std::string text;
-  char number[40];
-  const auto add = [&](double x) {
-    std::snprintf(number, sizeof number, "%a,", x);
-    text += number;
-  };
-  for (const double x : body.centre) add(x);
-  for (const double x : body.semi_axes) add(x);
-  for (const double x : body.orientation) add(x);
-  return text;
-}
-
-std::string printed(const Gap& gap) {
+std::string described(const Gap& gap) {
   char text[200];
   std::snprintf(text, sizeof text, "gap %a +- %a normal %a,%a,%a status %d tier %d", gap.gap,
                 gap.gap_error, gap.normal[0], gap.normal[1], gap.normal[2],
@@ -84,7 +71,7 @@ class Checker {
     ++tally_.breaches[static_cast<std::size_t>(breach)];
     if (!tally_.first.empty()) return;
     tally_.first = std::string(to_string(breach)) + ", " + level_ + ", " + what +
-                   "\n  A " + printed(part_.raw[i].a) + "\n  B " + printed(part_.raw[i].b);
+                   "\n  " + printed(part_.raw[i]);
   }
 
   void gaps(const Call& call, const std::vector<Gap>& gaps) {
@@ -93,7 +80,7 @@ class Checker {
 
   void same(const std::string& what, std::size_t i, const Gap& gap, const Gap& other) {
     if (!same_bits(gap, other))
-      broken(Breach::bits, i, what + ": " + printed(gap) + ", and " + printed(other));
+      broken(Breach::bits, i, what + ": " + described(gap) + ", and " + described(other));
   }
 
  private:
@@ -112,7 +99,7 @@ class Checker {
     ++tally_.answers;
     const Single& single = single_of(call, i);
     const auto said = [&] {
-      return call.name + ": " + printed(gap) + ", single " + printed(single.gap) + ", previous " +
+      return call.name + ": " + described(gap) + ", single " + described(single.gap) + ", previous " +
              printed_normal(i);
     };
     if (gap.status != single.gap.status) return broken(Breach::status, i, said());
@@ -208,21 +195,17 @@ class Checker {
     if (gap.status == GapStatus::ok && truth.global) {
       const Real error = abs(below);
       holds = error <= Real(gap.gap_error) + off_by_oracle;
-      if (in_lane && gap.gap_error > 0) tightest(call, i, gap, (error / gap.gap_error).convert_to<double>());
+      if (in_lane && gap.gap_error > 0) tightest(call, i, (error / gap.gap_error).convert_to<double>());
     }
     if (truth.global)
       holds = holds && sign(gap.gap) == (abs(truth.gap) <= off_by_oracle ? 0 : truth.gap.sign());
     if (!holds)
-      broken(Breach::oracle, i, call.name + ": " + printed(gap) + ", true " + truth.gap.str(25));
+      broken(Breach::oracle, i, call.name + ": " + described(gap) + ", true " + truth.gap.str(25));
   }
 
-  void tightest(const Call& call, std::size_t i, const Gap& gap, double ratio) {
+  void tightest(const Call& call, std::size_t i, double ratio) {
     Tightness& most = call.accuracy.normals ? tally_.rounding : tally_.tolerance;
-    if (!(ratio > most.ratio)) return;
-    most.ratio = ratio;
-    most.where = level_ + ", " + call.name + ": " + printed(gap) + ", previous " +
-                            printed_normal(i) + "\n  A " + printed(part_.raw[i].a) + "\n  B " +
-                            printed(part_.raw[i].b);
+    if (ratio > most.ratio) most = {ratio, part_.raw[i]};
   }
 
   const Part& part_;
@@ -422,7 +405,7 @@ void check_bounded(const Part& part, const Bodies& bodies, const PairList& list,
     char text[160];
     std::snprintf(text, sizeof text, "bounded, %s, %s: %a - %a + %a status %d, single ", form,
                   point.name, gap[i], gap_error[i], above[i], static_cast<int>(status[i]));
-    check.broken(Breach::enclosure, i, text + printed(single));
+    check.broken(Breach::enclosure, i, text + described(single));
   }
 }
 
@@ -474,6 +457,20 @@ void check_yes_no(const Part& part, const BodyArray& bodies, std::uint64_t seed,
 }
 
 }  // namespace
+
+std::string printed(const verify::EllipsoidPair& pair) {
+  std::string text;
+  const auto add = [&](const auto& numbers) {
+    char number[40];
+    for (const double x : numbers) {
+      std::snprintf(number, sizeof number, text.empty() ? "%a" : ",%a", x);
+      text += number;
+    }
+  };
+  for (const verify::RawEllipsoid* body : {&pair.a, &pair.b})
+    add(body->centre), add(body->semi_axes), add(body->orientation);
+  return text;
+}
 
 const char* to_string(Breach breach) {
   static constexpr std::array kNames{"sign",      "status", "beyond", "bound", "contact",

@@ -16,6 +16,9 @@
 
 namespace tangency::testing {
 
+/// Centre, semi-axes and orientation of A, then of B, in hexadecimal.
+std::string printed(const verify::EllipsoidPair& pair);
+
 /// What can be broken; each has a column in the table.
 enum class Breach {
   sign,        ///< other than the single call's, or than the exact relation
@@ -34,7 +37,7 @@ const char* to_string(Breach breach);
 /// The largest error over gap_error of what lanes answer, by the oracle.
 struct Tightness {
   double ratio = 0;
-  std::string where;
+  verify::EllipsoidPair pair;
 };
 
 struct Tally {
