@@ -145,7 +145,8 @@ def same_values():
            "", "namespace tangency::inline v0::c {", ""]
     for enum in table.ENUMS:
         for member, _ in enum.members if enum.cpp else ():
-            out.append(f"static_assert(static_cast<int>({enum.cpp}::{member}) == {constant(enum, member)});")
+            line = f"static_assert(static_cast<int>({enum.cpp}::{member}) == {constant(enum, member)});"
+            out += [line] if len(line) <= 100 else line.replace("== ", "==\n" + " " * 14).split("\n")
     out += ["", "struct EnumerationName {", "  std::string_view enumeration;", "  int value;",
             "  const char* name;", "};", ""]
     rows = [f'    {{"{e.name}", {v}, "{m}"}},' for e in table.ENUMS for v, (m, _) in enumerate(e.members)]
@@ -277,7 +278,8 @@ def ctypes_of(kind):
 def python_prototypes():
     out = [f"# {LICENCE}", f"# {MARK}", '"""Prototypes of the C library for ctypes, its constants and the classes of '
            'answers."""', "", "import ctypes", "from ctypes import c_char_p, c_double, c_int, c_size_t, c_ssize_t, "
-           "c_void_p", "from enum import IntEnum", "", "from tangency._columns import Column, Columns", ""]
+           "c_void_p", "from dataclasses import dataclass", "from enum import IntEnum", "",
+            "import numpy as np", "from numpy.typing import NDArray", "", "from tangency._columns import Column, Columns", ""]
     for enum in table.ENUMS:
         out += ["", f"class {enum.python or camel(enum.name)}(IntEnum):"]
         out += docstring(enum.doc, "    ")
@@ -290,7 +292,9 @@ def python_prototypes():
     for struct in table.STRUCTS:
         if not struct.python:
             continue
-        out += ["", f"class {struct.python}(Columns):"] + class_docstring(struct)
+        out += ["", "@dataclass(init=False, repr=False, eq=False)",
+                f"class {struct.python}(Columns):"] + class_docstring(struct)
+        out += [f"    {i.name}: NDArray[np.{NUMPY_OF[Type(i.type).base]}]" for i in struct.fields] + [""]
         out += [f"    struct = {camel(struct.name)}Struct", "    fields = ("]
         for item in struct.fields:
             kind = Type(item.type)
@@ -316,7 +320,8 @@ def docstring(text, indent):
 
 
 def class_docstring(struct):
-    out = [f'    """{wrapped(struct.doc, "    ", 94)[0].strip()}'] + wrapped(struct.doc, "    ", 94)[1:]
+    lines = wrapped(struct.doc.replace("tangency_", "").replace("()", ""), "    ", 94)
+    out = [f'    """{lines[0].strip()}'] + lines[1:]
     out += ["", "    Attributes", "    ----------"]
     for item in struct.fields:
         kind = Type(item.type)
@@ -324,13 +329,13 @@ def class_docstring(struct):
         out.append(f"    {item.name} : ndarray of {NUMPY_OF[kind.base]}, shape ({shape})")
         enum = next((e.python for e in table.ENUMS if e.name == item.enum), None)
         text = f"Values of {enum}." if enum else item.doc
-        text += f" Unit: {item.unit}." if item.unit not in ("", "1") else ""
+        text += f" ({item.unit})" if item.unit not in ("", "1") else ""
         out += wrapped(text, "        ", 94)
     return out + ['    """', ""]
 
 
 def python_stub():
-    out = [f"# {LICENCE}", f"# {MARK}", "import ctypes", "from enum import IntEnum", "from typing import Any", "",
+    out = [f"# {LICENCE}", f"# {MARK}", "import ctypes", "from dataclasses import dataclass", "from enum import IntEnum", "from typing import Any", "",
            "import numpy as np", "from numpy.typing import NDArray", "", "from tangency._columns import Columns", ""]
     for enum in table.ENUMS:
         out.append(f"class {enum.python or camel(enum.name)}(IntEnum):")
@@ -342,7 +347,7 @@ def python_stub():
         out += [f"    {i.name}: {python.get(i.type, 'int | None')}" for i in struct.fields] + [""]
     for struct in table.STRUCTS:
         if struct.python:
-            out.append(f"class {struct.python}(Columns):")
+            out += ["@dataclass(init=False, repr=False, eq=False)", f"class {struct.python}(Columns):"]
             for item in struct.fields:
                 out.append(f"    {item.name}: NDArray[np.{NUMPY_OF[Type(item.type).base]}]")
             out.append("")

@@ -4,7 +4,11 @@
 
 import ctypes
 from ctypes import c_char_p, c_double, c_int, c_size_t, c_ssize_t, c_void_p
+from dataclasses import dataclass
 from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tangency._columns import Column, Columns
 
@@ -423,35 +427,48 @@ class QuadricColumnsStruct(ctypes.Structure):
     ]
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Contacts(Columns):
-    """Answers of tangency_contacts().
+    """Answers of contacts.
 
     Attributes
     ----------
     gap : ndarray of float64, shape (N,)
-        > 0: the distance; < 0: minus the penetration depth Unit: length.
+        > 0: the distance; < 0: minus the penetration depth (length)
     gap_error : ndarray of float64, shape (N,)
         proven: |gap - true gap| is at most this where the status is ok; where it is local the
-        true gap is at least gap - gap_error Unit: length.
+        true gap is at least gap - gap_error (length)
     normal : ndarray of float64, shape (N, 3)
         unit, from A to B
     arm_a : ndarray of float64, shape (N, 3)
-        A's witness point less A's centre Unit: length.
+        A's witness point less A's centre (length)
     arm_b : ndarray of float64, shape (N, 3)
-        B's witness point less B's centre Unit: length.
+        B's witness point less B's centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     tier : ndarray of int32, shape (N,)
         Values of GapTier.
     point : ndarray of float64, shape (N, 3)
-        the contact point, midway between the witness points, less A's centre Unit: length.
+        the contact point, midway between the witness points, less A's centre (length)
     normal_bound : ndarray of float64, shape (N,)
         proven: of |normal - true normal|; 2 where nothing is
     arm_a_bound : ndarray of float64, shape (N,)
-        proven: of |arm_a - true arm_a| Unit: length.
+        proven: of |arm_a - true arm_a| (length)
     arm_b_bound : ndarray of float64, shape (N,)
-        proven: of |arm_b - true arm_b| Unit: length.
+        proven: of |arm_b - true arm_b| (length)
     """
+
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    status: NDArray[np.int32]
+    tier: NDArray[np.int32]
+    point: NDArray[np.float64]
+    normal_bound: NDArray[np.float64]
+    arm_a_bound: NDArray[np.float64]
+    arm_b_bound: NDArray[np.float64]
 
     struct = ContactColumnsStruct
     fields = (
@@ -469,31 +486,42 @@ class Contacts(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class BoundedGaps(Columns):
-    """Answers of tangency_bounded_gaps().
+    """Answers of bounded_gaps.
 
     Attributes
     ----------
     gap : ndarray of float64, shape (N,)
-        > 0: the distance; < 0: minus the penetration depth Unit: length.
+        > 0: the distance; < 0: minus the penetration depth (length)
     gap_error : ndarray of float64, shape (N,)
         proven: |gap - true gap| is at most this where the status is ok; where it is local the
-        true gap is at least gap - gap_error Unit: length.
+        true gap is at least gap - gap_error (length)
     normal : ndarray of float64, shape (N, 3)
         unit, from A to B
     arm_a : ndarray of float64, shape (N, 3)
-        A's witness point less A's centre Unit: length.
+        A's witness point less A's centre (length)
     arm_b : ndarray of float64, shape (N, 3)
-        B's witness point less B's centre Unit: length.
+        B's witness point less B's centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     tier : ndarray of int32, shape (N,)
         Values of GapTier.
     point : ndarray of float64, shape (N, 3)
-        the contact point, midway between the witness points, less A's centre Unit: length.
+        the contact point, midway between the witness points, less A's centre (length)
     above : ndarray of float64, shape (N,)
-        gap - gap_error <= true gap <= gap + above Unit: length.
+        gap - gap_error <= true gap <= gap + above (length)
     """
+
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    status: NDArray[np.int32]
+    tier: NDArray[np.int32]
+    point: NDArray[np.float64]
+    above: NDArray[np.float64]
 
     struct = BoundedColumnsStruct
     fields = (
@@ -509,8 +537,9 @@ class BoundedGaps(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Relations(Columns):
-    """Answers of tangency_relations().
+    """Answers of relations.
 
     Attributes
     ----------
@@ -522,6 +551,10 @@ class Relations(Columns):
         Values of Tier.
     """
 
+    relation: NDArray[np.int32]
+    inner: NDArray[np.int32]
+    tier: NDArray[np.int32]
+
     struct = RelationColumnsStruct
     fields = (
         Column("relation", "int32", (), Relation),
@@ -530,25 +563,33 @@ class Relations(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class OtherGaps(Columns):
-    """Answers of tangency_other_gaps().
+    """Answers of other_gaps.
 
     Attributes
     ----------
     gap : ndarray of float64, shape (N,)
-        > 0: the distance; < 0: minus the penetration depth Unit: length.
+        > 0: the distance; < 0: minus the penetration depth (length)
     gap_error : ndarray of float64, shape (N,)
         proven: |gap - true gap| is at most this where the status is ok; where it is local the
-        true gap is at least gap - gap_error Unit: length.
+        true gap is at least gap - gap_error (length)
     normal : ndarray of float64, shape (N, 3)
         unit, from A to B
     arm_a : ndarray of float64, shape (N, 3)
-        A's witness point less A's centre Unit: length.
+        A's witness point less A's centre (length)
     arm_b : ndarray of float64, shape (N, 3)
-        B's witness point less B's centre Unit: length.
+        B's witness point less B's centre (length)
     status : ndarray of int32, shape (N,)
         Values of OtherStatus.
     """
+
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    status: NDArray[np.int32]
 
     struct = OtherGapColumnsStruct
     fields = (
@@ -561,8 +602,9 @@ class OtherGaps(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Factors(Columns):
-    """Answers of tangency_perram_wertheim_factors().
+    """Answers of perram_wertheim_factors.
 
     Attributes
     ----------
@@ -578,6 +620,12 @@ class Factors(Columns):
         Values of OtherStatus.
     """
 
+    factor: NDArray[np.float64]
+    factor_error: NDArray[np.float64]
+    scale: NDArray[np.float64]
+    scale_error: NDArray[np.float64]
+    status: NDArray[np.int32]
+
     struct = FactorColumnsStruct
     fields = (
         Column("factor", "float64", (), None),
@@ -588,21 +636,27 @@ class Factors(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Derivatives(Columns):
-    """Answers of tangency_gap_derivatives(). Parameters, 18 in this order: centre, rotation
-    vector in space (rad) and semi-axes of A, then of B.
+    """Answers of gap_derivatives. Parameters, 18 in this order: centre, rotation vector in space
+    (rad) and semi-axes of A, then of B.
 
     Attributes
     ----------
     gradient : ndarray of float64, shape (N, 18)
-        first derivatives of the gap Unit: length/parameter.
+        first derivatives of the gap (length/parameter)
     hessian : ndarray of float64, shape (N, 18, 18)
-        second derivatives, symmetric Unit: length/parameter^2.
+        second derivatives, symmetric (length/parameter^2)
     least_radius : ndarray of float64, shape (N,)
-        how sharp the best normal is Unit: length.
+        how sharp the best normal is (length)
     status : ndarray of int32, shape (N,)
         Values of DerivativeStatus.
     """
+
+    gradient: NDArray[np.float64]
+    hessian: NDArray[np.float64]
+    least_radius: NDArray[np.float64]
+    status: NDArray[np.int32]
 
     struct = DerivativeColumnsStruct
     fields = (
@@ -613,25 +667,33 @@ class Derivatives(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Curvatures(Columns):
-    """Answers of tangency_contact_curvatures(): principal curvatures, the larger first, and
-    their directions.
+    """Answers of contact_curvatures: principal curvatures, the larger first, and their
+    directions.
 
     Attributes
     ----------
     a : ndarray of float64, shape (N, 2)
-        of A at its witness point Unit: 1/length.
+        of A at its witness point (1/length)
     a_directions : ndarray of float64, shape (N, 2, 3)
         unit, tangent, in space
     b : ndarray of float64, shape (N, 2)
-        of B at its witness point Unit: 1/length.
+        of B at its witness point (1/length)
     b_directions : ndarray of float64, shape (N, 2, 3)
         unit, tangent, in space
     relative : ndarray of float64, shape (N, 2)
-        of the distance between the surfaces: 1/R' and 1/R'' of Hertz theory Unit: 1/length.
+        of the distance between the surfaces: 1/R' and 1/R'' of Hertz theory (1/length)
     relative_directions : ndarray of float64, shape (N, 2, 3)
         unit, tangent, in space
     """
+
+    a: NDArray[np.float64]
+    a_directions: NDArray[np.float64]
+    b: NDArray[np.float64]
+    b_directions: NDArray[np.float64]
+    relative: NDArray[np.float64]
+    relative_directions: NDArray[np.float64]
 
     struct = CurvatureColumnsStruct
     fields = (
@@ -644,22 +706,29 @@ class Curvatures(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class CommonVolumes(Columns):
-    """Answers of tangency_common_volumes().
+    """Answers of common_volumes.
 
     Attributes
     ----------
     volume : ndarray of float64, shape (N,)
-        of what both bodies have in common Unit: length^3.
+        of what both bodies have in common (length^3)
     volume_error : ndarray of float64, shape (N,)
-        proven: of |volume - true volume| Unit: length^3.
+        proven: of |volume - true volume| (length^3)
     gradient : ndarray of float64, shape (N, 3)
-        of the volume by B's centre Unit: length^2.
+        of the volume by B's centre (length^2)
     gradient_error : ndarray of float64, shape (N,)
-        proven: of |gradient - true gradient| Unit: length^2.
+        proven: of |gradient - true gradient| (length^2)
     status : ndarray of int32, shape (N,)
         Values of VolumeStatus.
     """
+
+    volume: NDArray[np.float64]
+    volume_error: NDArray[np.float64]
+    gradient: NDArray[np.float64]
+    gradient_error: NDArray[np.float64]
+    status: NDArray[np.int32]
 
     struct = VolumeColumnsStruct
     fields = (
@@ -671,22 +740,23 @@ class CommonVolumes(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Containments(Columns):
-    """Answers of tangency_containments(): how far A lies inside B.
+    """Answers of containments: how far A lies inside B.
 
     Attributes
     ----------
     clearance : ndarray of float64, shape (N,)
         > 0: the least distance of the boundaries; < 0: minus the length by which A sticks out
-        Unit: length.
+        (length)
     clearance_error : ndarray of float64, shape (N,)
-        proven: of |clearance - true clearance| Unit: length.
+        proven: of |clearance - true clearance| (length)
     normal : ndarray of float64, shape (N, 3)
         unit, outwards
     arm_a : ndarray of float64, shape (N, 3)
-        witness point of A less A's centre Unit: length.
+        witness point of A less A's centre (length)
     arm_b : ndarray of float64, shape (N, 3)
-        witness point of B less B's centre Unit: length.
+        witness point of B less B's centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     margin : ndarray of float64, shape (N,)
@@ -694,6 +764,15 @@ class Containments(Columns):
     margin_error : ndarray of float64, shape (N,)
         proven: of |margin - true margin|
     """
+
+    clearance: NDArray[np.float64]
+    clearance_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    status: NDArray[np.int32]
+    margin: NDArray[np.float64]
+    margin_error: NDArray[np.float64]
 
     struct = ContainmentColumnsStruct
     fields = (
@@ -708,21 +787,22 @@ class Containments(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Walls(Columns):
-    """Answers of tangency_walls().
+    """Answers of walls.
 
     Attributes
     ----------
     gap : ndarray of float64, shape (N,)
-        < 0 where the body reaches into the wall Unit: length.
+        < 0 where the body reaches into the wall (length)
     gap_error : ndarray of float64, shape (N,)
-        proven: of |gap - true gap| Unit: length.
+        proven: of |gap - true gap| (length)
     normal : ndarray of float64, shape (N, 3)
         unit, from the body to the wall
     arm_body : ndarray of float64, shape (N, 3)
-        the body's point nearest to the wall, less its centre Unit: length.
+        the body's point nearest to the wall, less its centre (length)
     arm_wall : ndarray of float64, shape (N, 3)
-        the wall's point opposite to it, less the body's centre Unit: length.
+        the wall's point opposite to it, less the body's centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     relation : ndarray of int32, shape (N,)
@@ -730,6 +810,15 @@ class Walls(Columns):
     inner : ndarray of int32, shape (N,)
         Values of Inner.
     """
+
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_body: NDArray[np.float64]
+    arm_wall: NDArray[np.float64]
+    status: NDArray[np.int32]
+    relation: NDArray[np.int32]
+    inner: NDArray[np.int32]
 
     struct = WallColumnsStruct
     fields = (
@@ -744,22 +833,29 @@ class Walls(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Points(Columns):
-    """Answers of tangency_points().
+    """Answers of points.
 
     Attributes
     ----------
     distance : ndarray of float64, shape (N,)
-        < 0 inside Unit: length.
+        < 0 inside (length)
     distance_error : ndarray of float64, shape (N,)
-        proven: of |distance - true distance| Unit: length.
+        proven: of |distance - true distance| (length)
     normal : ndarray of float64, shape (N, 3)
         unit, outwards, at the closest point of the surface
     arm : ndarray of float64, shape (N, 3)
-        closest point less the centre Unit: length.
+        closest point less the centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     """
+
+    distance: NDArray[np.float64]
+    distance_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm: NDArray[np.float64]
+    status: NDArray[np.int32]
 
     struct = PointColumnsStruct
     fields = (
@@ -771,8 +867,9 @@ class Points(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Rays(Columns):
-    """Answers of tangency_rays().
+    """Answers of rays.
 
     Attributes
     ----------
@@ -781,12 +878,18 @@ class Rays(Columns):
     count : ndarray of int32, shape (N,)
         how many of the two points there are
     t : ndarray of float64, shape (N, 2)
-        origin + t direction, ascending; 0 beyond count Unit: length of the direction.
+        origin + t direction, ascending; 0 beyond count (length of the direction)
     arm : ndarray of float64, shape (N, 2, 3)
-        the points less the body's centre Unit: length.
+        the points less the body's centre (length)
     normal : ndarray of float64, shape (N, 2, 3)
         unit, outwards
     """
+
+    status: NDArray[np.int32]
+    count: NDArray[np.int32]
+    t: NDArray[np.float64]
+    arm: NDArray[np.float64]
+    normal: NDArray[np.float64]
 
     struct = RayColumnsStruct
     fields = (
@@ -798,22 +901,29 @@ class Rays(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Times(Columns):
-    """Answers of tangency_times_of_contact().
+    """Answers of times_of_contact.
 
     Attributes
     ----------
     status : ndarray of int32, shape (N,)
         Values of TimeStatus.
     time : ndarray of float64, shape (N,)
-        never after the first contact; the horizon for none Unit: time.
+        never after the first contact; the horizon for none (time)
     latest : ndarray of float64, shape (N,)
-        for contact: the first contact is no later Unit: time.
+        for contact: the first contact is no later (time)
     resolution : ndarray of float64, shape (N,)
-        the gap below which rounding hides whether there is one Unit: length.
+        the gap below which rounding hides whether there is one (length)
     normal : ndarray of float64, shape (N, 3)
         unit, from A to B, near `time`; 0 for none and touching_at_start
     """
+
+    status: NDArray[np.int32]
+    time: NDArray[np.float64]
+    latest: NDArray[np.float64]
+    resolution: NDArray[np.float64]
+    normal: NDArray[np.float64]
 
     struct = TimeColumnsStruct
     fields = (
@@ -825,9 +935,10 @@ class Times(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Neighbours(Columns):
-    """What tangency_neighbours_columns() shows, NULL where it was not asked for. Valid until the
-    list is destroyed.
+    """What neighbours_columns shows, NULL where it was not asked for. Valid until the list is
+    destroyed.
 
     Attributes
     ----------
@@ -838,20 +949,31 @@ class Neighbours(Columns):
     overlaps : ndarray of uint8, shape (N,)
         1 where the interiors meet
     gap : ndarray of float64, shape (N,)
-        as of contacts Unit: length.
+        as of contacts (length)
     gap_error : ndarray of float64, shape (N,)
-        as of contacts Unit: length.
+        as of contacts (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     normal : ndarray of float64, shape (N, 3)
         unit, from a to the image of b
     arm_a : ndarray of float64, shape (N, 3)
-        a's witness point less a's centre Unit: length.
+        a's witness point less a's centre (length)
     arm_b : ndarray of float64, shape (N, 3)
-        the witness point of b's image less its centre Unit: length.
+        the witness point of b's image less its centre (length)
     separation : ndarray of float64, shape (N, 3)
-        from a's centre to that of b's image, rounded Unit: length.
+        from a's centre to that of b's image, rounded (length)
     """
+
+    pairs: NDArray[np.uint32]
+    images: NDArray[np.int32]
+    overlaps: NDArray[np.uint8]
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    status: NDArray[np.int32]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    separation: NDArray[np.float64]
 
     struct = NeighbourColumnsStruct
     fields = (
@@ -868,8 +990,9 @@ class Neighbours(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class PlaneContacts(Columns):
-    """Answers of tangency_plane_contacts().
+    """Answers of plane_contacts.
 
     Attributes
     ----------
@@ -880,40 +1003,61 @@ class PlaneContacts(Columns):
     crossings : ndarray of int32, shape (N,)
         points where the boundaries meet, exact; -1 where they are equal
     gap : ndarray of float64, shape (N,)
-        > 0: the distance; < 0: minus the penetration depth Unit: length.
+        > 0: the distance; < 0: minus the penetration depth (length)
     gap_error : ndarray of float64, shape (N,)
-        as of contacts Unit: length.
+        as of contacts (length)
     normal : ndarray of float64, shape (N, 2)
         unit, from A to B
     arm_a : ndarray of float64, shape (N, 2)
-        A's witness point less A's centre Unit: length.
+        A's witness point less A's centre (length)
     arm_b : ndarray of float64, shape (N, 2)
-        B's witness point less B's centre Unit: length.
+        B's witness point less B's centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     area : ndarray of float64, shape (N,)
-        of what both ellipses have in common Unit: length^2.
+        of what both ellipses have in common (length^2)
     crossing_arms : ndarray of float64, shape (N, 4, 2)
-        the crossings less A's centre; 0 beyond their number Unit: length.
+        the crossings less A's centre; 0 beyond their number (length)
     multiplicities : ndarray of int32, shape (N, 4)
         of the crossings, and 0 beyond their number
     chord_status : ndarray of int32, shape (N,)
         Values of ChordStatus.
     chord_depth : ndarray of float64, shape (N,)
-        of the published plane scheme Unit: length.
+        of the published plane scheme (length)
     chord_normal : ndarray of float64, shape (N, 2)
         unit, across the chord
     chord_point : ndarray of float64, shape (N, 2)
-        contact point less A's centre Unit: length.
+        contact point less A's centre (length)
     clearance : ndarray of float64, shape (N,)
-        how far A lies inside B, as of containments Unit: length.
+        how far A lies inside B, as of containments (length)
     clearance_error : ndarray of float64, shape (N,)
-        proven: of |clearance - true clearance| Unit: length.
+        proven: of |clearance - true clearance| (length)
     margin : ndarray of float64, shape (N,)
         as of containments
     margin_error : ndarray of float64, shape (N,)
         proven: of |margin - true margin|
     """
+
+    relation: NDArray[np.int32]
+    inner: NDArray[np.int32]
+    crossings: NDArray[np.int32]
+    gap: NDArray[np.float64]
+    gap_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm_a: NDArray[np.float64]
+    arm_b: NDArray[np.float64]
+    status: NDArray[np.int32]
+    area: NDArray[np.float64]
+    crossing_arms: NDArray[np.float64]
+    multiplicities: NDArray[np.int32]
+    chord_status: NDArray[np.int32]
+    chord_depth: NDArray[np.float64]
+    chord_normal: NDArray[np.float64]
+    chord_point: NDArray[np.float64]
+    clearance: NDArray[np.float64]
+    clearance_error: NDArray[np.float64]
+    margin: NDArray[np.float64]
+    margin_error: NDArray[np.float64]
 
     struct = PlaneContactColumnsStruct
     fields = (
@@ -940,22 +1084,29 @@ class PlaneContacts(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class PlanePoints(Columns):
-    """Answers of tangency_plane_points().
+    """Answers of plane_points.
 
     Attributes
     ----------
     distance : ndarray of float64, shape (N,)
-        < 0 inside Unit: length.
+        < 0 inside (length)
     distance_error : ndarray of float64, shape (N,)
-        proven: of |distance - true distance| Unit: length.
+        proven: of |distance - true distance| (length)
     normal : ndarray of float64, shape (N, 2)
         unit, outwards, at the closest point of the boundary
     arm : ndarray of float64, shape (N, 2)
-        closest point less the centre Unit: length.
+        closest point less the centre (length)
     status : ndarray of int32, shape (N,)
         Values of Status.
     """
+
+    distance: NDArray[np.float64]
+    distance_error: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    arm: NDArray[np.float64]
+    status: NDArray[np.int32]
 
     struct = PlanePointColumnsStruct
     fields = (
@@ -967,8 +1118,9 @@ class PlanePoints(Columns):
     )
 
 
+@dataclass(init=False, repr=False, eq=False)
 class Quadrics(Columns):
-    """Answers of tangency_classify().
+    """Answers of classify.
 
     Attributes
     ----------
@@ -981,6 +1133,11 @@ class Quadrics(Columns):
     tier : ndarray of int32, shape (N,)
         Values of Tier.
     """
+
+    type: NDArray[np.int32]
+    rank4: NDArray[np.int32]
+    rank3: NDArray[np.int32]
+    tier: NDArray[np.int32]
 
     struct = QuadricColumnsStruct
     fields = (

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Made by geometry/bindings/generate.py of table.py. Change those.
 import ctypes
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
@@ -310,6 +311,7 @@ class QuadricColumnsStruct(ctypes.Structure):
     rank3: int | None
     tier: int | None
 
+@dataclass(init=False, repr=False, eq=False)
 class Contacts(Columns):
     gap: NDArray[np.float64]
     gap_error: NDArray[np.float64]
@@ -323,6 +325,7 @@ class Contacts(Columns):
     arm_a_bound: NDArray[np.float64]
     arm_b_bound: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class BoundedGaps(Columns):
     gap: NDArray[np.float64]
     gap_error: NDArray[np.float64]
@@ -334,11 +337,13 @@ class BoundedGaps(Columns):
     point: NDArray[np.float64]
     above: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class Relations(Columns):
     relation: NDArray[np.int32]
     inner: NDArray[np.int32]
     tier: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class OtherGaps(Columns):
     gap: NDArray[np.float64]
     gap_error: NDArray[np.float64]
@@ -347,6 +352,7 @@ class OtherGaps(Columns):
     arm_b: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Factors(Columns):
     factor: NDArray[np.float64]
     factor_error: NDArray[np.float64]
@@ -354,12 +360,14 @@ class Factors(Columns):
     scale_error: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Derivatives(Columns):
     gradient: NDArray[np.float64]
     hessian: NDArray[np.float64]
     least_radius: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Curvatures(Columns):
     a: NDArray[np.float64]
     a_directions: NDArray[np.float64]
@@ -368,6 +376,7 @@ class Curvatures(Columns):
     relative: NDArray[np.float64]
     relative_directions: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class CommonVolumes(Columns):
     volume: NDArray[np.float64]
     volume_error: NDArray[np.float64]
@@ -375,6 +384,7 @@ class CommonVolumes(Columns):
     gradient_error: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Containments(Columns):
     clearance: NDArray[np.float64]
     clearance_error: NDArray[np.float64]
@@ -385,6 +395,7 @@ class Containments(Columns):
     margin: NDArray[np.float64]
     margin_error: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class Walls(Columns):
     gap: NDArray[np.float64]
     gap_error: NDArray[np.float64]
@@ -395,6 +406,7 @@ class Walls(Columns):
     relation: NDArray[np.int32]
     inner: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Points(Columns):
     distance: NDArray[np.float64]
     distance_error: NDArray[np.float64]
@@ -402,6 +414,7 @@ class Points(Columns):
     arm: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Rays(Columns):
     status: NDArray[np.int32]
     count: NDArray[np.int32]
@@ -409,6 +422,7 @@ class Rays(Columns):
     arm: NDArray[np.float64]
     normal: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class Times(Columns):
     status: NDArray[np.int32]
     time: NDArray[np.float64]
@@ -416,6 +430,7 @@ class Times(Columns):
     resolution: NDArray[np.float64]
     normal: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class Neighbours(Columns):
     pairs: NDArray[np.uint32]
     images: NDArray[np.int32]
@@ -428,6 +443,7 @@ class Neighbours(Columns):
     arm_b: NDArray[np.float64]
     separation: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class PlaneContacts(Columns):
     relation: NDArray[np.int32]
     inner: NDArray[np.int32]
@@ -450,6 +466,7 @@ class PlaneContacts(Columns):
     margin: NDArray[np.float64]
     margin_error: NDArray[np.float64]
 
+@dataclass(init=False, repr=False, eq=False)
 class PlanePoints(Columns):
     distance: NDArray[np.float64]
     distance_error: NDArray[np.float64]
@@ -457,6 +474,7 @@ class PlanePoints(Columns):
     arm: NDArray[np.float64]
     status: NDArray[np.int32]
 
+@dataclass(init=False, repr=False, eq=False)
 class Quadrics(Columns):
     type: NDArray[np.int32]
     rank4: NDArray[np.int32]
