@@ -33,20 +33,28 @@ concept TemporaryEllipsoids =
 /// themselves. One that was moved from is empty.
 class BodyArray {
  public:
+  /// Looks at bodies of the caller's, which have to outlive the array and stay in place.
   explicit BodyArray(std::span<const Ellipsoid> bodies);
   template <TemporaryEllipsoids T>
+  /// Takes the bodies of a temporary container, whose elements are ellipsoids.
   explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
   ~BodyArray();
+  /// Its source is empty afterwards.
   BodyArray(BodyArray&&) noexcept;
+  /// Its source is empty afterwards.
   BodyArray& operator=(BodyArray&&) noexcept;
 
+  /// The number of bodies.
   std::size_t size() const noexcept { return bodies_.size(); }
+  /// Body i < size(), as it was at construction or at the last refresh().
   const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
   /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed
   /// by different threads.
   void refresh(std::size_t i) noexcept;
 
+  /// For the library's own use.
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  /// For the library's own use.
   const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
 
  private:
