@@ -117,6 +117,25 @@ c89() {
   LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") "$work/c_by_pkg_config"
 }
 
+# Its module of Fortran is a source: each compiler has modules of its own.
+fortran() {
+  # shellcheck disable=SC2046  # options, one a word
+  gfortran -std=f2018 -J "$work" "$prefix/include/tangency.f90" "$consumers/fortran/contact.f90" \
+    $(pkg-config --libs tangency-c) -o "$work/by_fortran"
+  LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") "$work/by_fortran"
+}
+
+# The package as Debian's Python finds it, and the library as its loader does.
+python() {
+  PYTHONPATH=$prefix/lib/python3/dist-packages LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") /usr/bin/python3 - <<'PY'
+import tangency
+
+found = tangency.contact([0, 0, 0, 1, 2, 3, 1, 0, 0, 0], [0, 0, 7, 3, 2, 1, 1, 0, 0, 0])
+print(found.gap, found.normal)
+assert found.gap == 3
+PY
+}
+
 # What a shared library shows: names of this project that are public.
 shows() {
   local library name
@@ -148,5 +167,11 @@ consumer "plug-in by dlopen(), hidden names, exceptions" plugin
 consumer "pkg-config" by_pkg_config
 consumer "C++17 is told what it lacks" old_dialect
 [ ! -e "$prefix/include/tangency.h" ] || consumer "C89 by find_package() and pkg-config" c89
+if [ -e "$prefix/include/tangency.f90" ] && command -v gfortran >/dev/null; then
+  consumer "Fortran" fortran
+fi
+if [ -d "$prefix/lib/python3/dist-packages/tangency" ] && [ $kind = shared ]; then
+  consumer "Python" python
+fi
 [ $kind = static ] || consumer "soname, and public names alone" shows
 exit $failed

@@ -66,7 +66,11 @@ tangency-verify grade --tool "tangency contact" --corpus touching | tail -n 1
 cmake -G Ninja -S /usr/share/doc/tangency/example -B /first
 cmake --build /first
 /first/first_contact
-apt-get -qq remove -y 'libtangency*' tangency
+if dpkg -s python3-tangency >/dev/null 2>&1; then
+  python3 -c 'import tangency
+print(tangency.contact([0, 0, 0, 1, 1, 1, 1, 0, 0, 0], [2.5, 0, 0, 2, 1, 1, 1, 0, 0, 0]).gap)' | grep -qx -- -0.5
+fi
+apt-get -qq remove -y 'libtangency*' tangency 'python3-tangency*'
 ! find /usr -name '*tangency*' | grep .
 USE
 chroot "$work/fresh" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 sh /use | tee "$work/used"
