@@ -35,8 +35,8 @@ class BodyArray {
  public:
   /// Looks at bodies of the caller's, which have to outlive the array and stay in place.
   explicit BodyArray(std::span<const Ellipsoid> bodies);
-  template <TemporaryEllipsoids T>
   /// Takes the bodies of a temporary container, whose elements are ellipsoids.
+  template <TemporaryEllipsoids T>
   explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
   ~BodyArray();
   /// Its source is empty afterwards.
@@ -58,7 +58,9 @@ class BodyArray {
   const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
 
  private:
+  /// @cond
   struct Owned {};
+  /// @endcond
   BodyArray(Owned, std::vector<Ellipsoid> bodies);
 
   template <class T>
