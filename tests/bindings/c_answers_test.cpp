@@ -2,6 +2,7 @@
 // What the interface in C answers is what the C++ calls answer, to the bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -168,7 +169,7 @@ TEST(CContacts, FollowTheNormalsThatAreGiven) {
   }
   follow_gaps(sample.moving, {sample.list}, previous,
               GapColumns{.gap = expected.gap, .normal = normal});
-  found.normal = flat(previous);  // in place
+  std::ranges::copy(flat(previous), found.normal.begin());  // in place
   ASSERT_EQ(tangency_contacts(sample.c, sample.pairs.data(), n, nullptr, found.normal.data(),
                               nullptr, &found.columns, 1),
             TANGENCY_OK);
