@@ -19,11 +19,11 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()), rows_(bodies.size()) {
+    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()), rows_(bodies.size()) {
   in_default_environment([&] {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       detail::fill(lanes_[i], bodies[i]);
-      detail::fill(shapes_[i], bodies[i]);
+      detail::fill(floats_[i], bodies[i]);
     }
     detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
   });
@@ -33,7 +33,7 @@ BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
-      shapes_(std::move(other.shapes_)),
+      floats_(std::move(other.floats_)),
       rows_(std::move(other.rows_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
@@ -41,7 +41,7 @@ BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   std::swap(own_, taken.own_);
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
-  std::swap(shapes_, taken.shapes_);
+  std::swap(floats_, taken.floats_);
   std::swap(rows_, taken.rows_);
   return *this;
 }
@@ -50,7 +50,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
-    detail::fill(shapes_[i], bodies_[i]);
+    detail::fill(floats_[i], bodies_[i]);
     detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
   });
 }
