@@ -24,8 +24,8 @@ namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 constexpr int kPerramWertheimSteps = 1;  // measured
-// A body that is smaller, of L, is left to the next tier: what float has no digits for.
-constexpr double kSmallestOfSize = 0x1p-20;
+// A body that is smaller, of L, is left to the next tier: M is a normal float down to there.
+constexpr double kSmallestOfSize = 0x1p-40;
 
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 /// Four columns of four rows.
