@@ -45,7 +45,8 @@
 
 namespace {
 
-// A block of C++ of README or guide: where it stands, what it does, and what the page says it prints.
+// A block of C++ of README or guide: where it stands, what it does, and what the page says it
+// prints.
 struct Example {
   const char* place;
   void (*run)();
