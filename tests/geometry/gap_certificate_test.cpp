@@ -413,9 +413,11 @@ TEST(GapSearch, OfCoaxialBodiesIsThatAlongTheirMeridianAtEveryDepth) {
 TEST(ContactBounds, AreTightForAnOrdinaryContactAndEverythingAtATie) {
   const Ellipsoid a({0, 0, 0}, {1, 1.5, 2}), b({3, 1, 0.5}, {1.2, 1, 0.8}, {0.5, 0.5, 0.1, 0.3});
   const ContactBounds bounds = contact_bounds(a, b, signed_gap(a, b));
-  EXPECT_LT(bounds.normal, 1e-14);
-  EXPECT_LT(bounds.arm_a, 2e-14);
-  EXPECT_LT(bounds.arm_b, 2e-14);
+  // The last step leaves 2^-36 rad times a few at most, mostly the square of that; radii of curvature
+  // are at most 4, and 2 of them and of roundings bound an arm.
+  EXPECT_LT(bounds.normal, 1e-12);
+  EXPECT_LT(bounds.arm_a, 8e-12);
+  EXPECT_LT(bounds.arm_b, 8e-12);
   EXPECT_GT(bounds.normal, 0.0);
 
   const Ellipsoid c({0, 0, 0}, {2, 2, 3}), d({0, 0, 0}, {1, 1, 9});
