@@ -102,7 +102,8 @@ EllipsoidPair drawn(Draw& draw, const ExtremeFamily& family) {
   const double least = least_axis(pair);
   if (family.least_gap > 0) {
     const double gap = least * draw.log_uniform(family.least_gap, family.largest_gap);
-    place_b(pair, drawn_direction(draw), draw.coin() ? gap : -gap);
+    const bool apart = draw.coin();
+    place_b(pair, drawn_direction(draw), apart ? gap : -gap);
     return pair;
   }
   const double most = std::max(most_axis(pair.a), most_axis(pair.b));
