@@ -92,7 +92,7 @@ void count_left(const Pairs& pairs, const std::vector<std::size_t>& left, Row& r
   row.left = left.size();
   row.left_deep = static_cast<std::size_t>(std::ranges::count_if(left, [&](std::size_t i) {
     const double rho = pairs.a(i).least_radius() + pairs.b(i).least_radius();
-    return pairs.truth[i].gap[0] < -rho;
+    return pairs.truth[i].gap.high < -rho;
   }));
 }
 
