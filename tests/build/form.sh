@@ -9,5 +9,9 @@ cd "$2"
 "$format" --version | grep -q 'version 14\.' || { echo "$format is not version 14"; exit 1; }
 mapfile -t files < <(find geometry dem verify bench tests -name '*.[ch]pp' | sort)
 [ ${#files[@]} -gt 0 ] || { echo "no file found: this test cannot fail"; exit 1; }
-"$format" --dry-run --Werror --ferror-limit=1 "${files[@]}" ||
-  { echo "mend with: $(basename "$format") -i FILE"; exit 1; }
+# Of its own answer: --dry-run reports the right end of an inline namespace too.
+bad=()
+for file in "${files[@]}"; do
+  cmp -s "$file" <("$format" "$file") || bad+=("$file")
+done
+[ ${#bad[@]} -eq 0 ] || { echo "mend with: $(basename "$format") -i ${bad[*]}"; exit 1; }
