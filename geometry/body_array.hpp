@@ -16,8 +16,8 @@
 namespace tangency::inline v0 {
 
 namespace detail {
+struct FloatRow;
 struct LaneBody;
-struct LaneShape;
 }  // namespace detail
 
 /// A temporary container of ellipsoids: one that a span of it would outlive.
@@ -28,29 +28,39 @@ concept TemporaryEllipsoids =
     !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
 
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
-/// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
+/// access: 128 bytes a body, and 64 for what is answered in single precision. Keeps the span: the
 /// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
 /// themselves. One that was moved from is empty.
 class BodyArray {
  public:
+  /// Looks at bodies of the caller's, which have to outlive the array and stay in place.
   explicit BodyArray(std::span<const Ellipsoid> bodies);
+  /// Takes the bodies of a temporary container, whose elements are ellipsoids.
   template <TemporaryEllipsoids T>
   explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
   ~BodyArray();
+  /// Its source is empty afterwards.
   BodyArray(BodyArray&&) noexcept;
+  /// Its source is empty afterwards.
   BodyArray& operator=(BodyArray&&) noexcept;
 
+  /// The number of bodies.
   std::size_t size() const noexcept { return bodies_.size(); }
+  /// Body i < size(), as it was at construction or at the last refresh().
   const Ellipsoid& operator[](std::size_t i) const noexcept { return bodies_[i]; }
   /// To be called after body i was changed; i < size(), checked. Different bodies may be refreshed
   /// by different threads.
   void refresh(std::size_t i) noexcept;
 
+  /// For the library's own use.
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
-  const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
+  /// For the library's own use.
+  const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:
+  /// @cond
   struct Owned {};
+  /// @endcond
   BodyArray(Owned, std::vector<Ellipsoid> bodies);
 
   template <class T>
@@ -62,7 +72,7 @@ class BodyArray {
   std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
   std::span<const Ellipsoid> bodies_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
-  std::vector<detail::LaneShape, LargePages<detail::LaneShape>> shapes_;
+  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
 };
 
 }  // namespace tangency::inline v0

@@ -166,11 +166,10 @@ HWY_INLINE PackStep newton_step(const PackSymmetric3& shape_a, const PackSymmetr
   k.yy = k.yy + at.gap;
   k.zz = k.zz + at.gap;
   const PackSymmetric3 adj = adjugate(k);
-  const Pack determinant = dot({k.xx, k.xy, k.zx}, {adj.xx, adj.xy, adj.zx});
+  const Pack det = determinant(k, adj);
   const PackVec3 r = multiply_take(at.gap, n, at.rest);
   const Pack spread = trace(k) - size;
-  return {(adj * r) * quick_inverse(determinant), (determinant > all(0.0)) & (spread > all(0.0)),
-          determinant, spread};
+  return {(adj * r) * quick_inverse(det), (det > all(0.0)) & (spread > all(0.0)), det, spread};
 }
 
 // How much more than the stored least radii the true ones may be: both are rounded.
@@ -220,8 +219,7 @@ HWY_INLINE PackMask meet(const PackPair& pair, const PackSymmetric3& shape_a,
     // them one.
     const Pack p = all(1.0) + ratio, q = all(1.0) + all(1.0) / ratio;
     const PackSymmetric3 sum = multiply_add(p, shape_a, shape_b * q), adj = adjugate(sum);
-    const Pack determinant = dot({sum.xx, sum.xy, sum.zx}, {adj.xx, adj.xy, adj.zx});
-    const PackVec3 y = (adj * pair.d) * (all(1.0) / determinant);
+    const PackVec3 y = (adj * pair.d) * (all(1.0) / determinant(sum, adj));
     const PackVec3 from_a = (shape_a * y) * p, from_b = (shape_b * y) * q;
     const PackVec3 between = (pair.d - from_a) - from_b;
     const Pack level_a = p * dot(y, from_a), level_b = q * dot(y, from_b);

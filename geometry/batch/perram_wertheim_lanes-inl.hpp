@@ -15,11 +15,12 @@ namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
 /// The X of adj(A + l B) = adj A + l X + l^2 adj B.
-HWY_INLINE PackSymmetric3 mixed_adjugate(const PackSymmetric3& a, const PackSymmetric3& b) {
+template <class P>
+HWY_INLINE Symmetric3Of<P> mixed_adjugate(const Symmetric3Of<P>& a, const Symmetric3Of<P>& b) {
   // Entry by entry minor(...) of adjugate(), polarised.
-  const auto polar = [](const Pack& ap, const Pack& bp, const Pack& aq, const Pack& bq,
-                        const Pack& ar, const Pack& br, const Pack& as, const Pack& bs) HWY_ATTR {
-    const Pack plus = multiply_add(ap, bq, aq * bp);
+  const auto polar = [](const P& ap, const P& bp, const P& aq, const P& bq, const P& ar,
+                        const P& br, const P& as, const P& bs) HWY_ATTR {
+    const P plus = multiply_add(ap, bq, aq * bp);
     return multiply_take(ar, bs, multiply_take(as, br, plus));
   };
   return {polar(a.yy, b.yy, a.zz, b.zz, a.yz, b.yz, a.yz, b.yz),
@@ -31,22 +32,25 @@ HWY_INLINE PackSymmetric3 mixed_adjugate(const PackSymmetric3& a, const PackSymm
 }
 
 /// D and N at one l by their terms, and what Euler's operator l d/dl makes of them once and twice.
-struct PackPerramWertheimAt {
-  Pack l, det, det1, det2, num, num1, num2;
+template <class P>
+struct PerramWertheimAt {
+  P l, det, det1, det2, num, num1, num2;
 };
 
-struct PackPerramWertheim {
-  PackVec3 v0, v1, v2;  ///< J_A d, X d, J_B d
-  Pack d0, d1, d2, d3;
-  Pack n0, n1, n2;
+template <class P>
+struct PerramWertheimForm {
+  Vec3Of<P> v0, v1, v2;  ///< J_A d, X d, J_B d
+  P d0, d1, d2, d3;
+  P n0, n1, n2;
 
-  HWY_INLINE PackPerramWertheim(const PackSymmetric3& a, const PackSymmetric3& b,
-                                const PackVec3& d) {
-    const PackSymmetric3 ja = adjugate(a), jb = adjugate(b);
-    d0 = dot({a.xx, a.xy, a.zx}, {ja.xx, ja.xy, ja.zx});
+  PerramWertheimForm() = default;
+  HWY_INLINE PerramWertheimForm(const Symmetric3Of<P>& a, const Symmetric3Of<P>& b,
+                                const Vec3Of<P>& d) {
+    const Symmetric3Of<P> ja = adjugate(a), jb = adjugate(b);
+    d0 = determinant(a, ja);
     d1 = trace_of_product(ja, b);
     d2 = trace_of_product(jb, a);
-    d3 = dot({b.xx, b.xy, b.zx}, {jb.xx, jb.xy, jb.zx});
+    d3 = determinant(b, jb);
     v0 = ja * d;
     v1 = mixed_adjugate(a, b) * d;
     v2 = jb * d;
@@ -56,42 +60,47 @@ struct PackPerramWertheim {
   }
 
   /// Where the outer coefficients balance, roughly.
-  HWY_INLINE Pack first_guess() const { return rough_root((n2 * d0) * rough_inverse(n0 * d3)); }
+  HWY_INLINE P first_guess() const { return rough_root((n2 * d0) * rough_inverse(n0 * d3)); }
 
-  HWY_INLINE PackPerramWertheimAt at(const Pack& l) const {
-    const Pack l2 = l * l;
-    const Pack t1 = l * d1, t2 = l2 * d2, t3 = (l * l2) * d3, m1 = l * n1, m2 = l2 * n2;
+  HWY_INLINE PerramWertheimAt<P> at(const P& l) const {
+    const P l2 = l * l;
+    const P t1 = l * d1, t2 = l2 * d2, t3 = (l * l2) * d3, m1 = l * n1, m2 = l2 * n2;
     return {l,
             (d0 + t1) + (t2 + t3),
-            multiply_add(all(3.0), t3, multiply_add(all(2.0), t2, t1)),
-            multiply_add(all(9.0), t3, multiply_add(all(4.0), t2, t1)),
+            multiply_add(all<P>(3.0), t3, multiply_add(all<P>(2.0), t2, t1)),
+            multiply_add(all<P>(9.0), t3, multiply_add(all<P>(4.0), t2, t1)),
             (n0 + m1) + m2,
-            multiply_add(all(2.0), m2, m1),
-            multiply_add(all(4.0), m2, m1)};
+            multiply_add(all<P>(2.0), m2, m1),
+            multiply_add(all<P>(4.0), m2, m1)};
   }
 
   /// A multiple > 0 of (M_A + l M_B)^-1 d.
-  HWY_INLINE PackVec3 direction(const Pack& l) const {
+  HWY_INLINE Vec3Of<P> direction(const P& l) const {
     return multiply_add(l, multiply_add(l, v2, v1), v0);
   }
 };
 
+using PackPerramWertheim = PerramWertheimForm<Pack>;
+using PackPerramWertheimAt = PerramWertheimAt<Pack>;
+using FloatPerramWertheim = PerramWertheimForm<FloatPack>;
+using FloatPerramWertheimAt = PerramWertheimAt<FloatPack>;
+
 /// One step of Newton's method on log l towards the maximum of F, of no more than 1.8.
-HWY_INLINE Pack next(const PackPerramWertheimAt& at) {
-  const Pack one_more = all(1.0) + at.l, both = at.num * at.det;
+template <class P>
+HWY_INLINE P next(const PerramWertheimAt<P>& at) {
+  const P one_more = all<P>(1.0) + at.l, both = at.num * at.det;
   // One division for three.
-  const Pack inverse = rough_inverse(both * one_more);
-  const Pack s = both * inverse, n = (at.det * one_more) * inverse,
-             d = (at.num * one_more) * inverse;
-  const Pack p = n * at.num1, q = d * at.det1;
-  const Pack slope = (s + p) - q;
-  const Pack bend_n = multiply_take(p, p, n * at.num2), bend_d = multiply_take(q, q, d * at.det2);
-  const Pack curvature = multiply_take(at.l * s, s, bend_n - bend_d);
+  const P inverse = rough_inverse(both * one_more);
+  const P s = both * inverse, n = (at.det * one_more) * inverse, d = (at.num * one_more) * inverse;
+  const P p = n * at.num1, q = d * at.det1;
+  const P slope = (s + p) - q;
+  const P bend_n = multiply_take(p, p, n * at.num2), bend_d = multiply_take(q, q, d * at.det2);
+  const P curvature = multiply_take(at.l * s, s, bend_n - bend_d);
   // With half = -slope / (2 curvature), exp(2 half) is nearly (1 + half) / (1 - half).
-  const PackMask usual = absolute(slope) < all(-1.8) * curvature;
-  const Pack twice = curvature + curvature;
-  const Pack factor = (twice - slope) * rough_inverse(twice + slope);
-  const Pack most = chosen(slope > all(0.0), all(19.0), all(1.0 / 19.0));  // half = 0.9, -0.9
+  const auto usual = absolute(slope) < all<P>(-1.8) * curvature;
+  const P twice = curvature + curvature;
+  const P factor = (twice - slope) * rough_inverse(twice + slope);
+  const P most = chosen(slope > all<P>(0.0), all<P>(19.0), all<P>(1.0 / 19.0));  // half = 0.9, -0.9
   return at.l * chosen(usual, factor, most);
 }
 
