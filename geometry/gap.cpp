@@ -267,7 +267,7 @@ ContactBounds bounds(const Pair& pair, const Gap& gap) {
   // (P) of the derivation: the stored numbers' own rounding beside the shift.
   const auto bound = [&](double shifted, const Ellipsoid& body) {
     const double axis = body.largest_semi_axis(), h = body.support(gap.normal);
-    const double rounding = kUnitRoundoff * (10.0 * axis * (axis / h) + 16.0 * axis) +
+    const double rounding = kUnitRoundoff * (10.0 * axis * (axis / h) + 17.0 * axis) +
                             8.0 * std::numeric_limits<double>::denorm_min();
     return std::min(2.0 * axis, std::scalbn(shifted, pair.exponent) + rounding);
   };
