@@ -42,7 +42,7 @@ struct Accuracy {
   double of_size = 0.0;  ///< tolerance in parts of L, at least 0
   double length = 0.0;   ///< tolerance in the unit of length of the bodies, at least 0
   /// Normal and points to rounding too? Else the normal is as good as the gap needs, within
-  /// sqrt(2 gap_error / (gap + rho)) rad.
+  /// 2 sqrt(gap_error / (gap - gap_error + rho)) of the true one.
   bool normals = false;
 
   /// gap_error at most 2^-20 L: for neighbour lists, previews, stiff contacts that overlap by more.

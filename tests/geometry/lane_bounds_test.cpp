@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <random>
 #include <vector>
@@ -327,7 +326,6 @@ TEST(LaneBounds, OfFollowedBranchesHoldOnlyInTheirCapAndHaveItsBound) {
     EXPECT_GE(lanes, 500);
     EXPECT_GE(nearest, 0.5L);
     EXPECT_LE(least, 1.3L);
-    std::printf("%Lf %Lf %Lf\n", lanes, nearest, least);
   });
 }
 

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gap_error of lanes has in it what the last step of Newton's method may do to the value: the terms
+// (V'), (T), (E) and (L) of docs/derivations/gap-batch.md, recomputed here from the bodies, the
+// normal that was followed and the answer. Each family makes other terms the largest. Lanes in
+// double alone have larger errors.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
+#include <tangency/tests/geometry/batch_pairs.hpp>
+
+namespace tangency {
+namespace {
+
+using testing::at_every_level;
+using testing::Columns;
+using testing::Family;
+using testing::Indexed;
+using testing::kSeed;
+using testing::same_bits;
+
+using Wide = long double;
+constexpr Wide kU = kUnitRoundoff;
+
+struct Draw {
+  double real(double from, double to) {
+    return from + (to - from) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  }
+  double power(double from, double to) { return std::exp2(real(from, to)); }
+  Vec3 direction() { return Vec3(real(-1, 1), real(-1, 1), real(-1, 1)).normalized(); }
+  Ellipsoid body(const Vec3& axes) {
+    return {Vec3::Zero(), axes, {real(-1, 1), real(-1, 1), real(-1, 1), real(0.1, 1)}};
+  }
+  std::mt19937_64 random;
+};
+
+/// Pairs, and normals that have turned from their true ones.
+struct Followed {
+  Family pairs;
+  std::vector<Vec3> previous;
+
+  /// At gap `gap` along n, followed from a normal that is `turn` away.
+  void place(Draw& draw, const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, double gap,
+             double turn) {
+    pairs.a.push_back(a);
+    pairs.b.push_back(b.moved_to(a.support_point(n) + b.support_point(n) + gap * n));
+    previous.push_back(n + turn * n.cross(draw.direction()).normalized());
+  }
+};
+
+/// What is derived of a lane that evaluates at `n` and steps to the answer's normal.
+struct Derived {
+  Wide value;  ///< (V'), or (V) where that is less: of a lane in double
+  Wide step;   ///< (T) and (E) of the value
+  Wide rest;   ///< half of what the error of the rest may gain: (B)
+  Wide sum() const { return value + step + rest; }
+};
+
+Wide reach(const Symmetric3& m) {
+  const auto row = [](double x, double y, double z) {
+    return Wide(std::abs(x)) + std::abs(y) + std::abs(z);
+  };
+  return std::max({row(m.xx, m.xy, m.zx), row(m.xy, m.yy, m.yz), row(m.zx, m.yz, m.zz)});
+}
+
+/// The Newton system at a unit normal: K = Hess h_A + Hess h_B + gap (I - nn') + nn', and its right
+/// hand side, what of p_B - p_A is across the normal.
+struct Newton {
+  Mat3 k;
+  Vec3 rest;
+};
+
+Newton newton_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) {
+  const Vec3 d = b.centre() - a.centre();
+  const double gap = n.dot(d) - a.support(n) - b.support(n);
+  Newton at{gap * (Mat3::Identity() - n * n.transpose()) + n * n.transpose(), d - gap * n};
+  for (const Ellipsoid* body : {&a, &b}) {
+    const Vec3 x = body->support_point(n);
+    const Mat3 factor = body->rotation() * body->semi_axes().asDiagonal();
+    at.k += (factor * factor.transpose() - x * x.transpose()) / body->support(n);
+    at.rest -= x;
+  }
+  return at;
+}
+
+Vec3 stepped(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) {
+  const Newton at = newton_at(a, b, n);
+  return (n + at.k.inverse() * at.rest).normalized();
+}
+
+Derived derived(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, const Gap& gap,
+                bool by_centres) {
+  Wide over_h = 0, thin = 0, axes = 0, cubes = 0, value = 0;
+  const Vec3 d = b.centre() - a.centre();
+  for (int k = 0; k < 3; ++k) value += Wide(n[k]) * d[k];
+  for (const Ellipsoid* body : {&a, &b}) {
+    const Wide h = body->support(n), most = body->largest_semi_axis();
+    over_h += reach(body->shape()) / h;
+    thin = std::max(thin, most / h);
+    axes += most;
+    cubes += most * (most / h) * (most / h);
+    value -= h;
+  }
+  const Wide size = std::abs(value), both = over_h + size;
+  Wide beyond_a = 0, most_d = 0;
+  for (int k = 0; k < 3; ++k) {
+    beyond_a = std::max(beyond_a, std::abs(Wide(d[k]) - gap.arm_a[k]));
+    most_d = std::max(most_d, std::abs(Wide(d[k])));
+  }
+  Wide mixed = 3.5L * over_h + 7.5L * axes + 9 * size;
+  Wide in_double = 13 * axes + 2 * beyond_a + 10.7L * size;
+  if (by_centres) mixed += axes + size, in_double += 1.75L * most_d;
+  Wide step2 = 0;
+  for (int k = 0; k < 3; ++k) step2 += (Wide(gap.normal[k]) - n[k]) * (Wide(gap.normal[k]) - n[k]);
+  const Wide step = std::sqrt(step2);
+  const Wide of_step = step2 * (0.54L * step * cubes + 1.45L * step2 * size + 0x1p-19L * both);
+  const Wide error =
+      0x1p-19L * both * step + 1.2L * cubes * step2 + 8 * kU * (thin * over_h + axes + size);
+  const Wide radii = Wide(a.least_radius()) + b.least_radius();
+  const Wide ball = gap.gap + radii - 0x1p-21L * (size + radii);
+  // A quarter less: the normal at which the lane evaluated is known from a step in double alone.
+  const Newton at = newton_at(a, b, n);
+  const Vec3 left = at.rest - at.k * (gap.normal - n);
+  const Wide left2 = step > 0x1p-16L ? 0.75L * left.squaredNorm() : 0;
+  return {kU * std::min(mixed, in_double), of_step,
+          0.5L * (0.5625L * left2 + 4.5L * error * error) / ball};
+}
+
+void expect_bounds(const Followed& f, const Accuracy& accuracy, bool cold) {
+  const Indexed in(f.pairs);
+  std::vector<Vec3> axes;
+  std::vector<Quaternion> turns;
+  for (const Ellipsoid& body : in.bodies)
+    axes.push_back(body.semi_axes()), turns.push_back(body.orientation());
+  const std::size_t count = f.pairs.a.size();
+  std::vector<Gap> single;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3& d = in.separations[i];
+    single.push_back(cold ? signed_gap(f.pairs.a[i], f.pairs.b[i], d)
+                          : follow_gap(f.pairs.a[i], f.pairs.b[i], d, f.previous[i]));
+  }
+  const PairList apart{in.pairs, in.separations}, placed{in.pairs, {}};
+  at_every_level([&] {
+    const BodyArray array(in.bodies);
+    const MovingBodies moving(axes, turns);
+    const auto check = [&](const Columns& answers, bool by_centres) {
+      std::size_t lanes = 0, below = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Gap gap = answers[i];
+        if (gap.status != GapStatus::ok || same_bits(gap, single[i])) continue;
+        ++lanes;
+        Vec3 n = cold ? gap.normal : f.previous[i].normalized();
+        if (!cold) n = stepped(f.pairs.a[i], f.pairs.b[i], n);
+        const Derived terms = derived(f.pairs.a[i], f.pairs.b[i], n, gap, by_centres);
+        // Inverses are rough to 2^-11.
+        if (gap.gap_error < terms.sum() * (1 - 0x1p-10L)) ++below;
+      }
+      EXPECT_GE(lanes, count / 3);
+      // A lane that takes a step more than is thought here errs by less, and says so.
+      EXPECT_LE(below, cold ? 0 : count / 12);
+    };
+    Columns answers(count);
+    if (cold) {
+      signed_gaps(array, placed, answers.all(), accuracy);
+      check(answers, true);
+      signed_gaps(array, apart, answers.all(), accuracy);
+      check(answers, false);
+      signed_gaps(moving, apart, answers.all(), accuracy);
+    } else {
+      follow_gaps(array, apart, f.previous, answers.all(), accuracy);
+      check(answers, false);
+      follow_gaps(moving, apart, f.previous, answers.all(), accuracy);
+    }
+    check(answers, false);
+  });
+}
+
+constexpr std::size_t kCount = 300;
+
+TEST(MixedBounds, HaveTheRoundingsOfTheValue) {
+  Followed f{{"near and far", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    f.place(draw, a, b, draw.direction(), draw.power(-8, f.previous.size() % 2 == 0 ? 0 : 10), 0);
+  }
+  expect_bounds(f, Accuracy::standard(), true);
+}
+
+TEST(MixedBounds, HaveTheThirdOrderOfAStep) {
+  Followed f{{"wide steps", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 1)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    f.place(draw, a, b, draw.direction(), 0.02, draw.power(-7, -5.8));
+  }
+  expect_bounds(f, Accuracy::within(0x1p-6), false);
+}
+
+TEST(MixedBounds, HaveTheErrorOfAStepInFloatAndItsFourthOrderFarAway) {
+  Followed f{{"far away", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 2)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    f.place(draw, a, b, draw.direction(), draw.power(3, 8), draw.power(-5.5, -3.7));
+  }
+  expect_bounds(f, Accuracy::within(0x1p-2), false);
+}
+
+TEST(MixedBounds, HaveTheSecondOrderOfTheRestWhereTheBallIsSmall) {
+  Followed f{{"edge", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 3)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(1, 2), draw.power(1, 2)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    const double rho = a.least_radius() + b.least_radius();
+    f.place(draw, a, b, draw.direction(), -rho * (1 - draw.power(-10, -7.5)),
+            draw.power(-8.5, -7.2));
+  }
+  expect_bounds(f, Accuracy::within(0x1p-6), false);
+}
+
+// (F): of what the ball is the difference of, 2^-21.
+TEST(MixedBounds, HaveTheRoundingsOfTheBallWhereItIsSmallest) {
+  Followed f{{"smallest balls", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 4)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    const double rho = a.least_radius() + b.least_radius();
+    f.place(draw, a, b, draw.direction(), -rho * (1 - draw.power(-18.9, -18.2)),
+            draw.power(-10, -7.5));
+  }
+  expect_bounds(f, Accuracy::within(0x1p-6), false);
+}
+
+}  // namespace
+}  // namespace tangency
