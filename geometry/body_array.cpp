@@ -18,7 +18,7 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), shapes_(bodies.size()) {
+    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()) {
   for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
 }
 BodyArray::~BodyArray() = default;
@@ -26,14 +26,14 @@ BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
-      shapes_(std::move(other.shapes_)) {}
+      floats_(std::move(other.floats_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   BodyArray taken(std::move(other));
   std::swap(own_, taken.own_);
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
-  std::swap(shapes_, taken.shapes_);
+  std::swap(floats_, taken.floats_);
   return *this;
 }
 
@@ -41,7 +41,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
-    detail::fill(shapes_[i], bodies_[i]);
+    detail::fill(floats_[i], bodies_[i]);
   });
 }
 

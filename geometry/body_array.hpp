@@ -16,8 +16,8 @@
 namespace tangency::inline v0 {
 
 namespace detail {
+struct FloatRow;
 struct LaneBody;
-struct LaneShape;
 }  // namespace detail
 
 /// A temporary container of ellipsoids: one that a span of it would outlive.
@@ -28,15 +28,15 @@ concept TemporaryEllipsoids =
     !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
 
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
-/// access: 128 bytes a body for the gap and as many for the yes/no question. Keeps the span: the
+/// access: 128 bytes a body, and 64 for what is answered in single precision. Keeps the span: the
 /// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
 /// themselves. One that was moved from is empty.
 class BodyArray {
  public:
   /// Looks at bodies of the caller's, which have to outlive the array and stay in place.
   explicit BodyArray(std::span<const Ellipsoid> bodies);
-  template <TemporaryEllipsoids T>
   /// Takes the bodies of a temporary container, whose elements are ellipsoids.
+  template <TemporaryEllipsoids T>
   explicit BodyArray(T&& bodies) : BodyArray(Owned{}, owned(bodies)) {}
   ~BodyArray();
   /// Its source is empty afterwards.
@@ -55,10 +55,12 @@ class BodyArray {
   /// For the library's own use.
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
   /// For the library's own use.
-  const detail::LaneShape* shapes() const noexcept { return shapes_.data(); }
+  const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:
+  /// @cond
   struct Owned {};
+  /// @endcond
   BodyArray(Owned, std::vector<Ellipsoid> bodies);
 
   template <class T>
@@ -70,7 +72,7 @@ class BodyArray {
   std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
   std::span<const Ellipsoid> bodies_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
-  std::vector<detail::LaneShape, LargePages<detail::LaneShape>> shapes_;
+  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
 };
 
 }  // namespace tangency::inline v0

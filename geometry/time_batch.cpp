@@ -127,7 +127,6 @@ class Sweep {
  public:
   explicit Sweep(const Asked& asked) : asked_(asked) {
     block_.next_pairs = nullptr;
-    block_.shapes_a = block_.shapes_b = nullptr;
     block_.polish = block_.branches = false;
     block_.tolerance = 0.0;
     block_.gap = gap_;

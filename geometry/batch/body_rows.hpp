@@ -26,13 +26,13 @@ inline void fill(LaneBody& lane, const Ellipsoid& body) {
   lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
 }
 
-/// The row of a body for the yes/no question.
-inline void fill(LaneShape& lane, const Ellipsoid& body) {
+/// The row of a body for the lanes in float: with its numbers out of the range of floats where the
+/// body is not moderate().
+inline void fill(FloatRow& lane, const Ellipsoid& body) {
   const Symmetric3& m = body.shape();
   std::copy_n(body.centre().data(), 3, lane.centre);
-  lane.largest = largest_if_moderate(body);
   const double entries[] = {m.xx, m.yy, m.zz, m.yz, m.zx, m.xy};
-  std::copy_n(entries, 6, lane.shape);
+  fill_floats(lane, largest_if_moderate(body), body.least_radius(), entries);
 }
 
 }  // namespace tangency::inline v0::detail

@@ -37,9 +37,7 @@ HWY_INLINE PackBody load_body(const Rows* rows) {
 
 /// M = S S'
 HWY_INLINE PackSymmetric3 shape(const PackBody& body) {
-  const PackVec3 &p = body.factor[0], &q = body.factor[1], &r = body.factor[2];
-  const PackVec3 x{p.x, q.x, r.x}, y{p.y, q.y, r.y}, z{p.z, q.z, r.z};
-  return {dot(x, x), dot(y, y), dot(z, z), dot(y, z), dot(z, x), dot(x, y)};
+  return square_of_factor(body.factor[0], body.factor[1], body.factor[2]);
 }
 
 HWY_INLINE PackPair load_pair(const LaneBlock& block, std::size_t i) {

@@ -21,7 +21,7 @@ struct LaneOverlaps {
   std::uint64_t decided, meet;
 };
 
-/// Reads shapes, pairs, count and separations of the block. In any rounding mode.
+/// Reads bodies, pairs, count and separations of the block. In any rounding mode.
 LaneOverlaps overlap_lanes(const LaneBlock& block) noexcept;
 
 }  // namespace tangency::inline v0::detail

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <tangency/geometry/batch/float_rows.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 
 namespace tangency::inline v0::detail {
@@ -18,15 +19,6 @@ struct alignas(64) LaneBody {
   double unused[2];
 };
 static_assert(sizeof(LaneBody) == 16 * sizeof(double) && alignof(LaneBody) == 64);
-
-/// A body as the lanes read it for the yes/no question.
-struct alignas(64) LaneShape {
-  double centre[3];
-  double largest;   ///< as LaneBody's
-  double shape[6];  ///< xx yy zz yz zx xy of M, each as Ellipsoid::shape()
-  double unused[6];
-};
-static_assert(sizeof(LaneShape) == 16 * sizeof(double) && alignof(LaneShape) == 64);
 
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
@@ -42,8 +34,8 @@ struct LaneBlock {
 
   const LaneBody* bodies_a;  ///< first of the array that index a counts in
   const LaneBody* bodies_b;
-  const LaneShape* shapes_a;  ///< the same bodies; read by overlap_lanes() in place of the others
-  const LaneShape* shapes_b;
+  const FloatRow* floats_a;  ///< the same bodies, for float_lanes.hpp; null where none are kept
+  const FloatRow* floats_b;
   const IndexedPair* pairs;
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;

@@ -48,18 +48,19 @@ struct PackShape {
   PackSymmetric3 shape;
 };
 
-/// LaneShape by columns.
+/// What of LaneBody this question needs, with M = S S'.
 HWY_INLINE PackShape load_shape(const Rows* rows) {
-  return load_rows<12>(rows, [](const auto& column) HWY_ATTR {
-    return PackShape{{column(0), column(1), column(2)},
-                     column(3),
-                     {column(4), column(5), column(6), column(7), column(8), column(9)}};
+  return load_rows<16>(rows, [](const auto& column) HWY_ATTR {
+    const auto vector = [&](std::size_t c) HWY_ATTR {
+      return PackVec3{column(c), column(c + 1), column(c + 2)};
+    };
+    return PackShape{vector(0), column(3), square_of_factor(vector(5), vector(8), vector(11))};
   });
 }
 
 /// All lanes from index i on.
 HWY_INLINE void decide(const LaneBlock& block, std::size_t i, LaneOverlaps& answers) {
-  const PairRows rows = find_rows(block, i, block.shapes_a, block.shapes_b);
+  const PairRows rows = find_rows(block, i, block.bodies_a, block.bodies_b);
   const PackShape body_a = load_shape(rows.a), body_b = load_shape(rows.b);
   const PackVec3 d = separation(block, i, body_a.centre, body_b.centre);
   const PackSymmetric3 &a = body_a.shape, &b = body_b.shape;

@@ -125,6 +125,13 @@ HWY_INLINE Symmetric3Of<P> with_square(const Symmetric3Of<P>& s, const P& w, con
   return {multiply_add(p.x, v.x, s.xx), multiply_add(p.y, v.y, s.yy), multiply_add(p.z, v.z, s.zz),
           multiply_add(p.y, v.z, s.yz), multiply_add(p.z, v.x, s.zx), multiply_add(p.x, v.y, s.xy)};
 }
+/// S S' of S by its columns.
+template <class P>
+HWY_INLINE Symmetric3Of<P> square_of_factor(const Vec3Of<P>& p, const Vec3Of<P>& q,
+                                            const Vec3Of<P>& r) {
+  const Vec3Of<P> x{p.x, q.x, r.x}, y{p.y, q.y, r.y}, z{p.z, q.z, r.z};
+  return {dot(x, x), dot(y, y), dot(z, z), dot(y, z), dot(z, x), dot(x, y)};
+}
 
 /// Are all components 0, of either sign?
 template <class P>

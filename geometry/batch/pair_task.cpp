@@ -204,7 +204,7 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   block.next_pairs = nullptr;
   if (task.indexed()) {
     block.bodies_a = block.bodies_b = task.lanes;
-    block.shapes_a = block.shapes_b = task.bodies != nullptr ? task.bodies->shapes() : nullptr;
+    block.floats_a = block.floats_b = task.bodies != nullptr ? task.bodies->floats() : nullptr;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
     if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;

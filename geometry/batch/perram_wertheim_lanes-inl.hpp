@@ -43,6 +43,7 @@ struct PerramWertheimForm {
   P d0, d1, d2, d3;
   P n0, n1, n2;
 
+  PerramWertheimForm() = default;
   HWY_INLINE PerramWertheimForm(const Symmetric3Of<P>& a, const Symmetric3Of<P>& b,
                                 const Vec3Of<P>& d) {
     const Symmetric3Of<P> ja = adjugate(a), jb = adjugate(b);

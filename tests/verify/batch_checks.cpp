@@ -70,8 +70,8 @@ class Checker {
   void broken(Breach breach, std::size_t i, const std::string& what) {
     ++tally_.breaches[static_cast<std::size_t>(breach)];
     if (!tally_.first.empty()) return;
-    tally_.first = std::string(to_string(breach)) + ", " + level_ + ", " + what +
-                   "\n  " + printed(part_.raw[i]);
+    tally_.first = std::string(to_string(breach)) + ", " + level_ + ", " + what + "\n  " +
+                   printed(part_.raw[i]);
   }
 
   void gaps(const Call& call, const std::vector<Gap>& gaps) {
@@ -85,9 +85,7 @@ class Checker {
 
  private:
   const Single& single_of(const Call& call, std::size_t i) const {
-    return (call.following  ? part_.followed
-            : call.in_place ? part_.placed
-                            : part_.separated)[i];
+    return (call.following ? part_.followed : call.in_place ? part_.placed : part_.separated)[i];
   }
 
   Wide size(std::size_t i) const {
@@ -99,8 +97,8 @@ class Checker {
     ++tally_.answers;
     const Single& single = single_of(call, i);
     const auto said = [&] {
-      return call.name + ": " + described(gap) + ", single " + described(single.gap) + ", previous " +
-             printed_normal(i);
+      return call.name + ": " + described(gap) + ", single " + described(single.gap) +
+             ", previous " + printed_normal(i);
     };
     if (gap.status != single.gap.status) return broken(Breach::status, i, said());
     if (sign(gap.gap) != sign(single.gap.gap)) return broken(Breach::sign, i, said());
@@ -136,8 +134,8 @@ class Checker {
     tally_.other_branch += beyond;
     const Gap& global = part_.separated[i].gap;
     const bool below = global.status != GapStatus::ok ||
-                       Wide(gap.gap) - gap.gap_error <=
-                           (Wide(global.gap) + global.gap_error) + std::abs(Wide(gap.gap)) * 0x1p-60L;
+                       Wide(gap.gap) - gap.gap_error <= (Wide(global.gap) + global.gap_error) +
+                                                            std::abs(Wide(gap.gap)) * 0x1p-60L;
     if (!below || !(gap.gap < 0)) broken(Breach::beyond, i, said());
     const Vec3 before = part_.previous[i].normalized();
     if (beyond && !(distance(gap.normal, before) <= 0.15L)) broken(Breach::contact, i, said());
@@ -168,9 +166,8 @@ class Checker {
         holds = holds && turn <= promised + single.bounds.normal + 8 * Wide(kU);
       }
     } else if (unique) {
-      const ContactBounds bounds =
-          call.in_place ? contact_bounds(part_.a[i], part_.b[i], gap)
-                        : contact_bounds(a, b, part_.separations[i], gap);
+      const ContactBounds bounds = call.in_place ? contact_bounds(part_.a[i], part_.b[i], gap)
+                                                 : contact_bounds(a, b, part_.separations[i], gap);
       holds = holds && turn <= Wide(bounds.normal) + single.bounds.normal &&
               distance(gap.arm_a, single.gap.arm_a) <= Wide(bounds.arm_a) + single.bounds.arm_a &&
               distance(gap.arm_b, single.gap.arm_b) <= Wide(bounds.arm_b) + single.bounds.arm_b;
@@ -195,7 +192,8 @@ class Checker {
     if (gap.status == GapStatus::ok && truth.global) {
       const Real error = abs(below);
       holds = error <= Real(gap.gap_error) + off_by_oracle;
-      if (in_lane && gap.gap_error > 0) tightest(call, i, (error / gap.gap_error).convert_to<double>());
+      if (in_lane && gap.gap_error > 0)
+        tightest(call, i, (error / gap.gap_error).convert_to<double>());
     }
     if (truth.global)
       holds = holds && sign(gap.gap) == (abs(truth.gap) <= off_by_oracle ? 0 : truth.gap.sign());
@@ -274,7 +272,8 @@ class GapCalls {
       return [&, list](std::span<Gap> gaps, int) { signed_gaps(bodies, list, gaps, at()); };
     };
     const std::vector<Gap> array = answers("signed", false, true, cold(bodies_, placed));
-    const std::vector<Gap> array_apart = answers("signed, separated", false, false, cold(bodies_, apart));
+    const std::vector<Gap> array_apart =
+        answers("signed, separated", false, false, cold(bodies_, apart));
     const std::vector<Gap> owned = moving("signed, owned", false, true, owned_, placed);
     const std::vector<Gap> looking = moving("signed, looking", false, false, looking_, apart);
     std::vector<Gap> follow(part_.size());
@@ -309,9 +308,7 @@ class GapCalls {
 
  private:
   const Accuracy& at() const { return point_.accuracy; }
-  std::string name(const char* call) const {
-    return std::string(call) + ", " + point_.name;
-  }
+  std::string name(const char* call) const { return std::string(call) + ", " + point_.name; }
 
   template <class Ask>
   std::vector<Gap> answers(const char* call, bool following, bool in_place, const Ask& ask) {
@@ -417,8 +414,8 @@ void check_points(const Part& part, const BodyArray& bodies, Checker& check) {
   signed_gaps(bodies, {part.pairs, part.separations},
               {.arm_a = arm_a, .arm_b = arm_b, .status = status, .point = point});
   for (std::size_t i = 0; i < count; ++i) {
-    const Wide size = norm(part.separations[i]) + part.a[i].largest_semi_axis() +
-                      part.b[i].largest_semi_axis();
+    const Wide size =
+        norm(part.separations[i]) + part.a[i].largest_semi_axis() + part.b[i].largest_semi_axis();
     Wide off = 0;
     for (int k = 0; k < 3; ++k) {
       const Wide middle = (Wide(part.separations[i][k]) + arm_a[i][k] + arm_b[i][k]) / 2;
@@ -432,8 +429,8 @@ void check_points(const Part& part, const BodyArray& bodies, Checker& check) {
 void check_yes_no(const Part& part, const BodyArray& bodies, std::uint64_t seed, Checker& check) {
   const std::size_t count = part.size();
   const std::vector<std::size_t> order = shuffled(count, seed);
-  const auto compare = [&](const char* what, const auto& answers,
-                           const std::vector<char>& expected, bool in_order) {
+  const auto compare = [&](const char* what, const auto& answers, const std::vector<char>& expected,
+                           bool in_order) {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = in_order ? k : order[k];
       if (answers[k] != expected[i]) check.broken(Breach::yes_no, i, what);

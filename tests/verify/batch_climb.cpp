@@ -66,8 +66,7 @@ EllipsoidPair nudged(Draw& draw, EllipsoidPair pair) {
   if (draw.integer(0, 3) > 0) {
     const double way = draw.coin() ? 1 : -1;
     const int units = draw.integer(1, 16);
-    for (int i = 0; i < units; ++i)
-      x = std::nextafter(x, way * std::numeric_limits<double>::max());
+    for (int i = 0; i < units; ++i) x = std::nextafter(x, way * std::numeric_limits<double>::max());
   } else {
     x *= 1 + (draw.coin() ? 1 : -1) * draw.log_uniform(1e-12, 0.1);
   }

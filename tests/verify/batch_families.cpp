@@ -42,8 +42,12 @@ EllipsoidPair ordinary(Draw& draw, int which) {
 }
 
 EllipsoidPair contact(Draw& draw, double aspect, double size_ratio) {
-  const ContactFamily family{"", ContactFamily::Shape::triaxial, aspect, size_ratio,
-                             ContactFamily::GapUnit::smallest_semi_axis, 0.02};
+  const ContactFamily family{"",
+                             ContactFamily::Shape::triaxial,
+                             aspect,
+                             size_ratio,
+                             ContactFamily::GapUnit::smallest_semi_axis,
+                             0.02};
   return drawn(draw, family);
 }
 
@@ -116,7 +120,8 @@ EllipsoidPair equal_bodies(Draw& draw) {
   pair.b = pair.a;
   if (draw.coin()) pair.b.orientation = draw.orientation();
   if (draw.coin()) {
-    for (double& r : pair.b.semi_axes) r *= 1 + draw.integer(0, 3) * draw.log_uniform(0x1p-52, 1e-9);
+    for (double& r : pair.b.semi_axes)
+      r *= 1 + draw.integer(0, 3) * draw.log_uniform(0x1p-52, 1e-9);
   }
   const double gap = draw.real(-0.02, 0.02) * least_axis(pair);
   place_b(pair, verify::drawn_direction(draw), gap);
@@ -272,6 +277,7 @@ const std::vector<BatchFamily>& batch_families() {
       hostile(),
       drawn_family("matrices rounded one way", 0.1, matrices_rounded_one_way),
       drawn_family("faces on faces", 0.1, [](Draw& draw) { return on_faces(draw, 100, true); }),
+      drawn_family("thinnest faces", 0.1, [](Draw& draw) { return on_faces(draw, 1e18, false); }),
       drawn_family("far origins", 0.1, far_origin),
       drawn_family("slow neighbours", 0.1, slow_neighbours),
       drawn_family("beyond floats", 0.1, beyond_floats),

@@ -70,8 +70,8 @@ Part made_part(const BatchFamily& family, std::uint64_t seed, std::size_t count,
   for (std::size_t i = 0; i < std::min(judged, part.size()); ++i) {
     const EllipsoidPair& pair = part.raw[i];
     part.truth.push_back(verify::signed_gap(pair.a, pair.b));
-    part.truth_separated.push_back(verify::signed_gap(moved_to(pair.a, Vec3::Zero()),
-                                                      moved_to(pair.b, part.separations[i])));
+    part.truth_separated.push_back(
+        verify::signed_gap(moved_to(pair.a, Vec3::Zero()), moved_to(pair.b, part.separations[i])));
     part.truly_overlap.push_back(verify::exact_overlaps(pair.a, pair.b));
   }
   for (const Ellipsoid& body : part.bodies) {

@@ -21,15 +21,15 @@ std::string printed(const verify::EllipsoidPair& pair);
 
 /// What can be broken; each has a column in the table.
 enum class Breach {
-  sign,        ///< other than the single call's, or than the exact relation
-  status,      ///< other than the single call's
-  beyond,      ///< further from the single call than both errors
-  bound,       ///< gap_error above gap_batch.hpp (4)
-  contact,     ///< normal, arms or point beyond what is promised of them
-  enclosure,   ///< of bounded_gaps()
-  yes_no,      ///< other than overlaps()
-  bits,        ///< depend on place, order, number, threads or form of the bodies
-  oracle,      ///< further from the truth than gap_error
+  sign,       ///< other than the single call's, or than the exact relation
+  status,     ///< other than the single call's
+  beyond,     ///< further from the single call than both errors
+  bound,      ///< gap_error above gap_batch.hpp (4)
+  contact,    ///< normal, arms or point beyond what is promised of them
+  enclosure,  ///< of bounded_gaps()
+  yes_no,     ///< other than overlaps()
+  bits,       ///< depend on place, order, number, threads or form of the bodies
+  oracle,     ///< further from the truth than gap_error
 };
 inline constexpr std::size_t kBreaches = 9;
 const char* to_string(Breach breach);
@@ -48,7 +48,7 @@ struct Tally {
   long other_branch = 0;        ///< `local` and followed in a lane: not the single call's maximum
   Tightness rounding;   ///< of Accuracy::certified(), whose gap_error is nearly all rounding
   Tightness tolerance;  ///< of the others: an enclosure's end may well be the truth
-  std::string first;  ///< the first breach, with its pair in hexadecimal
+  std::string first;    ///< the first breach, with its pair in hexadecimal
 
   void add(const Tally& other);
   bool kept() const;

@@ -2,7 +2,7 @@
 // Holds the questions of single bodies, in every form of a body, against exact rational numbers and
 // 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres
 // by matrices meet; and bodies inside bodies (containment_questions.cpp). The merge gate runs a
-// part of it; docs/guide.md names the whole.
+// part of it; docs/testing.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 

@@ -106,15 +106,22 @@ class _Rows:
 
     def __init__(self, rows: Any, form: Any, level: float, argument: str) -> None:
         self._pointer = ctypes.c_void_p()
-        array = rows_of(rows, self._names[form], argument)
-        call(f"{self._kind}_create", ctypes.addressof(self._pointer), int(form), array.ctypes.data, number_of(array),
-             len(array), array.strides[0], level)
+        self._call("create", ctypes.addressof(self._pointer), rows, form, level, argument)
 
-    def append(self, rows: Any, form: Any = 0, level: float = 1.0) -> None:
+    def append(self, rows: Any, form: Any = 0, level: float = 1.0, *, argument: str = "rows") -> None:
         """Adds bodies behind those there are. No other thread may ask about them meanwhile."""
-        array = rows_of(rows, self._names[type(next(iter(self._names)))(form)], "rows")
-        call(f"{self._kind}_append", self._pointer, int(form), array.ctypes.data, number_of(array), len(array),
-             array.strides[0], level)
+        self._call("append", self._pointer, rows, form, level, argument)
+
+    def _call(self, name: str, to: Any, rows: Any, form: Any, level: float, argument: str) -> None:
+        known = type(next(iter(self._names)))(form)
+        array = rows_of(rows, self._names[known], argument)
+        try:
+            call(f"{self._kind}_{name}", to, int(known), array.ctypes.data, number_of(array), len(array),
+                 array.strides[0], level)
+        except TangencyError as error:  # the library calls them rows
+            if error.row is None:
+                raise
+            raise TangencyError(argument + str(error).removeprefix("rows"), error.row) from None
 
     def __len__(self) -> int:
         return int(functions[f"{self._kind}_count"](self._pointer))

@@ -38,10 +38,7 @@ def plane_contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
         if isinstance(a, Ellipses) or pairs is not None:
             raise TangencyError("b: must be None where a are Ellipses or pairs are given")
         count = len(known)
-        try:
-            known.append(b)
-        except TangencyError as error:
-            raise TangencyError("b" + str(error).removeprefix("rows"), error.row) from None
+        known.append(b, argument="b")
         if len(known) != 2 * count:
             raise TangencyError(f"b: {len(known) - count} rows: must be {count}, as many as of a")
     list_ = None if pairs is None else pair_rows(pairs)

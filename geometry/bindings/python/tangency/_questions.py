@@ -93,7 +93,7 @@ class _Asked:
             self._require_index(self.pairs[:, 1], len(others), "b")
             self.pairs = self.pairs + np.array([0, first], np.uint32)
             self.count = len(self.pairs)
-        _append_b(self.bodies, others)
+        self.bodies.append(others, argument="b")
 
     def _repeat(self, a: Any, others: NDArray[Any]) -> None:
         """One body against many."""
@@ -102,7 +102,7 @@ class _Asked:
         self.pairs = np.empty((self.count, 2), np.uint32)
         self.pairs[:, 0] = np.arange(first)
         self.pairs[:, 1] = first + np.arange(second)
-        _append_b(self.bodies, others)
+        self.bodies.append(others, argument="b")
 
     @staticmethod
     def _require_index(indices: NDArray[np.uint32], count: int, entry: str) -> None:
@@ -114,13 +114,6 @@ class _Asked:
 
     def arguments(self) -> tuple[Any, ...]:
         return (self.bodies.pointer, _data(self.pairs), self.count, _data(self.separations))
-
-
-def _append_b(bodies: Bodies, rows: NDArray[Any]) -> None:
-    try:
-        bodies.append(rows)
-    except TangencyError as error:
-        raise TangencyError("b" + str(error).removeprefix("rows"), error.row) from None
 
 
 def _data(array: NDArray[Any] | None) -> int | None:
