@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -18,15 +19,22 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
+    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()), rows_(bodies.size()) {
+  in_default_environment([&] {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      detail::fill(lanes_[i], bodies[i]);
+      detail::fill(floats_[i], bodies[i]);
+    }
+    detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
+  });
 }
 BodyArray::~BodyArray() = default;
 BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
-      floats_(std::move(other.floats_)) {}
+      floats_(std::move(other.floats_)),
+      rows_(std::move(other.rows_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   BodyArray taken(std::move(other));
@@ -34,6 +42,7 @@ BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
   std::swap(floats_, taken.floats_);
+  std::swap(rows_, taken.rows_);
   return *this;
 }
 
@@ -42,6 +51,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
     detail::fill(floats_[i], bodies_[i]);
+    detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
   });
 }
 

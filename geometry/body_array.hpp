@@ -18,6 +18,7 @@ namespace tangency::inline v0 {
 namespace detail {
 struct FloatRow;
 struct LaneBody;
+struct ShapeRow;
 }  // namespace detail
 
 /// A temporary container of ellipsoids: one that a span of it would outlive.
@@ -28,7 +29,7 @@ concept TemporaryEllipsoids =
     !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
 
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
-/// access: 128 bytes a body, and 64 for what is answered in single precision. Keeps the span: the
+/// access: 224 bytes a body, and 64 for what is answered in single precision. Keeps the span: the
 /// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
 /// themselves. One that was moved from is empty.
 class BodyArray {
@@ -56,6 +57,8 @@ class BodyArray {
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
   /// For the library's own use.
   const detail::FloatRow* floats() const noexcept { return floats_.data(); }
+  /// For the library's own use.
+  const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
 
  private:
   /// @cond
@@ -73,6 +76,7 @@ class BodyArray {
   std::span<const Ellipsoid> bodies_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
   std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
+  std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
 };
 
 }  // namespace tangency::inline v0

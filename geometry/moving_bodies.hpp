@@ -36,6 +36,7 @@ namespace tangency::inline v0 {
 
 namespace detail {
 struct LaneBody;
+struct ShapeRow;
 }  // namespace detail
 
 /// Where bodies are and how they are turned, of a range of them.
@@ -47,7 +48,7 @@ struct PoseColumns {
 /// The bodies Ellipsoid(centre, semi_axes[i], orientations[i]).
 ///
 /// What the batch reads of them is what they were at the last refresh(), or when they were last
-/// set: 128 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
+/// set: 224 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
 /// different threads, but for the calls that change their number, the first call that owns numbers
 /// and the first that gives bodies centres. One that was moved from is empty; so is the copy of one
 /// that looks at columns, whose owner has columns of his own to look_at().
@@ -127,6 +128,8 @@ class MovingBodies {
 
   /// For the library's own use.
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  /// For the library's own use.
+  const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
 
  private:
   void own();
@@ -140,6 +143,7 @@ class MovingBodies {
   std::vector<Vec3> own_axes_, centres_;  ///< centres: none, or as many as bodies
   std::vector<Quaternion> own_turns_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
+  std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
 };
 
 }  // namespace tangency::inline v0

@@ -88,5 +88,5 @@ def set_inline(text):
     text = re.sub(r"(?<=[\w)|'])\^(-?\w+(?:/\d+)?)", r"<sup>\1</sup>", text)
     text = re.sub(r"\b([A-Za-z]|" + "|".join(GREEK) + r")_([A-Za-z0-9]{1,5})\b", r"\1<sub>\2</sub>", text)
     text = re.sub(r"(?<=[)|])_(\w)\b", r"<sub>\1</sub>", text)
-    text = text.replace("<=", "≤").replace(">=", "≥").replace("sqrt(", "√(").replace("[]", "∎")
+    text = text.replace("<=>", "⇔").replace("<=", "≤").replace(">=", "≥").replace("sqrt(", "√(").replace("[]", "∎")
     return re.sub(r"\b(" + "|".join(GREEK) + r")(?=\b|<)(?!-)", lambda match: GREEK[match[1]], text)

@@ -17,6 +17,10 @@ PROJECT = ["CONTRIBUTING.md", "docs/architecture.md", "docs/testing.md", "docs/m
            "CHANGELOG.md", "SECURITY.md"]
 
 
+# Pages whose running text has formulas.
+MATHEMATICS = ("docs/derivations/", "docs/guide")
+
+
 def identifier(path):
     """The name of a page, from its path."""
     name = re.sub(r"^docs/", "", path)
@@ -84,7 +88,7 @@ class Writer:
             elif link:
                 parts[index] = self.link(page, link[2], link[3])
             elif index % 2 == 0:
-                part = set_inline(part) if page.startswith("docs/derivations/") else part
+                part = set_inline(part) if page.startswith(MATHEMATICS) else part
                 part = re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", part)
                 part = re.sub(r"@", r"\\@", part)
                 part = re.sub(r"<(?!/?(?:b|br|sub|sup)>)", r"\\<", part)

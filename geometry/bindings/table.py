@@ -331,7 +331,7 @@ _ROWS = (
     Argument("count", "size_t", "rows"),
     Argument("stride", "ptrdiff_t", "from one row to the next; may be negative", "bytes"),
 )
-_BODIES = Argument("bodies", "const tangency_bodies*", "")
+_BODIES = Argument("bodies", "const tangency_bodies*", "as they were made")
 _PAIRS = (
     Argument("pairs", "unsigned[2]?", "places of A and B among the bodies, from 0. NULL: of pair k those of "
                                       "bodies k and count + k"),
@@ -362,13 +362,13 @@ FUNCTIONS = (
     Function("name_of", "The name of a value of an enumeration, as files write it: name_of(\"relation\", 2) is "
                         "\"overlap\". NULL where there is none.", (
         Argument("enumeration", "const char*", "its name without tangency_"),
-        Argument("value", "int", ""),
+        Argument("value", "int", "of the enumeration"),
     ), "const char*"),
     Function("level_of_confidence", "The level of the ellipsoid (3) or ellipse (2) that holds a share of a normal "
                                     "distribution.", (
         Argument("confidence", "double", "in (0, 1)", "1"),
         Argument("dimensions", "int", "2 or 3"),
-        Argument("level", "double*", ""),
+        Argument("level", "double*", "the answer"),
     )),
     Function("bodies_create", "Bodies of rows of numbers, which are copied. By forms other than axes relations "
                               "are exact for the numbers as given, other answers hold with what is rounded in "
@@ -378,15 +378,15 @@ FUNCTIONS = (
     ) + _ROWS + (Argument("level", "double", "of forms shape and precision, > 0; else 1", "1"),)),
     Function("bodies_append", "More bodies behind those there are. Here and in bodies_set() nobody may ask about "
                               "them meanwhile; where it fails they are as before.", (
-        Argument("bodies", "tangency_bodies*", ""),
+        Argument("bodies", "tangency_bodies*", "as they were made"),
         Argument("form", "int", "tangency_form"),
     ) + _ROWS + (Argument("level", "double", "as above", "1"),)),
     Function("bodies_set", "Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.", (
-        Argument("bodies", "tangency_bodies*", ""),
+        Argument("bodies", "tangency_bodies*", "as they were made"),
         Argument("first", "size_t", "from 0"),
     ) + _ROWS),
     Function("bodies_count", "How many there are.", (_BODIES,), "size_t"),
-    Function("bodies_destroy", "Ends them; NULL does nothing.", (Argument("bodies", "tangency_bodies*", ""),), "void"),
+    Function("bodies_destroy", "Ends them; NULL does nothing.", (Argument("bodies", "tangency_bodies*", "as they were made"),), "void"),
     Function("contacts", "Signed gap, normal and witness points of pairs. The sign is that of the exact relation.",
              (_BODIES,) + _PAIRS + (
         Argument("previous_normals", "double[3]?", "follow the branch of these, from A to B; may be the memory of "
@@ -439,55 +439,55 @@ FUNCTIONS = (
     Function("walls", "Bodies against walls, the solid half-spaces normal . x <= offset.", (
         _BODIES,
         Argument("walls", "double[4]", "normal of any length but 0, out of the wall, and offset"),
-        Argument("walls_count", "size_t", ""),
+        Argument("walls_count", "size_t", "how many walls"),
         Argument("sheets", "int", "not 0: walls without thickness, free on both sides")) + _MEETINGS + (
         _answers("wall_columns"), _THREADS)),
     Function("points", "Closest points of surfaces, and signed distances.", (
         _BODIES,
         Argument("points", "double[3]", "finite", "length"),
-        Argument("points_count", "size_t", "")) + _MEETINGS + (_answers("point_columns"), _THREADS)),
+        Argument("points_count", "size_t", "how many points")) + _MEETINGS + (_answers("point_columns"), _THREADS)),
     Function("balls", "Contacts of bodies (A) and spheres (B).", (
         _BODIES,
         Argument("balls", "double[4]", "centre, and radius >= 0", "length"),
-        Argument("balls_count", "size_t", "")) + _MEETINGS + (_answers("contact_columns"), _THREADS)),
+        Argument("balls_count", "size_t", "how many balls")) + _MEETINGS + (_answers("contact_columns"), _THREADS)),
     Function("rays", "Where rays, segments and lines meet surfaces: whether they do is exact.", (
         _BODIES,
         Argument("rays", "double[8]", "origin, direction of any length but 0, and the ends of the interval of t, "
                                       "which may be infinite"),
-        Argument("rays_count", "size_t", "")) + _MEETINGS + (_answers("ray_columns"), _THREADS)),
+        Argument("rays_count", "size_t", "how many rays")) + _MEETINGS + (_answers("ray_columns"), _THREADS)),
     Function("neighbours_create", "All pairs of images whose gap is at most a reach, in ascending order.", (
         Argument("neighbours", "tangency_neighbours**", "to be destroyed with tangency_neighbours_destroy()"),
         _BODIES,
-        Argument("question", "const tangency_neighbour_question*", ""),
+        Argument("question", "const tangency_neighbour_question*", "which pairs, and which answers"),
         Argument("accuracy", "const tangency_accuracy*?", "of gaps; NULL: to rounding"), _THREADS)),
     Function("neighbours_count", "How many pairs there are.",
-             (Argument("neighbours", "const tangency_neighbours*", ""),), "size_t"),
+             (Argument("neighbours", "const tangency_neighbours*", "as they were made"),), "size_t"),
     Function("neighbours_columns", "Their columns.", (
-        Argument("neighbours", "const tangency_neighbours*", ""),
+        Argument("neighbours", "const tangency_neighbours*", "as they were made"),
         Argument("columns", "tangency_neighbour_columns*", "its size is set before"))),
     Function("neighbours_destroy", "Ends them; NULL does nothing.",
-             (Argument("neighbours", "tangency_neighbours*", ""),), "void"),
+             (Argument("neighbours", "tangency_neighbours*", "as they were made"),), "void"),
     Function("ellipses_create", "Ellipses of rows of numbers, which are copied.", (
         Argument("ellipses", "tangency_ellipses**", "to be destroyed with tangency_ellipses_destroy()"),
         Argument("form", "int", "tangency_plane_form"),
     ) + _ROWS + (Argument("level", "double", "of forms shape and precision, > 0; else 1", "1"),)),
     Function("ellipses_append", "More ellipses behind those there are.", (
-        Argument("ellipses", "tangency_ellipses*", ""),
+        Argument("ellipses", "tangency_ellipses*", "as they were made"),
         Argument("form", "int", "tangency_plane_form"),
     ) + _ROWS + (Argument("level", "double", "as above", "1"),)),
-    Function("ellipses_count", "How many there are.", (Argument("ellipses", "const tangency_ellipses*", ""),),
+    Function("ellipses_count", "How many there are.", (Argument("ellipses", "const tangency_ellipses*", "as they were made"),),
              "size_t"),
-    Function("ellipses_destroy", "Ends them; NULL does nothing.", (Argument("ellipses", "tangency_ellipses*", ""),),
+    Function("ellipses_destroy", "Ends them; NULL does nothing.", (Argument("ellipses", "tangency_ellipses*", "as they were made"),),
              "void"),
     Function("plane_contacts", "All questions about pairs of ellipses.", (
-        Argument("ellipses", "const tangency_ellipses*", ""),
+        Argument("ellipses", "const tangency_ellipses*", "as they were made"),
         Argument("pairs", "unsigned[2]?", "as of tangency_contacts()"),
         Argument("count", "size_t", "pairs"),
         _answers("plane_contact_columns"), _THREADS)),
     Function("plane_points", "Closest points of boundaries, and signed distances.", (
-        Argument("ellipses", "const tangency_ellipses*", ""),
+        Argument("ellipses", "const tangency_ellipses*", "as they were made"),
         Argument("points", "double[2]", "finite", "length"),
-        Argument("points_count", "size_t", "")) + _MEETINGS + (_answers("plane_point_columns"), _THREADS)),
+        Argument("points_count", "size_t", "how many points")) + _MEETINGS + (_answers("plane_point_columns"), _THREADS)),
     Function("classify", "The type of quadrics, exact: rows A B C D E F G H J K as of form quadric.", (
         Argument("coefficients", "const double*", "of the first row"),
         Argument("count", "size_t", "quadrics"),

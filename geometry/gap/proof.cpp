@@ -33,7 +33,7 @@ Sides sides(const Pair& pair, const Vec3& n) noexcept {
 constexpr double kLongestStep = 0x1p-20;
 // Of the last step's length times that of the step from the normal that the Hessian is of: the way
 // that is left, in rad. Chosen: normals are worth more than the gap alone needs.
-constexpr double kClose = 0x1p-39;
+constexpr double kClose = 0x1p-36;
 
 /// (V), (R) and (B). Returns r.
 [[gnu::always_inline]] inline Vec3 prove_at(const Pair& pair, const Vec3& normal, const Sides& at,

@@ -16,7 +16,7 @@ constexpr int kOldSteps = 3;        // chosen
 // One more step is left. Of |step|^2 with the Hessian at the normal, and of |first|^4 |step|^2 with
 // an old one, where the next will be a few times |step|^2 and |first| |step|. Measured: what
 // prove_gap_and_step() then calls close, but for one pair of five to thirty.
-constexpr double kLastButOne = 0x1p-26, kLastButOneOld = 0x1p-80;
+constexpr double kLastButOne = 0x1p-27, kLastButOneOld = 0x1p-76;
 
 /// 1 / sqrt(h2), within 4 u: the root and the reciprocal do not wait for each other.
 TwoLanes inverse_root(const TwoLanes& h2, const TwoLanes& inverse2) noexcept {

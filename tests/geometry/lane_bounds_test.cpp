@@ -2,12 +2,14 @@
 // gap_error of what lanes answer has in it what docs/derivations/gap-batch.md derives: recomputed
 // here from the bodies and the answer, in extended doubles. No error of a lane comes near enough to
 // its bound for a constant that is too small to be noticed by the error itself.
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <random>
 #include <vector>
@@ -245,6 +247,88 @@ TEST(LaneBounds, HaveWhatABetterNormalMayGain) {
       EXPECT_GE(seen.most_above, 0.9L);
     });
   }
+}
+
+/// Where a followed branch is, deeper than -rho: (D) of the derivation.
+struct Branch {
+  double least;  ///< G_1, of H + f across the normal
+  double radii;  ///< R
+  double thin;   ///< the larger a/h
+};
+
+Branch branch_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, double gap) {
+  Mat3 bend = Mat3::Zero();
+  Branch branch{0, 0, 0};
+  for (const Ellipsoid* body : {&a, &b}) {
+    const Vec3 x = body->support_point(n);
+    const double h = body->support(n), most = body->largest_semi_axis();
+    const Mat3 factor = body->rotation() * body->semi_axes().asDiagonal();
+    bend += (factor * factor.transpose() - x * x.transpose()) / h;
+    branch.radii += most * most / h;
+    branch.thin = std::max(branch.thin, most / h);
+  }
+  Eigen::Matrix<double, 3, 2> across;
+  across << n.unitOrthogonal(), n.cross(n.unitOrthogonal());
+  const Eigen::Matrix2d flat = across.transpose() * bend * across;
+  branch.least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(flat).eigenvalues()[0] + gap;
+  return branch;
+}
+
+/// Maxima deeper than -rho, and normals that have turned from there by 2^-30 to 2^-3.
+Family branches(std::size_t count, std::vector<Vec3>& previous) {
+  Family f{"branches", {}, {}};
+  Pairs draw(kSeed + 3);
+  while (f.a.size() < count) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 3), draw.power(0, 3)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    const Vec3 n = draw.direction();
+    const double flattest = branch_at(a, b, n, 0).least, deepest = rho(a, b);
+    if (flattest < 1.2 * deepest) continue;
+    Pairs::place(f, a, b, n, -deepest - draw.real(0.1, 0.9) * (flattest - deepest));
+    previous.push_back(n + draw.power(-30, -3) * n.cross(draw.direction()));
+  }
+  return f;
+}
+
+// docs/derivations/gap-batch.md (D)
+TEST(LaneBounds, OfFollowedBranchesHoldOnlyInTheirCapAndHaveItsBound) {
+  std::vector<Vec3> previous, axes;
+  std::vector<Quaternion> turns;
+  const Family f = branches(2000, previous);
+  const Indexed in(f);
+  for (const Ellipsoid& body : in.bodies) {
+    axes.push_back(body.semi_axes());
+    turns.push_back(body.orientation());
+  }
+  std::vector<Gap> single;
+  for (std::size_t i = 0; i < f.a.size(); ++i)
+    single.push_back(follow_gap(f.a[i], f.b[i], in.separations[i], previous[i]));
+  at_every_level([&] {
+    const MovingBodies bodies(axes, turns);
+    Columns answers(f.a.size());
+    follow_gaps(bodies, {in.pairs, in.separations}, previous, answers.all(),
+                Accuracy::within(0x1p-3));
+    Wide lanes = 0, nearest = 0, least = 1e9L;
+    for (std::size_t i = 0; i < f.a.size(); ++i) {
+      const Gap gap = answers[i];
+      if (gap.status != GapStatus::local || same_bits(gap, single[i])) continue;
+      const Branch branch = branch_at(f.a[i], f.b[i], gap.normal, gap.gap - gap.gap_error);
+      const Wide rest2 = across_squared(in.separations[i], gap);
+      const Wide g = 0.75L * branch.least;
+      // 2 |r| a/h <= g G_1 / (4 R)
+      const Wide share = 8 * std::sqrt(rest2) * branch.thin * branch.radii / (g * branch.least);
+      EXPECT_LE(share, 1) << i;
+      const Derived value = derived(f.a[i], f.b[i], gap, {"followed", 10, false});
+      const Wide sum = value.value + 0.5L * 0.5625L * rest2 / g;
+      EXPECT_GE(gap.gap_error, sum * (1 - 0x1p-10L)) << i;
+      ++lanes;
+      nearest = std::max(nearest, share), least = std::min(least, gap.gap_error / sum);
+    }
+    EXPECT_GE(lanes, 500);
+    EXPECT_GE(nearest, 0.5L);
+    EXPECT_LE(least, 1.3L);
+    std::printf("%Lf %Lf %Lf\n", lanes, nearest, least);
+  });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <ios>
 #include <iostream>
 #include <iterator>
 #include <optional>
@@ -44,7 +45,8 @@
 
 namespace {
 
-// A block of C++ of README or guide: where it stands, what it does, and what the page says it prints.
+// A block of C++ of README or guide: where it stands, what it does, and what the page says it
+// prints.
 struct Example {
   const char* place;
   void (*run)();
@@ -62,11 +64,14 @@ struct Example {
 
 namespace {
 
-// What std::cout takes while it lives.
+// What std::cout takes while it lives; it ends in the form that it had.
 class Printed {
  public:
-  Printed() : before_(std::cout.rdbuf(text_.rdbuf())) {}
-  ~Printed() { std::cout.rdbuf(before_); }
+  Printed() : before_(std::cout.rdbuf(text_.rdbuf())) { form_.copyfmt(std::cout); }
+  ~Printed() {
+    std::cout.rdbuf(before_);
+    std::cout.copyfmt(form_);
+  }
   Printed(const Printed&) = delete;
   Printed& operator=(const Printed&) = delete;
   std::string text() const { return text_.str(); }
@@ -74,6 +79,7 @@ class Printed {
  private:
   std::ostringstream text_;
   std::streambuf* before_;
+  std::ios form_{nullptr};
 };
 
 TEST(Guide, EveryExampleInCppPrintsWhatItsPageSays) {

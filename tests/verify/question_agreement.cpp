@@ -423,10 +423,6 @@ int main(int argc, char** argv) {
   long count = 100'000;
   std::string only;
   program.option("--count", count, "inputs of each");
-  program
-      .option("--only", only,
-              "one kind: ellipses, walls, rays, points, times, clearances, margins, "
-              "plane-clearances or plane-margins")
-      .one_of(kinds());
+  program.option("--only", only, "one kind; else all").one_of(kinds());
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count, only); });
 }

@@ -676,6 +676,7 @@ TANGENCY_API size_t tangency_error_row(void);
  * The name of a value of an enumeration, as files write it: name_of("relation", 2) is "overlap".
  * NULL where there is none.
  * @param enumeration  its name without tangency_
+ * @param value  of the enumeration
  */
 TANGENCY_API const char* tangency_name_of(const char* enumeration, int value);
 
@@ -683,6 +684,7 @@ TANGENCY_API const char* tangency_name_of(const char* enumeration, int value);
  * The level of the ellipsoid (3) or ellipse (2) that holds a share of a normal distribution.
  * @param confidence  in (0, 1)
  * @param dimensions  2 or 3
+ * @param level  the answer
  */
 TANGENCY_API int tangency_level_of_confidence(double confidence, int dimensions, double* level);
 
@@ -704,6 +706,7 @@ TANGENCY_API int tangency_bodies_create(tangency_bodies** bodies, int form, cons
 /**
  * More bodies behind those there are. Here and in bodies_set() nobody may ask about them
  * meanwhile; where it fails they are as before.
+ * @param bodies  as they were made
  * @param form  tangency_form
  * @param rows  the numbers of the first row, side by side
  * @param number  their type, tangency_number
@@ -716,6 +719,7 @@ TANGENCY_API int tangency_bodies_append(tangency_bodies* bodies, int form, const
 
 /**
  * Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.
+ * @param bodies  as they were made
  * @param first  from 0
  * @param rows  the numbers of the first row, side by side
  * @param number  their type, tangency_number
@@ -725,14 +729,21 @@ TANGENCY_API int tangency_bodies_append(tangency_bodies* bodies, int form, const
 TANGENCY_API int tangency_bodies_set(tangency_bodies* bodies, size_t first, const void* rows, int
     number, size_t count, ptrdiff_t stride);
 
-/** How many there are. */
+/**
+ * How many there are.
+ * @param bodies  as they were made
+ */
 TANGENCY_API size_t tangency_bodies_count(const tangency_bodies* bodies);
 
-/** Ends them; NULL does nothing. */
+/**
+ * Ends them; NULL does nothing.
+ * @param bodies  as they were made
+ */
 TANGENCY_API void tangency_bodies_destroy(tangency_bodies* bodies);
 
 /**
  * Signed gap, normal and witness points of pairs. The sign is that of the exact relation.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -766,6 +777,7 @@ TANGENCY_API int tangency_contacts_of_rows(const double* a, ptrdiff_t a_stride, 
 
 /**
  * The gap at a bounded cost, without search: true gap in [gap - gap_error, gap + above].
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -781,6 +793,7 @@ TANGENCY_API int tangency_bounded_gaps(const tangency_bodies* bodies, const unsi
 
 /**
  * Do the interiors meet? Exact.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -794,6 +807,7 @@ TANGENCY_API int tangency_overlaps(const tangency_bodies* bodies, const unsigned
 
 /**
  * The same in bounded time: 2 where only integers would know.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -807,6 +821,7 @@ TANGENCY_API int tangency_overlaps_by_filter(const tangency_bodies* bodies, cons
 
 /**
  * How pairs lie, as point sets: exact.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -821,6 +836,7 @@ TANGENCY_API int tangency_relations(const tangency_bodies* bodies, const unsigne
 
 /**
  * The gap by another definition, to tell a difference of definition from an error.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -836,6 +852,7 @@ TANGENCY_API int tangency_other_gaps(const tangency_bodies* bodies, const unsign
 
 /**
  * The Perram-Wertheim contact function.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -850,6 +867,7 @@ TANGENCY_API int tangency_perram_wertheim_factors(const tangency_bodies* bodies,
 
 /**
  * First and second derivatives of the gap.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -866,6 +884,7 @@ TANGENCY_API int tangency_gap_derivatives(const tangency_bodies* bodies, const u
 
 /**
  * Curvatures where two bodies touch.
+ * @param bodies  as they were made
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
  * @param count  pairs
@@ -879,6 +898,7 @@ TANGENCY_API int tangency_contact_curvatures(const tangency_bodies* bodies, cons
 
 /**
  * The volume that two bodies have in common, and its gradient.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -894,6 +914,7 @@ TANGENCY_API int tangency_common_volumes(const tangency_bodies* bodies, const un
 
 /**
  * How far A lies inside B: a length and a factor.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -908,6 +929,7 @@ TANGENCY_API int tangency_containments(const tangency_bodies* bodies, const unsi
 
 /**
  * First contact of moving bodies in 0 <= t <= horizon.
+ * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
  * @param count  pairs
@@ -926,7 +948,9 @@ TANGENCY_API int tangency_times_of_contact(const tangency_bodies* bodies, const 
 
 /**
  * Bodies against walls, the solid half-spaces normal . x <= offset.
+ * @param bodies  as they were made
  * @param walls  normal of any length but 0, out of the wall, and offset (4 a row)
+ * @param walls_count  how many walls
  * @param sheets  not 0: walls without thickness, free on both sides
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
@@ -940,7 +964,9 @@ TANGENCY_API int tangency_walls(const tangency_bodies* bodies, const double* wal
 
 /**
  * Closest points of surfaces, and signed distances.
+ * @param bodies  as they were made
  * @param points  finite (3 a row, unit: length)
+ * @param points_count  how many points
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
  * @param count  pairs
@@ -953,7 +979,9 @@ TANGENCY_API int tangency_points(const tangency_bodies* bodies, const double* po
 
 /**
  * Contacts of bodies (A) and spheres (B).
+ * @param bodies  as they were made
  * @param balls  centre, and radius >= 0 (4 a row, unit: length)
+ * @param balls_count  how many balls
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
  * @param count  pairs
@@ -966,8 +994,10 @@ TANGENCY_API int tangency_balls(const tangency_bodies* bodies, const double* bal
 
 /**
  * Where rays, segments and lines meet surfaces: whether they do is exact.
+ * @param bodies  as they were made
  * @param rays  origin, direction of any length but 0, and the ends of the interval of t, which
  * may be infinite (8 a row)
+ * @param rays_count  how many rays
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
  * @param count  pairs
@@ -981,6 +1011,8 @@ TANGENCY_API int tangency_rays(const tangency_bodies* bodies, const double* rays
 /**
  * All pairs of images whose gap is at most a reach, in ascending order.
  * @param neighbours  to be destroyed with tangency_neighbours_destroy()
+ * @param bodies  as they were made
+ * @param question  which pairs, and which answers
  * @param accuracy  of gaps; NULL: to rounding
  * @param threads  that may work on it; below 1 counts as 1
  */
@@ -988,17 +1020,24 @@ TANGENCY_API int tangency_neighbours_create(tangency_neighbours** neighbours, co
     tangency_bodies* bodies, const tangency_neighbour_question* question, const tangency_accuracy*
     accuracy, int threads);
 
-/** How many pairs there are. */
+/**
+ * How many pairs there are.
+ * @param neighbours  as they were made
+ */
 TANGENCY_API size_t tangency_neighbours_count(const tangency_neighbours* neighbours);
 
 /**
  * Their columns.
+ * @param neighbours  as they were made
  * @param columns  its size is set before
  */
 TANGENCY_API int tangency_neighbours_columns(const tangency_neighbours* neighbours,
     tangency_neighbour_columns* columns);
 
-/** Ends them; NULL does nothing. */
+/**
+ * Ends them; NULL does nothing.
+ * @param neighbours  as they were made
+ */
 TANGENCY_API void tangency_neighbours_destroy(tangency_neighbours* neighbours);
 
 /**
@@ -1016,6 +1055,7 @@ TANGENCY_API int tangency_ellipses_create(tangency_ellipses** ellipses, int form
 
 /**
  * More ellipses behind those there are.
+ * @param ellipses  as they were made
  * @param form  tangency_plane_form
  * @param rows  the numbers of the first row, side by side
  * @param number  their type, tangency_number
@@ -1026,14 +1066,21 @@ TANGENCY_API int tangency_ellipses_create(tangency_ellipses** ellipses, int form
 TANGENCY_API int tangency_ellipses_append(tangency_ellipses* ellipses, int form, const void* rows,
     int number, size_t count, ptrdiff_t stride, double level);
 
-/** How many there are. */
+/**
+ * How many there are.
+ * @param ellipses  as they were made
+ */
 TANGENCY_API size_t tangency_ellipses_count(const tangency_ellipses* ellipses);
 
-/** Ends them; NULL does nothing. */
+/**
+ * Ends them; NULL does nothing.
+ * @param ellipses  as they were made
+ */
 TANGENCY_API void tangency_ellipses_destroy(tangency_ellipses* ellipses);
 
 /**
  * All questions about pairs of ellipses.
+ * @param ellipses  as they were made
  * @param pairs  as of tangency_contacts() (2 a row)
  * @param count  pairs
  * @param answers  each column count rows, or NULL: not asked for
@@ -1044,7 +1091,9 @@ TANGENCY_API int tangency_plane_contacts(const tangency_ellipses* ellipses, cons
 
 /**
  * Closest points of boundaries, and signed distances.
+ * @param ellipses  as they were made
  * @param points  finite (2 a row, unit: length)
+ * @param points_count  how many points
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
  * @param count  pairs

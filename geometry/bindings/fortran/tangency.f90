@@ -568,6 +568,7 @@ module tangency
     ! The name of a value of an enumeration, as files write it: name_of("relation", 2) is
     ! "overlap". NULL where there is none.
     !   enumeration: its name without tangency_
+    !   value: of the enumeration
     function tangency_name_of(enumeration, value) bind(c, name="tangency_name_of") result(code)
       use, intrinsic :: iso_c_binding
       character(kind=c_char), intent(in) :: enumeration(*)
@@ -578,6 +579,7 @@ module tangency
     ! The level of the ellipsoid (3) or ellipse (2) that holds a share of a normal distribution.
     !   confidence: in (0, 1)
     !   dimensions: 2 or 3
+    !   level: the answer
     function tangency_level_of_confidence(confidence, dimensions, level) bind(c, &
         name="tangency_level_of_confidence") result(code)
       use, intrinsic :: iso_c_binding
@@ -612,6 +614,7 @@ module tangency
 
     ! More bodies behind those there are. Here and in bodies_set() nobody may ask about them
     ! meanwhile; where it fails they are as before.
+    !   bodies: as they were made
     !   form: tangency_form
     !   rows: the numbers of the first row, side by side
     !   number: their type, tangency_number
@@ -632,6 +635,7 @@ module tangency
     end function tangency_bodies_append
 
     ! Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.
+    !   bodies: as they were made
     !   first: from 0
     !   rows: the numbers of the first row, side by side
     !   number: their type, tangency_number
@@ -650,6 +654,7 @@ module tangency
     end function tangency_bodies_set
 
     ! How many there are.
+    !   bodies: as they were made
     function tangency_bodies_count(bodies) bind(c, name="tangency_bodies_count") result(code)
       use, intrinsic :: iso_c_binding
       type(c_ptr), value :: bodies
@@ -657,12 +662,14 @@ module tangency
     end function tangency_bodies_count
 
     ! Ends them; NULL does nothing.
+    !   bodies: as they were made
     subroutine tangency_bodies_destroy(bodies) bind(c, name="tangency_bodies_destroy")
       use, intrinsic :: iso_c_binding
       type(c_ptr), value :: bodies
     end subroutine tangency_bodies_destroy
 
     ! Signed gap, normal and witness points of pairs. The sign is that of the exact relation.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -714,6 +721,7 @@ module tangency
     end function tangency_contacts_of_rows
 
     ! The gap at a bounded cost, without search: true gap in [gap - gap_error, gap + above].
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -737,6 +745,7 @@ module tangency
     end function tangency_bounded_gaps
 
     ! Do the interiors meet? Exact.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -757,6 +766,7 @@ module tangency
     end function tangency_overlaps
 
     ! The same in bounded time: 2 where only integers would know.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -777,6 +787,7 @@ module tangency
     end function tangency_overlaps_by_filter
 
     ! How pairs lie, as point sets: exact.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -798,6 +809,7 @@ module tangency
     end function tangency_relations
 
     ! The gap by another definition, to tell a difference of definition from an error.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -821,6 +833,7 @@ module tangency
     end function tangency_other_gaps
 
     ! The Perram-Wertheim contact function.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -842,6 +855,7 @@ module tangency
     end function tangency_perram_wertheim_factors
 
     ! First and second derivatives of the gap.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -867,6 +881,7 @@ module tangency
     end function tangency_gap_derivatives
 
     ! Curvatures where two bodies touch.
+    !   bodies: as they were made
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
     !   count: pairs
@@ -887,6 +902,7 @@ module tangency
     end function tangency_contact_curvatures
 
     ! The volume that two bodies have in common, and its gradient.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -910,6 +926,7 @@ module tangency
     end function tangency_common_volumes
 
     ! How far A lies inside B: a length and a factor.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -931,6 +948,7 @@ module tangency
     end function tangency_containments
 
     ! First contact of moving bodies in 0 <= t <= horizon.
+    !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
     !   count: pairs
@@ -959,7 +977,9 @@ module tangency
     end function tangency_times_of_contact
 
     ! Bodies against walls, the solid half-spaces normal . x <= offset.
+    !   bodies: as they were made
     !   walls: normal of any length but 0, out of the wall, and offset (4 a row)
+    !   walls_count: how many walls
     !   sheets: not 0: walls without thickness, free on both sides
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
@@ -982,7 +1002,9 @@ module tangency
     end function tangency_walls
 
     ! Closest points of surfaces, and signed distances.
+    !   bodies: as they were made
     !   points: finite (3 a row, unit: length)
+    !   points_count: how many points
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
     !   count: pairs
@@ -1003,7 +1025,9 @@ module tangency
     end function tangency_points
 
     ! Contacts of bodies (A) and spheres (B).
+    !   bodies: as they were made
     !   balls: centre, and radius >= 0 (4 a row, unit: length)
+    !   balls_count: how many balls
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
     !   count: pairs
@@ -1024,8 +1048,10 @@ module tangency
     end function tangency_balls
 
     ! Where rays, segments and lines meet surfaces: whether they do is exact.
+    !   bodies: as they were made
     !   rays: origin, direction of any length but 0, and the ends of the interval of t, which
     !   may be infinite (8 a row)
+    !   rays_count: how many rays
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
     !   count: pairs
@@ -1047,6 +1073,8 @@ module tangency
 
     ! All pairs of images whose gap is at most a reach, in ascending order.
     !   neighbours: to be destroyed with tangency_neighbours_destroy()
+    !   bodies: as they were made
+    !   question: which pairs, and which answers
     !   accuracy: of gaps; NULL: to rounding
     !   threads: that may work on it; below 1 counts as 1
     function tangency_neighbours_create(neighbours, bodies, question, accuracy, threads) bind(c, &
@@ -1062,6 +1090,7 @@ module tangency
     end function tangency_neighbours_create
 
     ! How many pairs there are.
+    !   neighbours: as they were made
     function tangency_neighbours_count(neighbours) bind(c, name="tangency_neighbours_count") &
         result(code)
       use, intrinsic :: iso_c_binding
@@ -1070,6 +1099,7 @@ module tangency
     end function tangency_neighbours_count
 
     ! Their columns.
+    !   neighbours: as they were made
     !   columns: its size is set before
     function tangency_neighbours_columns(neighbours, columns) bind(c, &
         name="tangency_neighbours_columns") result(code)
@@ -1081,6 +1111,7 @@ module tangency
     end function tangency_neighbours_columns
 
     ! Ends them; NULL does nothing.
+    !   neighbours: as they were made
     subroutine tangency_neighbours_destroy(neighbours) bind(c, &
         name="tangency_neighbours_destroy")
       use, intrinsic :: iso_c_binding
@@ -1109,6 +1140,7 @@ module tangency
     end function tangency_ellipses_create
 
     ! More ellipses behind those there are.
+    !   ellipses: as they were made
     !   form: tangency_plane_form
     !   rows: the numbers of the first row, side by side
     !   number: their type, tangency_number
@@ -1129,6 +1161,7 @@ module tangency
     end function tangency_ellipses_append
 
     ! How many there are.
+    !   ellipses: as they were made
     function tangency_ellipses_count(ellipses) bind(c, name="tangency_ellipses_count") &
         result(code)
       use, intrinsic :: iso_c_binding
@@ -1137,12 +1170,14 @@ module tangency
     end function tangency_ellipses_count
 
     ! Ends them; NULL does nothing.
+    !   ellipses: as they were made
     subroutine tangency_ellipses_destroy(ellipses) bind(c, name="tangency_ellipses_destroy")
       use, intrinsic :: iso_c_binding
       type(c_ptr), value :: ellipses
     end subroutine tangency_ellipses_destroy
 
     ! All questions about pairs of ellipses.
+    !   ellipses: as they were made
     !   pairs: as of tangency_contacts() (2 a row)
     !   count: pairs
     !   answers: each column count rows, or NULL: not asked for
@@ -1160,7 +1195,9 @@ module tangency
     end function tangency_plane_contacts
 
     ! Closest points of boundaries, and signed distances.
+    !   ellipses: as they were made
     !   points: finite (2 a row, unit: length)
+    !   points_count: how many points
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
     !   count: pairs

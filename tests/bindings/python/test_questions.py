@@ -138,6 +138,8 @@ class Library(unittest.TestCase):
         self.assertEqual(tangency.__version__, tangency.version())
         self.assertRegex(tangency.version(), r"^\d+\.\d+\.\d+$")
         self.assertGreater(len(tangency.instruction_set()), 2)
+        from tangency._library import INSTALLED
+        self.assertEqual(INSTALLED, "libtangency_c.so." + ".".join(tangency.version().split(".")[:2]))
         self.assertAlmostEqual(tangency.level_of_confidence(0.95, 2), -2 * math.log(0.05), 12)
 
 
