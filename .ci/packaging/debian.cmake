@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The Debian packages: cmake --preset debian && cmake --build --preset debian && cpack --preset debian.
 # A table of them: the package, what it says of itself, the install components in it, what it needs
-# beyond the libraries that its programs are linked with, and where it stands in an archive.
+# beyond the libraries of other projects that it is linked with, and where it stands in an archive.
 set(version_of_libraries ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(debian_packages geometry dem dev verify tools python)
 set(same "(= ${PROJECT_VERSION})")
@@ -14,6 +14,7 @@ set(debian_geometry_section libs)
 set(debian_dem_name "libtangency-dem${version_of_libraries}")
 set(debian_dem_summary "assemblies of ellipsoids by the discrete element method")
 set(debian_dem_components micromechanics-runtime dem-runtime)
+set(debian_dem_needs "${debian_geometry_name} ${same}")
 set(debian_dem_section libs)
 
 set(debian_dev_name "libtangency-dev")
@@ -31,6 +32,7 @@ set(debian_verify_section libdevel)
 set(debian_tools_name "tangency")
 set(debian_tools_summary "contact, overlap and packings of ellipsoids on the command line")
 set(debian_tools_components tools)
+set(debian_tools_needs "${debian_geometry_name} ${same}, ${debian_dem_name} ${same}")
 set(debian_tools_section science)
 
 set(debian_python_name "python3-tangency")
@@ -70,7 +72,9 @@ foreach(package IN LISTS debian_packages)
       string(TOUPPER ${component} COMPONENT)
       set(CPACK_COMPONENT_${COMPONENT}_GROUP ${package})
       list(APPEND CPACK_COMPONENTS_ALL ${component})
-      set(copyright_of_${package} ${component})
+      if(NOT copyright_of_${package})
+        set(copyright_of_${package} ${component})
+      endif()
     endif()
   endforeach()
 endforeach()

@@ -110,8 +110,9 @@ Option Option::between(Number low, Number high) const {
   return *this;
 }
 template Option Option::between(int, int) const;
+// std::size_t is one of these two.
 template Option Option::between(unsigned, unsigned) const;
-template Option Option::between(std::size_t, std::size_t) const;
+template Option Option::between(unsigned long, unsigned long) const;
 
 Option Option::one_of(const std::vector<std::string>& words) const {
   std::string names;

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: ilp32.sh SOURCE WORK BUILD
 # The kernel where a long and a size have 32 bits: a Debian 12 of the architecture i386 builds it, runs the
-# tests of tests/build/ilp32, and answers the corpora, byte for byte as the 64-bit programs of BUILD do,
-# whose tangency-verify grades them. Needs root, and an amd64 that runs programs for i386.
+# tests of tests/build/ilp32, and answers the corpora: graded by the 64-bit tangency-verify of BUILD, and
+# what is exact in them is that of its tangency. Other numbers may differ in the last bits, as they do
+# between instruction sets. Needs root, and an amd64 that runs programs for i386.
 set -euo pipefail
 source=$1 work=$2 build=$3
 mkdir -p "$work"
@@ -33,14 +34,15 @@ status=0
 for corpus in "$source"/verify/corpora/*.truth.csv; do
   name=$(basename "$corpus" .truth.csv)
   case $name in
-    ellipses) command=ellipse ;;
-    quadrics) command=classify ;;
-    *) command=contact ;;
+    ellipses) command=ellipse exact=1-3 ;;
+    quadrics) command=classify exact=1-5 ;;
+    *) command=contact exact=1,2 ;;
   esac
   "$build/verify/tool/tangency-verify" grade --corpus "$name" --tool "chroot $root $tool $command" | tail -n 1 |
     sed "s/^/$name: /" || status=1
-  cmp <("$build/geometry/tool/tangency" $command "$source/verify/corpora/$name.csv") \
-      <(inside $tool $command <"$source/verify/corpora/$name.csv") || { echo "$name: other bytes"; status=1; }
+  cmp <("$build/geometry/tool/tangency" $command "$source/verify/corpora/$name.csv" | cut -d , -f $exact) \
+      <(inside $tool $command <"$source/verify/corpora/$name.csv" | cut -d , -f $exact) ||
+    { echo "$name: other answers"; status=1; }
 done
 [ $status -ne 0 ] || rm -rf --one-file-system "$root"
 says "done"
