@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <tangency/geometry/bounded_gap.hpp>
 #include <tangency/geometry/overlap_batch.hpp>
