@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -18,14 +19,19 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) refresh(i);
+    : bodies_(bodies), lanes_(bodies.size()), rows_(bodies.size()), floats_(bodies.size()) {
+  in_default_environment([&] {
+    for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill(lanes_[i], bodies[i]);
+    detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
+    detail::fill(floats_.data(), rows_.data(), bodies.size());
+  });
 }
 BodyArray::~BodyArray() = default;
 BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
+      rows_(std::move(other.rows_)),
       floats_(std::move(other.floats_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
@@ -33,6 +39,7 @@ BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   std::swap(own_, taken.own_);
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
+  std::swap(rows_, taken.rows_);
   std::swap(floats_, taken.floats_);
   return *this;
 }
@@ -41,7 +48,8 @@ void BodyArray::refresh(std::size_t i) noexcept {
   if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
-    detail::fill(floats_[i], bodies_[i]);
+    detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
+    detail::fill(&floats_[i], &rows_[i], 1);
   });
 }
 

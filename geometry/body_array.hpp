@@ -18,6 +18,7 @@ namespace tangency::inline v0 {
 namespace detail {
 struct FloatRow;
 struct LaneBody;
+struct ShapeRow;
 }  // namespace detail
 
 /// A temporary container of ellipsoids: one that a span of it would outlive.
@@ -28,9 +29,9 @@ concept TemporaryEllipsoids =
     !std::ranges::borrowed_range<T> && std::is_same_v<std::ranges::range_value_t<T>, Ellipsoid>;
 
 /// Bodies that many pairs share, with what the batch reads of each beside each other, for random
-/// access: 128 bytes a body, and 64 for what is answered in single precision. Keeps the span: the
-/// ellipsoids must outlive it and stay in place. Of a temporary container it takes the ellipsoids
-/// themselves. One that was moved from is empty.
+/// access: 224 bytes a body for the gap, and 64 for what single precision answers. Keeps the span:
+/// the ellipsoids must outlive it and stay in place. Of a temporary container it takes the
+/// ellipsoids themselves. One that was moved from is empty.
 class BodyArray {
  public:
   explicit BodyArray(std::span<const Ellipsoid> bodies);
@@ -47,6 +48,7 @@ class BodyArray {
   void refresh(std::size_t i) noexcept;
 
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
   const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:
@@ -62,6 +64,7 @@ class BodyArray {
   std::vector<Ellipsoid> own_;  ///< of a temporary; empty where the span is of the caller's
   std::span<const Ellipsoid> bodies_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
+  std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
   std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
 };
 

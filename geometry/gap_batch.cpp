@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <tangency/geometry/batch/float_lanes.hpp>
 #include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/batch/pair_task.hpp>
 #include <tangency/geometry/batch/parts.hpp>
@@ -17,6 +18,7 @@ namespace tangency::inline v0 {
 namespace {
 
 using detail::kBlock;
+using detail::OpenPairs;
 using detail::PairTask;
 using detail::Workspace;
 
@@ -78,6 +80,7 @@ struct ToColumns {
     copy(work.arm_b, to.arm_b);
   }
 
+  void lane(const PairTask& task, std::size_t i, const Gap& gap) const { write(task, i, gap); }
   void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
     write(task, i, task.single(i, previous_normal));
   }
@@ -112,6 +115,10 @@ struct ToBounded {
     columns.lanes(task, work, first, count);
     if (!above.empty()) std::copy_n(work.block.gap_error, count, &above[first]);
   }
+  void lane(const PairTask& task, std::size_t i, const Gap& gap) const {
+    columns.write(task, i, gap);
+    if (!above.empty()) above[i] = gap.gap_error;
+  }
   void single(const PairTask& task, std::size_t i, const Vec3*) const {
     const BoundedGap gap = task.bounded(i);
     columns.write(task, i, gap);
@@ -129,32 +136,106 @@ struct ToGaps {
                        work.gap_error[i], GapStatus::ok,  GapTier::fast};
     }
   }
+  void lane(const PairTask&, std::size_t i, const Gap& gap) const { to[i] = gap; }
   void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
     to[i] = task.single(i, previous_normal);
   }
 };
 
-/// Pairs first to last.
+/// Pairs first to last. What the first tier leaves open it may settle from the normal that it came
+/// to; else the next tier may, and else the single call does.
 template <class Write>
-void run_here(const PairTask& task, const Write& write, std::size_t begin, std::size_t end) {
-  Workspace work;
-  for (std::size_t first = begin; first < end; first += kBlock) {
-    const std::size_t count = std::min(kBlock, end - first);
-    if (task.indexed()) task.require_indices(first, count);
-    gather(task, first, count, work);
-    write.aim(work, first, count);
-    std::uint64_t open = ~detail::gap_lanes(work.block);
-    if (count < kBlock) open &= (std::uint64_t{1} << count) - 1;
-    write.lanes(task, work, first, count);
-    for (; open != 0; open &= open - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(open));
-      Vec3 previous = Vec3::Zero();
-      if (work.block.normals != nullptr) previous = Vec3::Map(work.block.normals + 3 * i);
-      const Vec3* const given = task.previous_normals != nullptr ? &previous : nullptr;
-      write.single(task, first + i, given);
+class Run {
+ public:
+  Run(const PairTask& task, const Write& write) : task_(task), write_(write) {}
+
+  void operator()(std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kBlock) {
+      const std::size_t count = std::min(kBlock, end - first);
+      if (task_.indexed()) task_.require_indices(first, count);
+      gather(task_, first, count, work_);
+      write_.aim(work_, first, count);
+      bool by_doubles = task_.polish;
+      std::uint64_t settled = 0;
+      if (task_.in_floats()) {
+        settled = detail::float_gap_lanes(work_.block);
+      } else if (!by_doubles) {
+        settled = detail::mixed_gap_lanes(work_.block);
+        by_doubles = !work_.block.within_float;
+      }
+      if (by_doubles) settled = detail::gap_lanes(work_.block);
+      write_.lanes(task_, work_, first, count);
+      std::uint64_t left = ~settled;
+      if (count < kBlock) left &= (std::uint64_t{1} << count) - 1;
+      for (; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        if (by_doubles)
+          single(first + i, work_.start(i));
+        else
+          hand_on(work_, i, first + i, work_.start(i), again_);
+      }
     }
+    if (again_.count != 0) answer_again();
+    if (open_.count != 0) answer_open();
   }
-}
+
+ private:
+  void single(std::size_t i, const Vec3& previous) const {
+    write_.single(task_, i, task_.previous_normals != nullptr ? &previous : nullptr);
+  }
+
+  /// A pair that the first tier left open: to itself where that may help, else to the next.
+  void hand_on(const Workspace& from, std::size_t i, std::size_t place, const Vec3& previous,
+               OpenPairs& again) {
+    const auto has = [&](std::uint64_t bits) { return (bits >> i & 1) != 0; };
+    const Vec3& nearer = from.nearer_normals[i];
+    if (has(from.block.promising) && &from != &again.work) {
+      again.add(from, i, place, previous, nearer);
+      if (again.full()) answer_again();
+      return;
+    }
+    // Branches are followed from where the caller was.
+    const bool start_there = has(from.block.nearer) && !from.block.branches;
+    open_.add(from, i, place, previous, start_there ? nearer : previous);
+    if (open_.full()) answer_open();
+  }
+
+  /// Answers what is settled of a block of open pairs; else(k) the others.
+  template <class Else>
+  void answer(OpenPairs& pairs, std::uint64_t settled, const Else& others) {
+    const Workspace& work = pairs.work;
+    for (std::size_t k = 0; k < pairs.count; ++k) {
+      if ((settled >> k & 1) == 0) {
+        others(k);
+        continue;
+      }
+      const bool local = (work.block.local >> k & 1) != 0;
+      write_.lane(task_, pairs.place[k],
+                  {work.gap[k], work.normal[k], work.arm_a[k], work.arm_b[k], work.gap_error[k],
+                   local ? GapStatus::local : GapStatus::ok, GapTier::fast});
+    }
+    pairs.count = 0;
+  }
+
+  void answer_again() {
+    again_.complete(task_);
+    again_.work.block.followed_steps = 2;  // one was not enough
+    answer(again_, detail::mixed_gap_lanes(again_.work.block), [&](std::size_t k) {
+      hand_on(again_.work, k, again_.place[k], again_.previous[k], again_);
+    });
+  }
+
+  void answer_open() {
+    open_.complete(task_);
+    answer(open_, detail::gap_lanes(open_.work.block),
+           [&](std::size_t k) { single(open_.place[k], open_.previous[k]); });
+  }
+
+  const PairTask& task_;
+  const Write& write_;
+  Workspace work_;
+  OpenPairs again_, open_;
+};
 
 template <class Write>
 void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noexcept {
@@ -163,7 +244,7 @@ void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noex
   task.tolerance = accuracy.length;
   task.polish = accuracy.normals;
   detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
-    in_default_environment([&] { run_here(task, write, first, last); });
+    in_default_environment([&] { Run(task, write)(first, last); });
   });
 }
 

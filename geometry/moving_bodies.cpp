@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/moving_lanes.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -16,6 +18,9 @@ namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quaternion) == 4 * sizeof(double),
               "the lanes read the columns as numbers");
+
+// Bodies whose rows of one kind are still near when those of the other are made. Chosen.
+constexpr std::size_t kNear = 64;
 
 /// Is there a body in every place of the range?
 void require_range(const char* call, std::size_t first, std::size_t count, std::size_t size) {
@@ -59,6 +64,8 @@ MovingBodies::MovingBodies(const MovingBodies& other) {
   own_turns_ = other.own_turns_;
   centres_ = other.centres_;
   lanes_ = other.lanes_;
+  rows_ = other.rows_;
+  floats_ = other.floats_;
   look_at_own();
 }
 MovingBodies& MovingBodies::operator=(const MovingBodies& other) {
@@ -73,7 +80,9 @@ MovingBodies::MovingBodies(MovingBodies&& other) noexcept
       own_axes_(std::exchange(other.own_axes_, {})),  // whose rows stay where the span has them
       centres_(std::exchange(other.centres_, {})),
       own_turns_(std::exchange(other.own_turns_, {})),
-      lanes_(std::exchange(other.lanes_, {})) {}
+      lanes_(std::exchange(other.lanes_, {})),
+      rows_(std::exchange(other.rows_, {})),
+      floats_(std::exchange(other.floats_, {})) {}
 
 MovingBodies& MovingBodies::operator=(MovingBodies&& other) noexcept {
   MovingBodies taken(std::move(other));
@@ -84,6 +93,8 @@ MovingBodies& MovingBodies::operator=(MovingBodies&& other) noexcept {
   std::swap(centres_, taken.centres_);
   std::swap(own_turns_, taken.own_turns_);
   std::swap(lanes_, taken.lanes_);
+  std::swap(rows_, taken.rows_);
+  std::swap(floats_, taken.floats_);
   return *this;
 }
 
@@ -92,6 +103,8 @@ void MovingBodies::look_at(std::span<const Vec3> semi_axes,
   if (orientations.size() != semi_axes.size())
     contract::wrong_column("MovingBodies", "orientations", orientations.size(), semi_axes.size());
   lanes_.resize(semi_axes.size());
+  rows_.resize(semi_axes.size());
+  floats_.resize(semi_axes.size());
   semi_axes_ = semi_axes;
   orientations_ = orientations;
   owns_ = false;
@@ -107,12 +120,16 @@ void MovingBodies::refresh(std::size_t first, std::size_t last) noexcept {
 void MovingBodies::fill(std::size_t first, std::size_t count) noexcept {
   if (count == 0) return;
   in_default_environment([&] {
-    detail::fill_moving_lanes(semi_axes_[first].data(), orientations_[first].coeffs().data(), count,
-                              lanes_.data() + first);
+    for (std::size_t i = first; i < first + count; i += kNear) {
+      const std::size_t some = std::min(kNear, first + count - i);
+      detail::LaneBody* const to = lanes_.data() + i;
+      detail::fill_moving_lanes(semi_axes_[i].data(), orientations_[i].coeffs().data(), some, to);
+      for (std::size_t k = 0; k < some && !centres_.empty(); ++k)
+        std::copy_n(centres_[i + k].data(), 3, to[k].centre);
+      detail::fill_shape_rows(to, some, rows_.data() + i);
+      detail::fill(floats_.data() + i, rows_.data() + i, some);
+    }
   });
-  if (centres_.empty()) return;
-  for (std::size_t i = first; i < first + count; ++i)
-    std::copy_n(centres_[i].data(), 3, lanes_[i].centre);
 }
 
 void MovingBodies::look_at_own() noexcept {
@@ -138,6 +155,8 @@ void MovingBodies::assign(const VectorColumn& semi_axes, const PoseColumns& pose
   own_turns_.resize(count);
   centres_.resize(poses.centres.size());
   lanes_.resize(count);
+  rows_.resize(count);
+  floats_.resize(count);
   copy(semi_axes, own_axes_.data());
   copy(poses.orientations, own_turns_.data());
   copy(poses.centres, centres_.data());
@@ -190,6 +209,8 @@ void MovingBodies::remove(std::size_t i) {
   own_turns_[i] = own_turns_[last];
   if (has_centres()) centres_[i] = centres_[last];
   lanes_[i] = lanes_[last];
+  rows_[i] = rows_[last];
+  floats_[i] = floats_[last];
   resize(last);
 }
 
@@ -200,6 +221,8 @@ void MovingBodies::resize(std::size_t count) {
   own_turns_.resize(count, Quaternion::Identity());
   if (has_centres()) centres_.resize(count, Vec3::Zero());
   lanes_.resize(count);
+  rows_.resize(count);
+  floats_.resize(count);
   look_at_own();
   if (count > before) fill(before, count - before);
 }

@@ -35,7 +35,9 @@
 namespace tangency::inline v0 {
 
 namespace detail {
+struct FloatRow;
 struct LaneBody;
+struct ShapeRow;
 }  // namespace detail
 
 /// Where bodies are and how they are turned, of a range of them.
@@ -47,7 +49,7 @@ struct PoseColumns {
 /// The bodies Ellipsoid(centre, semi_axes[i], orientations[i]).
 ///
 /// What the batch reads of them is what they were at the last refresh(), or when they were last
-/// set: 128 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
+/// set: 224 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
 /// different threads, but for the calls that change their number, the first call that owns numbers
 /// and the first that gives bodies centres. One that was moved from is empty; so is the copy of one
 /// that looks at columns, whose owner has columns of his own to look_at().
@@ -114,6 +116,8 @@ class MovingBodies {
                    std::span<Vec3> answers) const noexcept;
 
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
+  const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:
   void own();
@@ -127,6 +131,8 @@ class MovingBodies {
   std::vector<Vec3> own_axes_, centres_;  ///< centres: none, or as many as bodies
   std::vector<Quaternion> own_turns_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
+  std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
+  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
 };
 
 }  // namespace tangency::inline v0

@@ -25,16 +25,6 @@ constexpr double kSteady = 0.02;         // of l: measured, as good as one step 
 constexpr double kSameBranch = 0.99;
 constexpr int kSteps = 7;  // of Newton's with proofs; chosen: measured pairs need 1 to 4
 
-/// LaneBody by columns.
-HWY_INLINE PackBody load_body(const Rows* rows) {
-  return load_rows<16>(rows, [](const auto& column) HWY_ATTR {
-    const auto vector = [&](std::size_t c) HWY_ATTR {
-      return PackVec3{column(c), column(c + 1), column(c + 2)};
-    };
-    return PackBody{vector(0), column(3), column(4), {vector(5), vector(8), vector(11)}};
-  });
-}
-
 /// M = S S'
 HWY_INLINE PackSymmetric3 shape(const PackBody& body) {
   return square_of_factor(body.factor[0], body.factor[1], body.factor[2]);

@@ -16,6 +16,11 @@ namespace tangency::inline v0::detail {
 /// Bit i of the result: pair i is settled, with its proof. Assumes rounding to nearest.
 std::uint64_t gap_lanes(LaneBlock& block) noexcept;
 
+/// The same by a start and steps in float, one evaluation in double and a last step in float:
+/// section 4 of the derivation. Reads rows in place of bodies, and bodies where arms are wanted; of
+/// followed normals it proves the global gap alone. What it leaves open is for gap_lanes().
+std::uint64_t mixed_gap_lanes(LaneBlock& block) noexcept;
+
 /// Bit i: is pair i proven either way, and do its interiors meet?
 struct LaneOverlaps {
   std::uint64_t decided, meet;

@@ -9,6 +9,9 @@
 #define TANGENCY_GAP_PROOFS_INL
 #endif
 
+#include <cstddef>
+
+#include <tangency/geometry/batch/pack_bodies-inl.hpp>
 #include <tangency/geometry/batch/packs-inl.hpp>
 #include <tangency/geometry/gap/error_bounds.hpp>
 
@@ -24,6 +27,16 @@ struct PackBody {
   Pack largest, least_radius;
   PackVec3 factor[3];
 };
+
+/// LaneBody by columns.
+HWY_INLINE PackBody load_body(const Rows* rows) {
+  return load_rows<16>(rows, [](const auto& column) HWY_ATTR {
+    const auto vector = [&](std::size_t c) HWY_ATTR {
+      return PackVec3{column(c), column(c + 1), column(c + 2)};
+    };
+    return PackBody{vector(0), column(3), column(4), {vector(5), vector(8), vector(11)}};
+  });
+}
 
 struct PackPair {
   PackBody a, b;

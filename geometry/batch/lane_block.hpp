@@ -20,6 +20,20 @@ struct alignas(64) LaneBody {
 };
 static_assert(sizeof(LaneBody) == 16 * sizeof(double) && alignof(LaneBody) == 64);
 
+/// A body as the first tier of the gap reads it.
+struct alignas(32) ShapeRow {
+  double centre[3];
+  double largest;  ///< as LaneBody's, or NaN
+  double least_radius;
+  double reach;     ///< of the matrix of |M_ij|: its largest sum of a row, rounded up
+  double shape[6];  ///< xx yy zz yz zx xy of M, each rounded once: (N)
+};
+static_assert(sizeof(ShapeRow) == 12 * sizeof(double));
+
+/// Of L: a gap_error that the lanes in float prove of ordinary pairs. Chosen: 16 roundings of
+/// float.
+inline constexpr double kFloatTolerance = 0x1p-20;
+
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 
@@ -36,6 +50,8 @@ struct LaneBlock {
   const LaneBody* bodies_b;
   const FloatRow* floats_a;  ///< the same bodies, for float_lanes.hpp; null where none are kept
   const FloatRow* floats_b;
+  const ShapeRow* rows_a;  ///< the same bodies; read by mixed_gap_lanes() alone
+  const ShapeRow* rows_b;
   const IndexedPair* pairs;
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;
@@ -61,7 +77,12 @@ struct LaneBlock {
   bool branches;
 
   std::uint64_t local;  ///< answer: bit i, pair i is settled as the value of its branch alone
-  double* gap;          ///< null, here and below: not wanted
+  // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and
+  // may this tier itself settle the pair from there?
+  std::uint64_t nearer, promising;
+  bool within_float;       ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
+  double* nearer_normals;  ///< x y z of each; read by no lane
+  double* gap;             ///< null, here and below: not wanted
   double* gap_error;
   double* normal;  ///< x y z of each
   double* arm_a;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include <tangency/geometry/batch/body_rows.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -55,6 +56,7 @@ void aim(const PairTask& task, LaneBlock& block) {
   block.tolerance = task.tolerance;
   block.polish = task.polish;
   block.branches = task.moving != nullptr;
+  block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
   block.factor_error = task.moving != nullptr ? kOfRotation : 0.0;
 }
 
@@ -64,6 +66,8 @@ PairTask::PairTask(const char* of_call, const BodyArray& of_bodies, const PairLi
     : call(of_call),
       bodies(&of_bodies),
       lanes(of_bodies.lanes()),
+      rows(of_bodies.rows()),
+      floats(of_bodies.floats()),
       body_count(of_bodies.size()),
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
@@ -77,6 +81,8 @@ PairTask::PairTask(const char* of_call, const MovingBodies& of_bodies,
     : call(of_call),
       moving(&of_bodies),
       lanes(of_bodies.lanes()),
+      rows(of_bodies.rows()),
+      floats(of_bodies.floats()),
       body_count(of_bodies.size()),
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
@@ -182,6 +188,44 @@ void PairTask::name_outside(std::size_t first, std::size_t n) const noexcept {
   std::abort();  // never: the caller saw one
 }
 
+void OpenPairs::add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
+                    const Vec3& start) noexcept {
+  const LaneBlock& block = from.block;
+  place[count] = at;
+  previous[count] = given;
+  work.normals[count] = start;
+  work.pairs[count] = block.pairs[i];
+  if (block.bodies_a == from.plain_a) {
+    const auto here = static_cast<std::uint32_t>(count);
+    work.pairs[count] = {here, here};
+    work.plain_a[count] = from.plain_a[i];
+    work.plain_b[count] = from.plain_b[i];
+    work.rows_a[count] = from.rows_a[i];
+    work.rows_b[count] = from.rows_b[i];
+  }
+  if (block.separations != nullptr) work.separations[count] = Vec3::Map(block.separations + 3 * i);
+  ++count;
+}
+
+void OpenPairs::complete(const PairTask& task) noexcept {
+  LaneBlock& block = work.block;
+  aim(task, block);
+  block.count = static_cast<int>(count);
+  block.next_pairs = nullptr;
+  block.bodies_a = task.indexed() ? task.lanes : work.plain_a;
+  block.bodies_b = task.indexed() ? task.lanes : work.plain_b;
+  block.rows_a = task.indexed() ? task.rows : work.rows_a;
+  block.rows_b = task.indexed() ? task.rows : work.rows_b;
+  block.pairs = work.pairs;
+  block.separations = task.separations != nullptr ? work.separations[0].data() : nullptr;
+  block.normals = work.normals[0].data();
+  block.nearer_normals = work.nearer_normals[0].data();
+  std::fill(work.pairs + count, work.pairs + kBlock, work.pairs[0]);
+  std::fill(work.separations + count, work.separations + kBlock, work.separations[0]);
+  std::fill(work.normals + count, work.normals + kBlock, work.normals[0]);
+  work.take_answers();
+}
+
 void Workspace::take_answers() noexcept {
   block.gap = gap;
   block.gap_error = gap_error;
@@ -194,15 +238,21 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
+  block.nearer_normals = work.nearer_normals[0].data();
   if (task.indexed()) {
     block.bodies_a = block.bodies_b = task.lanes;
-    block.floats_a = block.floats_b = task.bodies != nullptr ? task.bodies->floats() : nullptr;
+    block.floats_a = block.floats_b = task.floats;
+    block.rows_a = block.rows_b = task.rows;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
     if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;
   } else {
     block.bodies_a = work.plain_a;
     block.bodies_b = work.plain_b;
+    block.rows_a = work.rows_a;
+    block.rows_b = work.rows_b;
+    block.floats_a = work.floats_a;
+    block.floats_b = work.floats_b;
     block.pairs = work.pairs;
     for (std::uint32_t i = 0; i < kBlock; ++i) {
       work.pairs[i] = i < count ? IndexedPair{i, i} : IndexedPair{0, 0};
@@ -211,11 +261,16 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
       fill(work.plain_a[i], task.plain_a[first + i]);
       fill(work.plain_b[i], task.plain_b[first + i]);
     }
+    fill_shape_rows(work.plain_a, count, work.rows_a);
+    fill_shape_rows(work.plain_b, count, work.rows_b);
+    if (task.in_floats()) {
+      fill(work.floats_a, work.rows_a, count);
+      fill(work.floats_b, work.rows_b, count);
+    }
   }
   aim(task, block);
   block.separations = nullptr;
   block.normals = nullptr;
-  block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
   if (task.separations != nullptr) {
     block.separations = block_of(task.separations, first, count, work.separations)->data();
   }

@@ -25,6 +25,8 @@ struct PairTask {
   const BodyArray* bodies = nullptr;     ///< null: moving bodies or plain pairs
   const MovingBodies* moving = nullptr;  ///< null: the bodies above or plain pairs
   const LaneBody* lanes = nullptr;       ///< of the bodies
+  const ShapeRow* rows = nullptr;        ///< of the bodies
+  const FloatRow* floats = nullptr;      ///< of the bodies
   std::size_t body_count = 0;
   const IndexedPair* pairs = nullptr;
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
@@ -35,6 +37,9 @@ struct PairTask {
   // As in LaneBlock.
   double tolerance_of_size = 0.0, tolerance = 0.0;
   bool polish = false;
+
+  /// Is the tolerance what float proves?
+  bool in_floats() const noexcept { return !polish && tolerance_of_size >= kFloatTolerance; }
 
   /// Ends the process where separations are not as many as pairs; of moving bodies without centres
   /// they have to be given.
@@ -81,11 +86,34 @@ struct Workspace {
   IndexedPair pairs[kBlock];
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
+  ShapeRow rows_a[kBlock], rows_b[kBlock];
+  FloatRow floats_a[kBlock], floats_b[kBlock];
+  Vec3 nearer_normals[kBlock];
   double gap[kBlock], gap_error[kBlock];
   Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
 
+  /// Where the search of a pair starts; 0 is anywhere.
+  Vec3 start(std::size_t i) const noexcept {
+    return block.normals != nullptr ? Vec3(Vec3::Map(block.normals + 3 * i)) : Vec3(Vec3::Zero());
+  }
   /// The answers are to stand here.
   void take_answers() noexcept;
+};
+
+/// Pairs that lanes left open, wherever they stand in the list, until there are a block of them.
+struct OpenPairs {
+  Workspace work;
+  std::size_t place[kBlock];  ///< of each in the list
+  Vec3 previous[kBlock];      ///< normals that the caller gave
+  std::size_t count = 0;
+
+  bool full() const noexcept { return count == kBlock; }
+  /// Pair i of a block. The search starts at `start`.
+  /// @param at  its place in the list
+  void add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
+           const Vec3& start) noexcept;
+  /// Ready for the lanes, which are to answer here. count is at least 1.
+  void complete(const PairTask& task) noexcept;
 };
 
 /// Pairs first to first + count as the lanes read them, count at most kBlock and at least 1.

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// Each stage is a short loop over the block: the chain of operations of one pack is long, and the
+// processor works at the next ones meanwhile.
+#include <tangency/geometry/batch/gap_lanes.hpp>
+
+#include <cstddef>
+
+#include <tangency/geometry/power_of_two.hpp>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tangency/geometry/batch/mixed_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#define TANGENCY_PACK_REGISTERS 2
+#include <tangency/geometry/batch/gap_proofs-inl.hpp>
+#include <tangency/geometry/batch/mixed_columns-inl.hpp>
+#include <tangency/geometry/batch/mixed_proofs-inl.hpp>
+#include <tangency/geometry/batch/pack_bodies-inl.hpp>
+#include <tangency/geometry/batch/perram_wertheim_lanes-inl.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace tangency::inline v0::detail::HWY_NAMESPACE {
+namespace {
+
+constexpr int kPerramWertheimSteps = 1;  // measured
+// A body that is smaller, of L, is left to the next tier: what float has no digits for.
+constexpr double kSmallestOfSize = 0x1p-20;
+
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+/// Four columns of four rows.
+HWY_INLINE void transpose(const double* r0, const double* r1, const double* r2, const double* r3,
+                          std::size_t c, Column<double>* to, std::size_t i) {
+  const auto two_rows = [](const double* low, const double* high) HWY_ATTR {
+    const __m256d first = _mm256_castpd128_pd256(_mm_load_pd(low));
+    return _mm256_insertf128_pd(first, _mm_load_pd(high), 1);
+  };
+  const __m256d a = two_rows(r0 + c, r2 + c), b = two_rows(r1 + c, r3 + c);
+  const __m256d e = two_rows(r0 + c + 2, r2 + c + 2), f = two_rows(r1 + c + 2, r3 + c + 2);
+  _mm256_store_pd(to[c].entry + i, _mm256_unpacklo_pd(a, b));
+  _mm256_store_pd(to[c + 1].entry + i, _mm256_unpackhi_pd(a, b));
+  _mm256_store_pd(to[c + 2].entry + i, _mm256_unpacklo_pd(e, f));
+  _mm256_store_pd(to[c + 3].entry + i, _mm256_unpackhi_pd(e, f));
+}
+HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, const double* r3,
+                          BodyColumns& to, std::size_t i) {
+  Column<double>* columns = to.centre.column;
+  transpose(r0, r1, r2, r3, 0, columns, i);
+  transpose(r0, r1, r2, r3, 4, columns, i);
+  transpose(r0, r1, r2, r3, 8, columns, i);
+}
+#else
+HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, const double* r3,
+                          BodyColumns& to, std::size_t i) {
+  Column<double>* columns = to.centre.column;
+  for (std::size_t c = 0; c < 12; ++c) {
+    double* column = columns[c].entry + i;
+    column[0] = r0[c], column[1] = r1[c], column[2] = r2[c], column[3] = r3[c];
+  }
+}
+#endif
+
+HWY_INLINE void load_rows_of(const ShapeRow* rows, const IndexedPair* pairs,
+                             std::uint32_t IndexedPair::*which, BodyColumns& to) {
+  for (std::size_t i = 0; i < kPairs; i += 4) {
+    load_four(rows[pairs[i].*which].centre, rows[pairs[i + 1].*which].centre,
+              rows[pairs[i + 2].*which].centre, rows[pairs[i + 3].*which].centre, to, i);
+  }
+}
+
+/// The power of two at or below x > 0, and its inverse, by the bits of its exponent.
+struct PackUnit {
+  Pack unit, inverse;
+};
+HWY_INLINE PackUnit unit_of(const Pack& x) {
+  const hn::RebindToUnsigned<D> bits;
+  const auto mask = hn::Set(bits, 0x7FF0000000000000u),
+             twice_one = hn::Set(bits, 0x7FE0000000000000u);
+  const auto power = [&](const Register& v)
+                         HWY_ATTR { return hn::And(hn::BitCast(bits, v), mask); };
+  const auto low = power(x.low), high = power(x.high);
+  return {{hn::BitCast(D(), low), hn::BitCast(D(), high)},
+          {hn::BitCast(D(), twice_one - low), hn::BitCast(D(), twice_one - high)}};
+}
+
+HWY_INLINE FloatVec3 to_float(const PackVec3& v) {
+  return {to_float(v.x), to_float(v.y), to_float(v.z)};
+}
+HWY_INLINE PackVec3 to_double(const FloatVec3& v) {
+  return {to_double(v.x), to_double(v.y), to_double(v.z)};
+}
+HWY_INLINE FloatSymmetric3 to_float(const PackSymmetric3& s) {
+  return {to_float(s.xx), to_float(s.yy), to_float(s.zz),
+          to_float(s.yz), to_float(s.zx), to_float(s.xy)};
+}
+
+/// The bodies in float, in the unit of the pair.
+/// @return  is any of them one that this tier may settle?
+HWY_INLINE bool scale(const LaneBlock& block, MixedColumns& work, std::size_t i) {
+  const PackVec3 d = block.separations != nullptr ? load_vectors(block.separations + 3 * i)
+                                                  : load(work.b.centre, i) - load(work.a.centre, i);
+  store(d, work.d, i);
+  const Pack a = load(work.a.largest, i), b = load(work.b.largest, i);
+  const Pack size = largest_component(d) + (a + b);
+  const PackUnit unit = unit_of(size);
+  store(unit.unit, work.unit, i);
+  const FloatPack by = to_float(unit.inverse), by2 = by * by;
+  store(to_float(d) * by, work.float_d, i);
+  store(to_float(load(work.a.shape, i)) * by2, work.float_a.shape, i);
+  store(to_float(load(work.b.shape, i)) * by2, work.float_b.shape, i);
+  store(to_float(load(work.a.reach, i)) * by2, work.float_a.reach, i);
+  store(to_float(load(work.b.reach, i)) * by2, work.float_b.reach, i);
+  store(to_float(a) * by, work.float_a.largest, i);
+  store(to_float(b) * by, work.float_b.largest, i);
+  store(to_float(load(work.a.least_radius, i) + load(work.b.least_radius, i)) * by, work.radii, i);
+  const Pack part = size * all(kSmallestOfSize);
+  const PackMask in_range = (size <= all(kLargestModerate)) & (a >= part) & (b >= part);
+  const Pack no_number = {hn::NaN(D()), hn::NaN(D())};
+  store(to_float(chosen(in_range, size * unit.inverse, no_number)), work.size, i);
+  store(to_float(multiply_add(all(block.tolerance_of_size), size * unit.inverse,
+                              all(block.tolerance) * unit.inverse)),
+        work.tolerance, i);
+  return !none(in_range);
+}
+
+HWY_INLINE FloatVec3 perram_wertheim_normal(const MixedColumns& work, std::size_t i) {
+  // Of bodies that are small beside their distance the determinants would leave the range.
+  const FloatPack axes = load(work.float_a.largest, i) + load(work.float_b.largest, i);
+  const FloatPack by = rough_inverse(axes), by2 = by * by;
+  const FloatPerramWertheim form(load(work.float_a.shape, i) * by2,
+                                 load(work.float_b.shape, i) * by2, load(work.float_d, i));
+  FloatPack l = form.first_guess();
+  for (int k = 0; k < kPerramWertheimSteps; ++k) l = next(form.at(l));
+  const FloatVec3 direction = form.direction(l);
+  return normalised(direction * rough_inverse(largest_component(direction)));
+}
+
+HWY_INLINE FloatMask every_lane() { return all<FloatPack>(0.0) <= all<FloatPack>(0.0); }
+
+/// Where the search starts.
+/// @return  lanes that have no normal of a moment ago
+HWY_INLINE FloatMask first_normal(const LaneBlock& block, MixedColumns& work, std::size_t i) {
+  if (block.normals == nullptr) {
+    store(perram_wertheim_normal(work, i), work.start, i);
+    return every_lane();
+  }
+  const FloatVec3 previous = to_float(load_vectors(block.normals + 3 * i));
+  FloatVec3 start = normalised(previous);
+  const FloatMask fresh = is_nothing(previous);
+  if (!none(fresh)) start = chosen(fresh, perram_wertheim_normal(work, i), start);
+  store(start, work.start, i);
+  return fresh;
+}
+
+struct FloatSide {
+  FloatPack inverse_h;
+  FloatVec3 point;
+};
+HWY_INLINE FloatSide look(const FloatSymmetric3& shape, const FloatVec3& n) {
+  const FloatVec3 point = shape * n;
+  const FloatPack inverse = inverse_root(dot(n, point));
+  return {inverse, point * inverse};
+}
+
+/// newton_step() of gap_proofs-inl.hpp, and what is kept of it for the last one.
+HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) {
+  const FloatSymmetric3 shape_a = load(work.float_a.shape, i),
+                        shape_b = load(work.float_b.shape, i);
+  const FloatVec3 n = load(work.start, i);
+  const FloatSide a = look(shape_a, n), b = look(shape_b, n);
+  const FloatVec3 rest = (load(work.float_d, i) - a.point) - b.point;
+  const FloatPack gap = dot(n, rest);
+  FloatSymmetric3 k = multiply_add(b.inverse_h, shape_b, shape_a * a.inverse_h);
+  k = with_square(k, -a.inverse_h, a.point);
+  k = with_square(k, -b.inverse_h, b.point);
+  k = with_square(k, load(work.size, i) - gap, n);
+  k.xx = k.xx + gap;
+  k.yy = k.yy + gap;
+  k.zz = k.zz + gap;
+  const FloatSymmetric3 adj = adjugate(k);
+  const FloatPack inverse = quick_inverse(determinant(k, adj));
+  store(adj, work.adjugate, i);
+  store(inverse, work.inverse_determinant, i);
+  const FloatVec3 r = multiply_take(gap, n, rest);
+  const FloatVec3 better = normalised(multiply_add(inverse, adj * r, n));
+  store(chosen(asked, better, n), work.start, i);
+}
+
+/// f and its gradient at the normal, in double.
+HWY_INLINE void evaluate(MixedColumns& work, std::size_t i) {
+  const PackVec3 m = to_double(load(work.start, i));
+  const auto side = [&](const ColumnsOf<double, 6>& shape)
+                        HWY_ATTR { return glance(load(shape, i), m); };
+  const PackSupport a = side(work.a.shape), b = side(work.b.shape);
+  const PackVec3 rest = (load(work.d, i) - a.point) - b.point;
+  // 1 / |m| by its series: |m|^2 - 1 is below 2^-20.
+  const Pack w = dot(m, m) - all(1.0);
+  const Pack inverse = multiply_add(multiply_add(all(0.375), w, all(-0.5)), w, all(1.0));
+  const Pack gap = dot(m, rest) * inverse;
+  store(gap, work.value, i);
+  const Pack unit = load(work.unit, i);
+  const FloatPack back = to_float(unit), by = all<FloatPack>(1.0) / back;
+  store(to_float(gap) * by, work.gap, i);
+  store(to_float(multiply_take(gap * inverse, m, rest)) * by, work.rest, i);
+  const auto keep = [&](const PackSupport& of, FloatBodyColumns& to) HWY_ATTR {
+    store(to_float(of.inverse_h) * back, to.inverse_h, i);
+    store(to_float(of.point) * by, to.point, i);
+  };
+  keep(a, work.float_a);
+  keep(b, work.float_b);
+}
+
+HWY_INLINE FloatBody load_body(const FloatBodyColumns& from, std::size_t i) {
+  return {load(from.shape, i), load(from.largest, i), load(from.reach, i), load(from.inverse_h, i),
+          load(from.point, i)};
+}
+
+/// The last step, in float, and what it proves.
+/// @return  settled lanes
+HWY_INLINE std::uint64_t certify(LaneBlock& block, MixedColumns& work, std::size_t i) {
+  const FloatPoint at{load_body(work.float_a, i), load_body(work.float_b, i), load(work.start, i),
+                      load(work.rest, i),         load(work.gap, i),          load(work.radii, i),
+                      load(work.size, i),         load(work.tolerance, i)};
+  const FloatVec3 delta = (load(work.adjugate, i) * at.rest) * load(work.inverse_determinant, i);
+  const FloatProof proof = prove(at, delta, block.centres_are_exact, block.factor_error);
+  const Pack unit = load(work.unit, i);
+  if (block.gap != nullptr)
+    store(multiply_add(to_double(proof.beyond), unit, load(work.value, i)), block.gap + i);
+  if (block.gap_error != nullptr) store(to_double(proof.error) * unit, block.gap_error + i);
+  const PackVec3 m = to_double(at.normal) + to_double(delta);
+  const Pack w = dot(m, m) - all(1.0);
+  const Pack inverse = multiply_add(multiply_add(all(0.375), w, all(-0.5)), w, all(1.0));
+  const PackVec3 n = m * inverse;
+  store(n, work.normal, i);
+  if (block.normal != nullptr) store(n, block.normal + 3 * i);
+  const std::uint64_t settled = bits(proof.settled);
+  if (settled != bits(every_lane())) {
+    store(n, block.nearer_normals + 3 * i);
+    block.nearer |= bits(without(proof.nearer, proof.settled)) << i;
+    block.promising |= bits(without(proof.promising, proof.settled)) << i;
+  }
+  return settled;
+}
+
+/// Support points of the normals that are answered, by the factors.
+HWY_INLINE void find_arms(const LaneBlock& block, const MixedColumns& work, std::size_t i) {
+  const PairRows rows = find_rows(block, i, block.bodies_a, block.bodies_b);
+  const PackVec3 n = load(work.normal, i);
+  if (block.arm_a != nullptr) store(support(load_body(rows.a), n).point, block.arm_a + 3 * i);
+  if (block.arm_b != nullptr) store(-support(load_body(rows.b), n).point, block.arm_b + 3 * i);
+}
+
+HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
+  MixedColumns work;
+  const std::size_t lanes = pack_lanes(), count = static_cast<std::size_t>(block.count);
+  load_rows_of(block.rows_a, block.pairs, &IndexedPair::a, work.a);
+  load_rows_of(block.rows_b, block.pairs, &IndexedPair::b, work.b);
+  block.within_float = false;
+  for (std::size_t i = 0; i < kPairs; i += lanes) block.within_float |= scale(block, work, i);
+  if (!block.within_float) return 0;
+  if (block.normals == nullptr) {
+    for (std::size_t i = 0; i < kPairs; i += lanes) first_normal(block, work, i);
+    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
+  } else {
+    for (std::size_t i = 0; i < kPairs; i += lanes) {
+      const FloatMask fresh = first_normal(block, work, i);
+      if (!none(fresh)) step(work, i, fresh);
+    }
+  }
+  for (int k = 0; k < block.followed_steps; ++k)
+    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
+  for (std::size_t i = 0; i < kPairs; i += lanes) evaluate(work, i);
+  std::uint64_t settled = 0;
+  for (std::size_t i = 0; i < count; i += lanes) settled |= certify(block, work, i) << i;
+  if (block.arm_a != nullptr || block.arm_b != nullptr)
+    for (std::size_t i = 0; i < count; i += lanes) find_arms(block, work, i);
+  return settled;
+}
+
+}  // namespace
+}  // namespace tangency::inline v0::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tangency::inline v0::detail {
+namespace {
+HWY_EXPORT(mixed_gap_lanes);
+}  // namespace
+
+std::uint64_t mixed_gap_lanes(LaneBlock& block) noexcept {
+  block.local = block.nearer = block.promising = 0;
+  return HWY_DYNAMIC_DISPATCH(mixed_gap_lanes)(block);
+}
+
+}  // namespace tangency::inline v0::detail
+#endif
