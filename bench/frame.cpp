@@ -45,6 +45,9 @@ constexpr double kSpacing = 2.0;   // of that grid, for bodies of volume 4/3 pi;
 constexpr double kJitter = 0.5;    // of bodies along each axis; chosen
 constexpr double kDeepest = 0.02;  // by which two of them overlap at most; chosen: a stiff contact
 constexpr double kLooked = 0.6;    // reach within which the nearest pairs are looked for; chosen
+// Of the largest semi-axis of a pair. Chosen: normals of Accuracy::standard() are within some 1e-8
+// rad, radii of curvature at most kMostAspect times that axis; a wrong point is off by more.
+constexpr double kPointError = 1e-6;
 
 /// As an engine has them: seven floats a body, x y z and w x y z.
 using Pose = std::array<float, 7>;
@@ -168,8 +171,10 @@ struct Contacts {
       const Ellipsoid a = frame.bodies[frame.pairs[k].a], b = frame.bodies[frame.pairs[k].b];
       const Gap alone = signed_gap(a, b);
       const Vec3 middle = 0.5 * (a.centre() + alone.arm_a + b.centre() + alone.arm_b);
+      const double largest = std::max(a.largest_semi_axis(), b.largest_semi_axis());
       const bool right = std::abs(gap[k] - alone.gap) <= gap_error[k] + alone.gap_error &&
-                         (gap[k] > 0.0) == (alone.gap > 0.0) && (point[k] - middle).norm() < 1e-6;
+                         (gap[k] > 0.0) == (alone.gap > 0.0) &&
+                         (point[k] - middle).norm() < kPointError * largest;
       if (right) continue;
       std::fprintf(stderr, "%s: pair %zu is answered wrongly: no timing\n", when.c_str(), k);
       std::exit(1);

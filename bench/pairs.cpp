@@ -46,6 +46,7 @@ Source source_of(const Kind& kind) {
 std::vector<Source> sources() {
   std::vector<Source> all;
   for (const auto& kind : verify::contact_classes()) all.push_back(source_of(kind));
+  for (const auto& kind : verify::slender_contacts()) all.push_back(source_of(kind));
   for (const auto& kind : verify::extreme_families()) {
     const bool chosen = kind.aspect == 1e2 || kind.aspect == 1e4 || kind.aspect == 1e8;
     const bool plain = kind.size_ratio == 3 && kind.scale == 1 && kind.origin == 0;

@@ -88,6 +88,14 @@ void find_truth(Pairs& pairs) {
   pool.clear();  // waits for all
 }
 
+void count_left(const Pairs& pairs, const std::vector<std::size_t>& left, Row& row) {
+  row.left = left.size();
+  row.left_deep = static_cast<std::size_t>(std::ranges::count_if(left, [&](std::size_t i) {
+    const double rho = pairs.a(i).least_radius() + pairs.b(i).least_radius();
+    return pairs.truth[i].gap.high < -rho;
+  }));
+}
+
 /// Asks every method. False where one breaks its promise.
 bool check(Subject& subject, std::vector<Row>& rows) {
   bool right = true;
@@ -96,6 +104,7 @@ bool check(Subject& subject, std::vector<Row>& rows) {
     force_level(method.level);
     method.run();
     row.grade = tangency::verify::grade_calls(method.answers(), subject.pairs->truth);
+    if (method.left) count_left(*subject.pairs, method.left(), row);
     force_level(0);
     if (method.promises && row.grade.wrong > 0) {
       std::fprintf(stderr, "%s: %zu wrong answers, the first for pair %zu: ", row.key().c_str(),

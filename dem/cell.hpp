@@ -21,6 +21,7 @@ namespace tangency::inline v0::dem {
 /// Which periodic image of a particle: how many edges it is moved by along each axis.
 using Image = std::array<std::int32_t, 3>;
 
+/// A parallelepiped, periodic or walled along each of its edges.
 struct Cell {
   Mat3 edges = Mat3::Identity();            ///< columns: the edge vectors; length
   Mat3 rate = Mat3::Zero();                 ///< velocity gradient, extension > 0, 1/time
@@ -31,8 +32,11 @@ struct Cell {
   /// A box at rest.
   static Cell box(const Vec3& lengths, int dimensions = 3, std::array<bool, 3> walled = {});
 
+  /// Are all edges along the axes, exactly?
   bool is_box() const { return edges.isDiagonal(0.0); }
+  /// Has any side walls?
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
+  /// Of the parallelepiped, length^3.
   double volume() const;
   /// Distances between opposite faces.
   Vec3 heights() const;

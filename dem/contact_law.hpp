@@ -32,15 +32,16 @@ struct ShearStiffness {
   double across = 0.0;            ///< for those normal to it
   Vec3 direction = Vec3::Zero();  ///< unit and tangent, or 0 where the two are equal
 
+  /// The larger of both.
   double largest() const { return along > across ? along : across; }
 };
 
 /// The push of a contact, and how its shear answers.
 struct NormalResponse {
-  double force = 0.0;
+  double force = 0.0;      ///< > 0 pushes the bodies apart
   double stiffness = 0.0;  ///< d force / d overlap
   double energy = 0.0;     ///< stored by the overlap
-  ShearStiffness shear;
+  ShearStiffness shear;    ///< tangential stiffness, force per length
 };
 
 /// What a contact carries from step to step.
@@ -50,6 +51,7 @@ struct ShearState {
   double energy = 0.0;        ///< stored by the shear displacement
 };
 
+/// The law of contacts between two types of particles.
 struct ContactLaw {
   double normal_stiffness;      ///< K_n > 0, force/length; of a Hertz contact: the largest expected
   double shear_stiffness;       ///< K_s >= 0, alike
@@ -63,6 +65,7 @@ struct ContactLaw {
   }
 
   /// Of a Hertz contact: of the relative curvatures.
+  /// @param relative  the curvatures of the distance
   /// @param overlap  > 0
   NormalResponse hertz_response(double overlap, const PrincipalCurvatures& relative) const;
 };

@@ -19,6 +19,7 @@ struct ContactWork {
   /// does not feel that its energy changes with them.
   double branch = 0.0;
 
+  /// Adds term by term.
   ContactWork& operator+=(const ContactWork& other) {
     sliding += other.sliding;
     boundary += other.boundary;
@@ -35,11 +36,12 @@ struct ContactSums {
 
 /// Over all pairs that touch: what is looked at now and then.
 struct ContactTotals {
-  std::int64_t contacts = 0;  ///< that there are
-  double force_length = 0.0;  ///< of |force|
-  double normal_force = 0.0, overlap = 0.0;
-  double energy = 0.0;  ///< stored, in normal and shear springs
+  std::int64_t contacts = 0;                 ///< that there are
+  double force_length = 0.0;                 ///< of |force|
+  double normal_force = 0.0, overlap = 0.0;  ///< sums over contacts: force, length
+  double energy = 0.0;                       ///< stored, in normal and shear springs
 
+  /// Adds term by term.
   ContactTotals& operator+=(const ContactTotals& other) {
     contacts += other.contacts;
     force_length += other.force_length;

@@ -34,27 +34,30 @@ struct Contact {
   /// c_b - c_a. To a wall: to where it is touched, so that force times branch is the work that the
   /// wall's motion does per strain.
   Vec3 branch = Vec3::Zero();
-  Vec3 arm = Vec3::Zero();    ///< contact point - c_a; of touching pairs only
-  Vec3 force = Vec3::Zero();  ///< of a on b; 0 for pairs apart
-  ShearState shear;           ///< stays 0 without friction
-  double overlap = 0.0;       ///< length; > 0 where the pair touches, else 0
-  double normal_force = 0.0;
+  Vec3 arm = Vec3::Zero();        ///< contact point - c_a; of touching pairs only
+  Vec3 force = Vec3::Zero();      ///< of a on b; 0 for pairs apart
+  ShearState shear;               ///< stays 0 without friction
+  double overlap = 0.0;           ///< length; > 0 where the pair touches, else 0
+  double normal_force = 0.0;      ///< force, >= 0 pushes
   double normal_stiffness = 0.0;  ///< at this overlap; of touching pairs only
-  double normal_energy = 0.0;
+  double normal_energy = 0.0;     ///< energy stored along the normal
 
+  /// Do the bodies overlap?
   bool touches() const { return overlap > 0.0; }
 };
 
 /// What contacts carry from step to step, a column a quantity of Contact; the force is normal_force
 /// normal + shear_force. Each column is filled up to whole blocks with pairs of no extent, apart.
 struct ContactColumns {
-  std::vector<Vec3> normal, branch, arm, shear_force;
+  std::vector<Vec3> normal, branch, arm, shear_force;  ///< a vector a pair, as Contact has them
+  /// a number a pair, as Contact has them
   std::vector<double> overlap, normal_force, normal_stiffness, normal_energy;
-  std::vector<double> shear_stiffness, shear_energy;
+  std::vector<double> shear_stiffness, shear_energy;  ///< a number a pair, as Contact has them
 
   /// All columns, so that whoever copies, saves or sorts them forgets none.
   static constexpr std::array kVectors{&ContactColumns::normal, &ContactColumns::branch,
                                        &ContactColumns::arm, &ContactColumns::shear_force};
+  /// All columns of numbers.
   static constexpr std::array kNumbers{
       &ContactColumns::overlap,          &ContactColumns::normal_force,
       &ContactColumns::normal_stiffness, &ContactColumns::normal_energy,
@@ -66,9 +69,10 @@ struct ContactColumns {
 /// Laws by the types of the two particles, symmetric; types x types, row by row. In a walled cell
 /// the walls are the last type.
 struct ContactLaws {
-  std::size_t types = 0;
-  std::vector<ContactLaw> law;
+  std::size_t types = 0;        ///< number of particle types
+  std::vector<ContactLaw> law;  ///< types x types, row by row
 
+  /// The law between types a and b.
   const ContactLaw& between(std::size_t a, std::size_t b) const { return law[a * types + b]; }
   /// The largest stiffness of any law, normal or shear.
   double largest_stiffness() const;
@@ -81,33 +85,49 @@ class Contacts;
 /// The contacts of all listed pairs, each made from the columns when it is asked for.
 class ContactRecords {
  public:
+  /// Looks at contacts, which have to outlive it.
   explicit ContactRecords(const Contacts& contacts) : contacts_(&contacts) {}
+  /// The number of pairs, those that do not touch included.
   std::size_t size() const;
+  /// The record of a pair, made when it is asked for.
   Contact operator[](std::size_t pair) const;
+  /// The record of the first pair.
   Contact front() const { return (*this)[0]; }
 
   class Iterator;
+  /// Of the first pair.
   Iterator begin() const;
+  /// Behind the last pair.
   Iterator end() const;
 
  private:
   const Contacts* contacts_;
 };
 
+/// Reads the records one after the other; a record is made at each step.
 class ContactRecords::Iterator {
  public:
+  /// As of an input iterator.
   using iterator_category = std::input_iterator_tag;
+  /// What it reads.
   using value_type = Contact;
+  /// Between two places.
   using difference_type = std::ptrdiff_t;
+  /// There is none: records are values.
   using pointer = void;
+  /// Records are values.
   using reference = Contact;
 
+  /// At a place among the records.
   Iterator(const ContactRecords& records, std::size_t at) : records_(records), at_(at) {}
+  /// The record at this place.
   Contact operator*() const { return records_[at_]; }
+  /// To the next record.
   Iterator& operator++() {
     ++at_;
     return *this;
   }
+  /// At the same place?
   bool operator==(const Iterator& other) const { return at_ == other.at_; }
 
  private:
@@ -118,9 +138,15 @@ class ContactRecords::Iterator {
 inline ContactRecords::Iterator ContactRecords::begin() const { return {*this, 0}; }
 inline ContactRecords::Iterator ContactRecords::end() const { return {*this, size()}; }
 
+/// The contacts of all pairs of a neighbour list, and their history.
 class Contacts {
  public:
   /// Brings every contact to the current positions and velocities and renews resultants and sums.
+  /// @param particles  all of them
+  /// @param cell  the cell they are in
+  /// @param list  the pairs, with separations where they are given
+  /// @param laws  between all types
+  /// @param branch  which gap is a contact
   /// @param dt  time since the last update: the shear displacement is velocity times dt
   /// @param profile  what the times and counts of the pairs are added to; null: none
   ContactWork update(const Particles& particles, const Cell& cell, const NeighbourList& list,
@@ -141,17 +167,24 @@ class Contacts {
   /// Resultants and sums of the contacts as they are: after carry_over() where none follows them.
   void add_up(const Particles& particles, const NeighbourList& list);
 
+  /// The number of pairs, those that do not touch included.
   std::size_t size() const { return count_; }
   /// As long as size(); the columns go on.
   const ContactColumns& columns() const { return columns_; }
+  /// Do the bodies of a pair overlap?
   bool touches(std::size_t pair) const { return columns_.overlap[pair] > 0.0; }
+  /// On body b of a pair.
   Vec3 force(std::size_t pair) const {
     return columns_.normal_force[pair] * columns_.normal[pair] + columns_.shear_force[pair];
   }
+  /// All pairs, as records.
   ContactRecords records() const { return ContactRecords(*this); }
 
+  /// Force and moment on each particle.
   const Resultants& resultants() const { return resultants_; }
+  /// Sums over all contacts of the last step.
   const ContactSums& sums() const { return sums_; }
+  /// Totals over the contacts as they are now.
   ContactTotals totals() const;
 
   /// Of the contacts as they are, those of two ellipsoids that the published scheme has no answer

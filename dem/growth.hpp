@@ -17,7 +17,9 @@
 
 namespace tangency::inline v0::dem {
 
+/// (a - b) / (a + b) of an elongation a / b.
 inline double eccentricity_of(double elongation) { return (elongation - 1.0) / (elongation + 1.0); }
+/// a / b of an eccentricity (a - b) / (a + b).
 inline double elongation_of(double eccentricity) {
   return (1.0 + eccentricity) / (1.0 - eccentricity);
 }
@@ -25,10 +27,11 @@ inline double elongation_of(double eccentricity) {
 /// A mean stress that changes while e does [section 5.1.1]: in proportion, from `start` at the
 /// growth's first e to the stage's mean stress at `eccentricity`, and no more from there on.
 struct StressRamp {
-  double start;  ///< > 0, force/area
-  double eccentricity;
+  double start;         ///< > 0, force/area
+  double eccentricity;  ///< (a - b) / (a + b) at which the ramp ends
 };
 
+/// A stage of growth: elongation and flatness go to their ends in equal increments.
 struct Growth {
   double elongation;               ///< a / b at the end
   std::optional<double> flatness;  ///< b / c at the end; without: it stays
@@ -40,7 +43,7 @@ struct Growth {
   /// The increments of one per cent of e, > 0, with by_eccentricity. They are made one a cycle,
   /// and wait for relaxation only before the first of them [section 5.3]. Without: each waits.
   std::optional<std::int64_t> cycles_per_percent{};
-  std::optional<StressRamp> ramp{};
+  std::optional<StressRamp> ramp{};  ///< of the mean stress, if it is not constant
 
   /// The shape after so many of the increments.
   ///
@@ -58,6 +61,7 @@ struct Growth {
   ///
   /// (3) Without a ramp, and from the ramp's eccentricity on, it is exactly `full`; before any
   ///     increment it is the ramp's start.
+  /// @param done  increments made
   /// @param start  the shape that the ramp goes by, before the growth
   /// @param full   the stage's mean stress
   double stress_after(const Shape& start, std::int64_t done, double full) const;

@@ -27,6 +27,7 @@ struct Material {
   double contact_modulus() const {
     return young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio));
   }
+  /// E / (2 (1 + nu)), force per length^2.
   double shear_modulus() const { return young_modulus / (2.0 * (1.0 + poisson_ratio)); }
 };
 
@@ -49,6 +50,7 @@ struct HertzContact {
   double shear_stiffness[2];  ///< shear force over displacement along a and along b
 };
 
+/// @param material  of both bodies
 /// @param curvature  principal relative curvatures, the larger first, 1/length, > 0
 /// @param overlap    approach of the bodies, length, > 0
 HertzContact hertz_contact(const double curvature[2], double overlap, const Material& material);

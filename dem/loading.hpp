@@ -22,11 +22,12 @@ struct Target {
   const char* name;  ///< in messages
   /// The stress is weights : stress / divisor, compression positive.
   Mat3 weights;
-  double divisor = 1.0;
-  double wanted = 0.0;  ///< force/area
+  double divisor = 1.0;  ///< see weights
+  double wanted = 0.0;   ///< force/area
   /// A symmetric strain rate of extension that lowers it.
   Mat3 actuator;
 
+  /// The mean of the normal components in 2 or 3 dimensions.
   static Target mean_stress(double wanted, int dimensions);
   /// (s_xx + s_yy) / 2 in space.
   static Target plane_mean_stress(double wanted);
@@ -41,6 +42,7 @@ struct Target {
   /// @param ratio  in [0, 1]
   static Target intermediate_ratio(double ratio);
 
+  /// The stress that weights and divisor name.
   double measured(const Stress& stress) const;
   /// Rise of the stress per strain against the actuator, if particles only followed the cell and
   /// contacts pointed everywhere alike: that of the mean stress times
@@ -53,14 +55,15 @@ struct ServoMemory {
   double integral = 0.0;  ///< of the error, a strain
   double rate = 0.0;      ///< of the published servo, 1/time
   // How the target was held, in the cycles that count (Loading::watch):
-  std::int64_t watched = 0;
-  std::int64_t missed = 0;  ///< those in which it was off by more than kHeldWithin
-  double worst = 0.0;       ///< how far it was off where that was largest, relative; above: > 0
+  std::int64_t watched = 0;  ///< cycles that count
+  std::int64_t missed = 0;   ///< those in which it was off by more than kHeldWithin
+  double worst = 0.0;        ///< how far it was off where that was largest, relative; above: > 0
 };
 
 /// A stress is held while it is this close to the wanted, relatively.
 inline constexpr double kHeldWithin = 0.01;
 
+/// How the strain rate follows what the stress lacks.
 struct Servo {
   double gain = 0.5;             ///< share of the error removed a cycle, in (0, 1)
   double max_strain_rate = 0.0;  ///< bound of one target's rate, > 0, 1/time
@@ -78,10 +81,12 @@ struct Servo {
 /// The loading of a stage.
 struct Loading {
   Mat3 strain_rate = Mat3::Zero();  ///< given, extension positive, 1/time
-  std::vector<Target> targets;
-  Servo servo;
+  std::vector<Target> targets;      ///< what is held at a stress
+  Servo servo;                      ///< how it is held
 
   /// The cell's rate for the coming step.
+  /// @param measured  the stress as it is
+  /// @param dt  time step
   /// @param memory  one entry a target
   Mat3 rate(const Stress& measured, double dt, std::vector<ServoMemory>& memory) const;
 
@@ -90,6 +95,8 @@ struct Loading {
 
   /// Notes how far each target is off, relative to the largest wanted stress, or to the mean stress
   /// where only directions are held.
+  /// @param measured  the stress as it is
+  /// @param memory  of the servo, one entry a target
   /// @param on_arrival  a target counts only from when it is first within kHeldWithin
   void watch(const Stress& measured, bool on_arrival, std::vector<ServoMemory>& memory) const;
 

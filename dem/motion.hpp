@@ -31,16 +31,18 @@ class Diverged : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Which turns are followed.
 enum class Rotation {
   none,        ///< orientations and angular velocities stay as they are
   simplified,  ///< I w' = M, the quadratic terms of Euler's equations dropped: for slow motion
   full,        ///< Euler's equations, turns about the body axes in turn [Dullweber1997]
 };
 
+/// How particles are moved.
 struct Motion {
-  Rotation rotation = Rotation::full;
-  Vec3 gravity = Vec3::Zero();  ///< acceleration, length/time^2
-  double damping = 0.0;         ///< rate at which a free particle's velocity decays, >= 0, 1/time
+  Rotation rotation = Rotation::full;  ///< which turns
+  Vec3 gravity = Vec3::Zero();         ///< acceleration, length/time^2
+  double damping = 0.0;  ///< rate at which a free particle's velocity decays, >= 0, 1/time
   /// The same of its angular velocity; without: damping.
   std::optional<double> rotational_damping = {};
 };

@@ -45,6 +45,7 @@ inline constexpr std::size_t kPairBlock = 64;
 /// number of pairs on are pairs of no extent that lie apart.
 struct BlockGeometry {
   template <class T>
+  /// A value a pair of a block.
   using Column = std::array<T, kPairBlock>;
 
   Column<IndexedPair> pairs;  ///< particles, and after them walls
@@ -69,6 +70,11 @@ class NarrowPhase {
   /// answers otherwise for (B, A), is the one that comes first in the scene: the order in memory
   /// does not matter. Walls, and particles that are all spheres, are measured by their formulas;
   /// for spheres that is the scheme's answer.
+  /// @param pairs  which bodies, and which image of the second
+  /// @param particles  all of them
+  /// @param cell  the cell they are in
+  /// @param branch  which gap is a contact
+  /// @param block  where the answers go
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
   MeasuredPairs measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
                         std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;

@@ -30,17 +30,19 @@ namespace tangency::inline v0::dem {
 /// Particle `a` and the image of particle `b`; a <= b, and for a == b the image is positive in
 /// lexicographic order. Or, with b = number of particles + k, particle `a` and wall k (Wall).
 struct Pair {
-  std::int32_t a, b;
-  Image image;
+  std::int32_t a, b;  ///< indices of particles; of a wall and a particle, b is the particle
+  Image image;        ///< the image of b
 
+  /// By a, then b, then image.
   auto operator<=>(const Pair&) const = default;
 };
 
 /// Wall k of a cell: the face at the origin's end (even k) or at the far end (odd k) of axis k / 2.
 struct Wall {
-  int axis;
-  bool far;
+  int axis;  ///< the wall is normal to this edge
+  bool far;  ///< is it the wall at the end of the edge?
 
+  /// Wall k of six, in the order near and far of each edge.
   explicit Wall(std::size_t k) : axis(static_cast<int>(k / 2)), far(k % 2 == 1) {}
   /// Unit, out of the wall and into the cell.
   Vec3 normal() const { return (far ? -1.0 : 1.0) * Vec3::Unit(axis); }
@@ -59,9 +61,12 @@ inline Vec3 branch_vector(const Pair& pair, const Particles& particles, const Ce
   return (x | y | z) == 0 ? Vec3(b - a) : Vec3(b + cell.translation(pair.image) - a);
 }
 
+/// Pairs that may touch until the particles have moved by the skin.
 class NeighbourList {
  public:
   /// Lists the pairs whose gap is at most the sum of their skins. Where it throws it is as it was.
+  /// @param particles  all of them
+  /// @param cell  the cell they are in
   /// @param skin_ratio  > 0: a particle's least skin in its mean radii (mean_radius_of())
   /// @param dt  time step: skins last at least some steps of the motion that particles have now, up
   ///            to half of a mean radius; 0: the same ratio for all
@@ -83,7 +88,7 @@ class NeighbourList {
 
   /// Indices [first, last) into pairs().
   struct Range {
-    std::size_t first, last;
+    std::size_t first, last;  ///< pairs [first, last)
   };
   /// The pairs in which particle i is a, walls included: they follow each other.
   Range pairs_as_a(std::size_t i) const { return {first_as_a_[i], first_as_a_[i + 1]}; }
@@ -102,12 +107,13 @@ class NeighbourList {
 
   /// What build() saw; with pairs() all there is to save.
   struct Reference {
-    Mat3 edges = Mat3::Zero();           ///< of the cell
-    std::vector<double> skin;            ///< of each particle, length
-    std::vector<Vec3> reduced_position;  ///< in parts of the cell's edges
-    std::vector<Quaternion> orientation;
-    std::vector<Vec3> semi_axes;
+    Mat3 edges = Mat3::Zero();            ///< of the cell
+    std::vector<double> skin;             ///< of each particle, length
+    std::vector<Vec3> reduced_position;   ///< in parts of the cell's edges
+    std::vector<Quaternion> orientation;  ///< one a particle
+    std::vector<Vec3> semi_axes;          ///< one a particle, length
   };
+  /// What the list was built from.
   const Reference& reference() const { return reference_; }
   /// Puts back a saved list.
   void restore(Reference reference, std::vector<Pair> pairs);

@@ -25,15 +25,17 @@ namespace tangency::inline v0::dem {
 /// Stress of the assembly, (1/V) sum over contacts of force (x) branch vector, made symmetric;
 /// compression positive, force/area.
 struct Stress {
-  Mat3 tensor = Mat3::Zero();
+  Mat3 tensor = Mat3::Zero();  ///< compression > 0
   /// The rise of mean stress per isotropic linear strain if particles only followed the cell,
   /// (1/3V) sum K_n (n . branch)^2, 1/2V in the plane: an upper bound of the true one, and what a
   /// servo needs.
   double affine_stiffness = 0.0;
-  int dimensions = 3;
+  int dimensions = 3;  ///< 2 or 3
 
+  /// Mean of the normal components.
   double mean() const { return tensor.trace() / dimensions; }
 };
+/// Of all contacts, over the volume of the cell.
 Stress stress_of(const Contacts& contacts, const Cell& cell);
 
 /// |s - s'| over the mean stress, of the stress s before it is made symmetric: what moments that
@@ -60,7 +62,7 @@ double friction_angle_deg(const Mat3& stress, int dimensions = 3);
 /// all forces on it, of its contacts and its weight; ratios are to the mean length of a contact
 /// force, 0 without contacts.
 struct Balance {
-  double mean_contact_force = 0.0;
+  double mean_contact_force = 0.0;  ///< mean |force| over the contacts
   /// Mean resultant of the particles that have contacts, over the mean contact force.
   double inertial_fraction = 0.0;
   /// Largest resultant of any particle that has contacts, over the mean contact force.
@@ -71,6 +73,8 @@ struct Balance {
   /// under gravity with none, since one can bear a weight.
   std::int64_t rattlers = 0;
 };
+/// @param particles  all of them
+/// @param contacts  the contacts
 /// @param gravity  acceleration, length/time^2
 Balance balance_of(const Particles& particles, const Contacts& contacts,
                    const Vec3& gravity = Vec3::Zero());
@@ -86,7 +90,7 @@ double critical_time_step(const Particles& particles, const Contacts& contacts,
 /// Where the energy of an assembly came from and went to since the run began, and what is stored at
 /// the start. The sum is what it should hold now.
 struct EnergyAccount {
-  double start = 0.0;
+  double start = 0.0;     ///< what was stored and moved at the start
   double boundary = 0.0;  ///< work of the straining cell and its walls on the contacts
   double gravity = 0.0;   ///< work of gravity
   double growth = 0.0;    ///< stored by particles that changed their shape
@@ -94,42 +98,49 @@ struct EnergyAccount {
   double sliding = 0.0;   ///< lost to friction
   double damping = 0.0;   ///< lost to damping
 
+  /// What should be stored and move now.
   double sum() const { return start + boundary + gravity + growth + branch - sliding - damping; }
 };
 
 /// One row of a history: everything but cycle, time, stage and its cycle.
 struct Observation {
-  double axial_strain, volumetric_strain;
-  Stress stress;
-  double coordination_number;  ///< 2 contacts / particles, rattlers included
-  double coordination_std;     ///< standard deviation of a particle's number of contacts
-  double porosity;             ///< 1 - (sum of particle volumes) / cell volume
-  std::int64_t contacts;
-  double mean_normal_force, mean_overlap;
-  Balance balance;
-  double kinetic_energy;  ///< half a step ago, when velocities were known
-  double elastic_energy;
-  double elongation, eccentricity;  ///< a / b and (a - b) / (a + b) of the first type, now
-  double packing_density;           ///< (sum of particle volumes) / cell volume
-  double void_ratio;                ///< porosity / packing_density
-  double contact_density;           ///< 2 contacts / cell volume
-  double overlap_fraction;          ///< mean_overlap / (2 mean of the mean radii)
+  double axial_strain, volumetric_strain;  ///< of the cell; compression > 0
+  Stress stress;                           ///< of the contacts
+  double coordination_number;              ///< 2 contacts / particles, rattlers included
+  double coordination_std;  ///< standard deviation of a particle's number of contacts
+  double porosity;          ///< 1 - (sum of particle volumes) / cell volume
+  std::int64_t contacts;    ///< that touch
+  double mean_normal_force, mean_overlap;  ///< over the contacts that touch
+  Balance balance;                         ///< of forces and moments
+  double kinetic_energy;                   ///< half a step ago, when velocities were known
+  double elastic_energy;                   ///< stored in the contacts
+  double elongation, eccentricity;         ///< a / b and (a - b) / (a + b) of the first type, now
+  double packing_density;                  ///< (sum of particle volumes) / cell volume
+  double void_ratio;                       ///< porosity / packing_density
+  double contact_density;                  ///< 2 contacts / cell volume
+  double overlap_fraction;                 ///< mean_overlap / (2 mean of the mean radii)
+  /// where energy went
   EnergyAccount account{};
   /// Kinetic and elastic energy now less what the account says: what the time step lost or gained.
   double energy_error = 0.0;
   double asymmetry = 0.0;               ///< asymmetry_of()
   Mat3 boundary_stress = Mat3::Zero();  ///< of a Simulation; else 0
 };
+/// What a state is like; it changes nothing.
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,
                     const Vec3& gravity = Vec3::Zero());
 
 /// A named value of a history row or of a summary.
 struct Field {
-  std::string name;
-  std::variant<std::int64_t, double, std::string> value;
+  std::string name;                                       ///< of the column
+  std::variant<std::int64_t, double, std::string> value;  ///< as it is written
 };
 
 /// A row's columns in the order of history.csv.
+/// @param cycle  steps since the run began
+/// @param time  since the run began
+/// @param stage  its name
+/// @param seen  the row itself
 /// @param stage_cycle  of the current stage: where one stage's rows end and the next one's begin
 std::vector<Field> history_fields(std::int64_t cycle, double time, const std::string& stage,
                                   std::int64_t stage_cycle, const Observation& seen);

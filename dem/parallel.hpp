@@ -27,6 +27,8 @@ void share_range(std::size_t count, void (*call)(const void*, std::size_t, std::
 
 /// Calls what(first, last) for ranges that make up [0, count), one after the other or at once.
 /// `what` does not throw.
+/// @param count  how many
+/// @param what  called with the ends of each range
 /// @param least  in one call where count is less
 template <class F>
 void for_ranges(std::size_t count, std::size_t least, const F& what) {

@@ -42,10 +42,11 @@ struct Particles {
   std::vector<Vec3> angular_velocity;   ///< in space coordinates, 1/time
   std::vector<Quaternion> orientation;  ///< unit; body to space
   std::vector<Vec3> semi_axes;          ///< length
-  std::vector<double> mass;
-  std::vector<std::int32_t> type;  ///< index into the scene's particle types
-  std::vector<std::int32_t> id;    ///< each of 0 to size() - 1 once
+  std::vector<double> mass;             ///< one a particle
+  std::vector<std::int32_t> type;       ///< index into the scene's particle types
+  std::vector<std::int32_t> id;         ///< each of 0 to size() - 1 once
 
+  /// The number of particles.
   std::size_t size() const { return position.size(); }
   /// Appends a particle at rest; its id is its index.
   void add(const Vec3& centre, const Quaternion& axes, const Vec3& radii, double density,
@@ -73,7 +74,7 @@ Vec3 principal_inertia(double mass, const Vec3& semi_axes, int dimensions = 3);
 
 /// Resultants of the contact forces on each particle, about its centre, in space coordinates.
 struct Resultants {
-  std::vector<Vec3> force, moment;
+  std::vector<Vec3> force, moment;  ///< of each particle, in space
   /// Pairs of it that touch. One of a particle with its own image counts twice: both its ends are
   /// on the particle.
   std::vector<std::int32_t> contacts{};

@@ -20,16 +20,16 @@ namespace tangency::inline v0::dem {
 
 /// So many particles of one kind.
 struct Batch {
-  Shape shape;
-  double density;
-  std::size_t count;
+  Shape shape;            ///< semi-axes by ratios
+  double density;         ///< mass per volume
+  std::size_t count;      ///< particles of this kind
   int directed_axis = 0;  ///< the body axis that StartAxes turn
 };
 
 /// One particle of an explicit arrangement.
 struct Body {
-  std::size_t type;  ///< index of its batch
-  Vec3 position;
+  std::size_t type;                                 ///< index of its batch
+  Vec3 position;                                    ///< of the centre
   Quaternion orientation = Quaternion::Identity();  ///< not 0, of any length
   Vec3 velocity = Vec3::Zero();                     ///< relative to the strain
   Vec3 angular_velocity = Vec3::Zero();             ///< in space axes
@@ -45,14 +45,15 @@ inline bool is_near_cell(double coordinate, double edge) {
   return coordinate >= -kMostEdgesAway * edge && coordinate <= kMostEdgesAway * edge;
 }
 
+/// How particles are placed at the start.
 enum class Arrangement { lattice, random, explicit_bodies };
 
 /// How they are put into the cell.
 struct Placement {
   std::optional<Vec3> cell_size;  ///< edges; without: the smallest cube that holds all
   double jitter;                  ///< lattice: each coordinate moves by up to this, length
-  std::uint64_t seed;
-  Arrangement arrangement = Arrangement::lattice;
+  std::uint64_t seed;             ///< of the random numbers
+  Arrangement arrangement = Arrangement::lattice;  ///< how they are placed
   /// random, without a cell_size: the share of the cell that the bounding spheres fill.
   double bounding_fraction = 0.25;
   int dimensions = 3;              ///< 2: in the plane, on a square lattice, by bounding circles

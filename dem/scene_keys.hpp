@@ -24,33 +24,40 @@ inline constexpr std::string_view kSceneSections =
 
 /// The values a number may have, each bound included or not.
 struct Range {
+  /// least value
   double low = -std::numeric_limits<double>::infinity();
+  /// largest value
   double high = std::numeric_limits<double>::infinity();
-  bool low_included = false;
-  bool high_included = false;
+  bool low_included = false;   ///< is `low` itself allowed?
+  bool high_included = false;  ///< is `high` itself allowed?
 
+  /// Is x allowed?
   bool holds(double x) const {
     return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
   }
 };
 
+/// A key of a scene.
 struct Key {
   std::string_view section;  ///< "" or one of kSceneSections
-  std::string_view name;
-  KeyType type;
-  std::string_view unit;  ///< "-" for none
+  std::string_view name;     ///< as the file has it
+  KeyType type;              ///< of its value
+  std::string_view unit;     ///< "-" for none
   /// "" for a key that must be given; a value as written in TOML, a text without quotes; or, in
   /// parentheses, what holds without one.
   std::string_view fallback;
-  Range range;
+  Range range;               ///< of its value, where it is a number
   std::string_view choices;  ///< of a text, separated by blanks; "" for any name
   std::string_view kinds;    ///< of a stage's key: the kinds that have it, separated by blanks
-  std::string_view meaning;
+  std::string_view meaning;  ///< one sentence
 
+  /// Has a scene to say it?
   bool required() const { return fallback.empty(); }
+  /// Is the default a value, and no rule in words?
   bool has_default() const { return !required() && fallback.front() != '('; }
 };
 
+/// All keys, in the order of the schema.
 std::span<const Key> scene_keys();
 
 /// Is `word` one of the blank-separated words?

@@ -13,12 +13,13 @@ namespace tangency::inline v0::dem {
 
 /// What a row of a history says of a shear test. Strains count from the start of its stage.
 struct ShearRow {
-  double axial_strain, volumetric_strain;
-  double friction_angle_deg;
+  double axial_strain, volumetric_strain;  ///< where the peak is
+  double friction_angle_deg;               ///< at the peak
 };
 
+/// The peaks of a shear.
 struct ShearPeaks {
-  double friction_angle_deg;
+  double friction_angle_deg;  ///< largest mobilised friction angle
   double strain_at_friction;  ///< mean axial strain of the rows that it was taken from
   double dilation_rate;       ///< d volumetric strain / d axial strain
   double strain_at_dilation;  ///< mean axial strain of the rows that it was taken from

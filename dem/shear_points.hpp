@@ -24,9 +24,9 @@ namespace tangency::inline v0::dem {
 
 /// What a row of a history says. Strains count from the start of the stage.
 struct ShearPointRow {
-  double axial_strain, volumetric_strain;
-  double friction_angle_deg;
-  double stress_ratio;  ///< stress_ratio_of()
+  double axial_strain, volumetric_strain;  ///< where the point is
+  double friction_angle_deg;               ///< at the point
+  double stress_ratio;                     ///< stress_ratio_of()
 };
 
 /// a_s = sqrt(3/2 s':s') / (tr s / 3) of a stress and its deviator s' [Ouadfel1998, eq. 6.23]; in
@@ -37,14 +37,15 @@ double stress_ratio_of(const Mat3& stress, int dimensions = 3);
 /// Widths of axial strain and thresholds. Chosen with the rules: an assembly of a thousand yields
 /// over some 0.01, and its volume wanders by 0.001.
 inline constexpr double kYieldWindow = 0.002;
+/// the share of the steepest rise at which an assembly yields
 inline constexpr double kYieldShare = 0.2;
-inline constexpr double kConstantVolumeWindow = 0.05;
-inline constexpr double kConstantVolumeRate = 0.02;  ///< d volumetric strain / d axial strain
+inline constexpr double kConstantVolumeWindow = 0.05;  ///< axial strain
+inline constexpr double kConstantVolumeRate = 0.02;    ///< d volumetric strain / d axial strain
 
 /// Indices of rows.
 struct ShearPoints {
-  std::size_t a, b, c, d;
-  bool d_is_last_row;  ///< the volume was nowhere constant after C
+  std::size_t a, b, c, d;  ///< the rows of the points A, B, C and D
+  bool d_is_last_row;      ///< the volume was nowhere constant after C
 };
 
 /// A is the first row. C is the row nearest to the strain at the peak friction angle of

@@ -29,21 +29,22 @@ namespace tangency::inline v0::dem {
 
 /// Everything that a run carries from one cycle to the next.
 struct State {
-  Particles particles;
-  Cell cell;
-  NeighbourList list;
-  Contacts contacts;
-  std::int64_t cycle = 0;
-  double time = 0.0;
-  std::size_t stage = 0;  ///< the current one; the number of stages when all are done
-  std::int64_t stage_cycle = 0;
+  Particles particles;              ///< all of them
+  Cell cell;                        ///< now
+  NeighbourList list;               ///< pairs that may touch
+  Contacts contacts;                ///< of those pairs
+  std::int64_t cycle = 0;           ///< steps since the run began
+  double time = 0.0;                ///< since the run began
+  std::size_t stage = 0;            ///< the current one; the number of stages when all are done
+  std::int64_t stage_cycle = 0;     ///< steps since the stage began
   std::vector<ServoMemory> servos;  ///< of the current stage's targets
   Fire fire;                        ///< of the current stage, where no damping is given
   ContactLaws laws;                 ///< the scene's, with which the contacts were made
   std::int64_t increments = 0;      ///< of growth, made in the current stage
-  EnergyAccount energy;
+  EnergyAccount energy;             ///< where energy went
 };
 
+/// How a stage goes on.
 enum class StageStatus {
   running,
   done,
@@ -52,10 +53,12 @@ enum class StageStatus {
 
 /// Cycles, and the key of the stage that needs so many.
 struct CyclesNeeded {
-  double cycles = 0.0;
+  double cycles = 0.0;  ///< how many the stage needs
+  /// of the scene
   const char* key = "";
 };
 
+/// A run of a scene, step by step.
 class Simulation {
  public:
   /// Places the particles: the scene's first stage.
@@ -67,10 +70,13 @@ class Simulation {
   /// @throws std::invalid_argument  where the state is not one of such a scene: what() says why
   Simulation(const Scene& scene, State state);
 
+  /// All that changes.
   const State& state() const { return state_; }
+  /// As given.
   const Scene& scene() const { return scene_; }
   /// The scene's, with the current stage's friction.
   const ContactLaws& laws() const { return laws_; }
+  /// Have all stages ended?
   bool finished() const { return state_.stage == scene_.stages.size(); }
   /// The current stage, or the last one when finished.
   const Stage& stage() const;
@@ -105,6 +111,7 @@ class Simulation {
   /// A guess at how much of the current stage is done, in [0, 1]: for progress bars only.
   double stage_fraction() const;
 
+  /// What the state is like now.
   Observation observe() const;
 
   /// From now on cycles are added to a profile, which has to live as long; null: to none, which

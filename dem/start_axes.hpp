@@ -27,13 +27,14 @@ int directed_axis(const Shape& shape);
 
 /// How directed axes are drawn; the spin about them is uniform.
 struct StartAxes {
+  /// How orientations are drawn.
   enum class Rule {
     random,   ///< whole rotations, uniformly
     aligned,  ///< along the direction
     cone,     ///< uniform in the cone about the direction, in the plane in the wedge
     across,   ///< uniform in the plane across the direction, in the plane the line across it
   };
-  Rule rule = Rule::random;
+  Rule rule = Rule::random;        ///< how they are drawn
   Vec3 direction = Vec3::UnitZ();  ///< not 0, of any length; in the plane without a part along z
   double half_angle = 0.0;         ///< of the cone, between it and the direction, in (0, pi/2], rad
 
@@ -43,6 +44,8 @@ struct StartAxes {
   /// (2) In space no direction across the given one is preferred, and the other two body axes have
   ///     equal mean squares along any direction.
   /// (3) Rule random draws what uniform_rotation() draws, bit for bit.
+  /// @param random  the generator, which moves on
+  /// @param dimensions  2 or 3
   /// @param axis  the directed one, 0 or 2; in the plane 0
   Quaternion draw(std::mt19937_64& random, int axis, int dimensions) const;
 };

@@ -31,6 +31,7 @@ namespace tangency::inline v0::dem {
 /// semi-axes, c_1 >= c_2 of their smallest.
 class LeastCell {
  public:
+  /// Counts particles of these semi-axes.
   void add(const Vec3& semi_axes, std::size_t count = 1);
 
   double period() const;       ///< the larger of 2 a_1 and 2 (c_1 + c_2); of one particle 2 a_1
@@ -44,12 +45,13 @@ class LeastCell {
   std::array<double, 2> largest_{}, smallest_{};
 };
 
+/// Of all particles.
 LeastCell least_cell_of(const Particles& particles);
 
 /// A length of a cell, and the least that is allowed.
 struct ThinPlace {
-  std::string what;  ///< "the cell's period along z, 3.99 m, is below 4 m, where ..."
-  double length, least;
+  std::string what;      ///< "the cell's period along z, 3.99 m, is below 4 m, where ..."
+  double length, least;  ///< length of the cell there, and the least that is allowed
 };
 
 /// Share of LeastCell::wall_distance() to which walls may squeeze particles in a run. Chosen: the
@@ -57,6 +59,8 @@ struct ThinPlace {
 inline constexpr double kMostSqueeze = 0.9;
 
 /// Where the cell is thinner than its particles allow, if anywhere.
+/// @param cell  the cell they are in
+/// @param least  fewest elements a range
 /// @param squeezed  share of LeastCell::wall_distance() that is left to walls
 std::optional<ThinPlace> thin_place(const Cell& cell, const LeastCell& least,
                                     double squeezed = 1.0);
@@ -70,8 +74,9 @@ std::optional<ThinPlace> doubled_contact(const Particles& particles, const Conta
 /// The cell has become too thin, or the next step would make it so.
 class CellTooThin : public std::runtime_error {
  public:
+  /// Its text names the place.
   explicit CellTooThin(ThinPlace at) : std::runtime_error(at.what), place(std::move(at)) {}
-  ThinPlace place;
+  ThinPlace place;  ///< where the cell is too thin
 };
 
 }  // namespace tangency::inline v0::dem

@@ -16,22 +16,30 @@ namespace tangency::inline v0::dem {
 /// with the system's reason.
 class FileError : public std::runtime_error {
  public:
+  /// @param file  its path
   /// @param done     "read", "written"
   /// @param problem  an errno
   FileError(const std::filesystem::path& file, const char* done, int problem);
+  /// As errno has it.
   int problem() const noexcept { return problem_; }
 
  private:
   int problem_;
 };
 
+/// A file that cannot be read.
 class ReadError : public FileError {
  public:
+  /// @param file  its path
+  /// @param problem  as errno has it
   ReadError(const std::filesystem::path& file, int problem) : FileError(file, "read", problem) {}
 };
 
+/// A file that cannot be written.
 class WriteError : public FileError {
  public:
+  /// @param file  its path
+  /// @param problem  as errno has it
   explicit WriteError(const std::filesystem::path& file, int problem = errno)
       : FileError(file, "written", problem) {}
 };
@@ -53,6 +61,7 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
+  /// Appends bytes. @throws WriteError
   void write(std::string_view bytes);
   /// Gives the file its name.
   void publish();

@@ -19,7 +19,7 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 }
 
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
-    : bodies_(bodies), lanes_(bodies.size()), rows_(bodies.size()), floats_(bodies.size()) {
+    : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()), rows_(bodies.size()) {
   in_default_environment([&] {
     for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill(lanes_[i], bodies[i]);
     detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
@@ -31,16 +31,16 @@ BodyArray::BodyArray(BodyArray&& other) noexcept
     : own_(std::move(other.own_)),
       bodies_(std::exchange(other.bodies_, {})),
       lanes_(std::move(other.lanes_)),
-      rows_(std::move(other.rows_)),
-      floats_(std::move(other.floats_)) {}
+      floats_(std::move(other.floats_)),
+      rows_(std::move(other.rows_)) {}
 
 BodyArray& BodyArray::operator=(BodyArray&& other) noexcept {
   BodyArray taken(std::move(other));
   std::swap(own_, taken.own_);
   std::swap(bodies_, taken.bodies_);
   std::swap(lanes_, taken.lanes_);
-  std::swap(rows_, taken.rows_);
   std::swap(floats_, taken.floats_);
+  std::swap(rows_, taken.rows_);
   return *this;
 }
 

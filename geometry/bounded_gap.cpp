@@ -24,11 +24,10 @@ using detail::Pair;
 
 /// (N) of docs/derivations/bounded-gap.md, of the size: of a value at any normal.
 constexpr double kValueError = 32 * kUnitRoundoff;
-constexpr int kPerramWertheimSteps = 2;  // as normals/newton.cpp
-constexpr int kClimbSteps = 6;           // chosen: 3 to 5 are common
-constexpr double kLongest = 0.5;         // rad of a step; chosen
-constexpr double kShort = 0x1p-28;       // of |step|^2; chosen: the next would be below rounding
-constexpr double kUpwards = 0.5;         // of |f|; chosen
+constexpr int kClimbSteps = 6;      // chosen: 3 to 5 are common
+constexpr double kLongest = 0.5;    // rad of a step; chosen
+constexpr double kShort = 0x1p-28;  // of |step|^2; chosen: the next would be below rounding
+constexpr double kUpwards = 0.5;    // of |f|; chosen
 
 /// The best normal so far, and what bounds the gap from above.
 struct Found {
@@ -59,7 +58,8 @@ Vec3 first_normal(const Pair& pair) {
   if (!(reach > 0.0)) return pair.a.rotation().col(0);
   if (pair.a.moderate() && pair.b.moderate() && reach >= detail::kSmallestModerate) {
     const detail::PerramWertheimForm form(pair.a, pair.b, pair.d);
-    const Vec3 normal = form.normal_direction(form.maximise(kPerramWertheimSteps)).normalized();
+    const Vec3 normal =
+        form.normal_direction(form.maximise(detail::kPerramWertheimSteps)).normalized();
     if (normal.allFinite()) return normal;
   }
   return (pair.d / reach).normalized();

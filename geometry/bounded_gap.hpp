@@ -33,6 +33,7 @@ struct BoundedGap : Gap {
 /// by more than some 1e7 may have an `above` as large as the bodies.
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite: else the process ends with one line on standard error
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 

@@ -20,6 +20,7 @@
 
 namespace tangency::inline v0 {
 
+/// The point of a body's surface that is nearest to a given point.
 struct ClosestPoint {
   double distance;        ///< signed, < 0 inside, in the unit of length of the body
   Vec3 normal;            ///< unit, the outer normal of the surface at the closest point
@@ -51,8 +52,10 @@ ClosestPoint closest_point(const MatrixEllipsoid& body, const Vec3& point) noexc
 
 /// With the separation d = p - c given, in place of point and centre: for periodic images. A name
 /// of its own, as intersect_from_centre() has: a point and a separation are both three numbers.
+/// @param body  the body
 /// @param separation  finite
 ClosestPoint closest_point_from_centre(const Ellipsoid& body, const Vec3& separation) noexcept;
+/// @overload
 ClosestPoint closest_point_from_centre(const MatrixEllipsoid& body,
                                        const Vec3& separation) noexcept;
 

@@ -35,18 +35,20 @@
 
 namespace tangency::inline v0 {
 
+/// How well a common volume is known.
 enum class CommonVolumeStatus {
   ok,                     ///< both errors are within the tolerance
   tolerance_not_reached,  ///< they are not, and still hold
 };
 
+/// The volume that two bodies have in common, and its derivative.
 struct CommonVolume {
   /// Infinite above the range of doubles; below it rounded to a subnormal or to 0.
   double volume;
-  double volume_error;    ///< proven: |volume - true volume| is at most this
-  Vec3 gradient;          ///< dV/dd
-  double gradient_error;  ///< proven: |gradient - true gradient| is at most this
-  CommonVolumeStatus status;
+  double volume_error;        ///< proven: |volume - true volume| is at most this
+  Vec3 gradient;              ///< dV/dd
+  double gradient_error;      ///< proven: |gradient - true gradient| is at most this
+  CommonVolumeStatus status;  ///< whether both errors are within the tolerance
 };
 
 /// Of volume_error over the smaller body's volume, and of gradient_error over pi times the product
@@ -62,11 +64,14 @@ inline constexpr double kCommonVolumeTolerance = 1e-12;
 /// lenses, 0.2 ms at an aspect ratio of 1e8, where some pairs need 512 bits and then some ms
 /// (measured by tests/verify/common_volume_agreement.cpp). Much of it is the proof: a tolerance of
 /// 1e-6 saves no more than a quarter.
+/// @param a,b  the bodies, in this order
 /// @param tolerance  > 0; below 2^-46 it is that for the work, and as it is for the status
 CommonVolume common_volume(const Ellipsoid& a, const Ellipsoid& b,
                            double tolerance = kCommonVolumeTolerance) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// @param a,b  the bodies, in this order
+/// @param tolerance  > 0, of the smaller body's volume and of its section
 /// @param separation  finite: else the process ends with one line on standard error
 CommonVolume common_volume(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                            double tolerance = kCommonVolumeTolerance) noexcept;

@@ -33,16 +33,17 @@
 
 namespace tangency::inline v0 {
 
+/// The least distance from the surface of an inner body to that of an outer one.
 struct Clearance {
   double clearance;  ///< signed, in the unit of length of the bodies
   Vec3 normal;       ///< unit, outwards
   Vec3 arm_inner;    ///< witness point of the inner body, relative to its centre
-  Vec3 arm_outer;
+  Vec3 arm_outer;    ///< outer's witness point relative to its centre
   /// Proven, whatever the status: |clearance - true clearance| is at most this.
   /// docs/derivations/containment.md
   double clearance_error;
   GapStatus status;  ///< ok: the error is at most 100 u L; local: it is wider
-  GapTier tier;
+  GapTier tier;      ///< how the answer was found
 };
 
 /// The global minimum over all normals: any pose, any semi-axes. Where several normals tie the
@@ -59,6 +60,8 @@ Clearance clearance(const Ellipsoid& inner, const Ellipsoid& outer) noexcept;
 
 /// The same with the separation d = c_outer - c_inner given, in place of the centres: for periodic
 /// images.
+/// @param inner  the body inside
+/// @param outer  the body around it
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 Clearance clearance(const Ellipsoid& inner, const Ellipsoid& outer,
                     const Vec3& separation) noexcept;
@@ -67,6 +70,7 @@ Clearance clearance(const Ellipsoid& inner, const Ellipsoid& outer,
 /// of the true bodies' relation, and their roundings in the error, which `ok` bounds no longer.
 Clearance clearance(const MatrixEllipsoid& inner, const MatrixEllipsoid& outer) noexcept;
 
+/// The largest factor by which an inner body can be scaled about its centre and stay inside.
 struct ContainmentMargin {
   double margin;        ///< >= 0; infinite where it is beyond the range of doubles
   double margin_error;  ///< proven: |margin - true margin| is at most this, some u margin
@@ -75,6 +79,7 @@ struct ContainmentMargin {
 /// From exact integers: rounded once, but where that would break identity (2). Any pose, any
 /// semi-axes, in any floating-point environment. Allocates. Takes about 1 ms.
 ContainmentMargin containment_margin(const Ellipsoid& inner, const Ellipsoid& outer) noexcept;
+/// @overload
 ContainmentMargin containment_margin(const Ellipsoid& inner, const Ellipsoid& outer,
                                      const Vec3& separation) noexcept;
 /// Of bodies given by matrices: exactly the bodies as they were given.

@@ -32,6 +32,7 @@ struct PrincipalCurvatures {
 /// u beta (k_0 + k_1) / (k_0 - k_1). Derived in docs/derivations/derivatives-and-curvature.md; the
 /// largest seen is 57 u beta (tests/geometry/curvature_test.cpp). Any scale; no square leaves the
 /// range of doubles for aspect ratios to 1e70. In any floating-point environment.
+/// @param body  the body
 /// @param normal  unit
 PrincipalCurvatures surface_curvature(const Ellipsoid& body, const Vec3& normal) noexcept;
 
@@ -54,6 +55,7 @@ struct ContactCurvature {
 /// much as the bodies'. Two large curvatures that are nearly parallel leave a small one that
 /// depends on the angle between them: it is computed in double-double. For pairs whose longest
 /// semi-axis is up to 1e70 times the shortest. In any floating-point environment.
+/// @param a,b  the bodies, in this order
 /// @param normal  unit, from A to B: Gap::normal
 ContactCurvature contact_curvature(const Ellipsoid& a, const Ellipsoid& b,
                                    const Vec3& normal) noexcept;

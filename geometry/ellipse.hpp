@@ -23,15 +23,19 @@ namespace tangency::inline v0 {
 /// What is wrong with the numbers of a would-be ellipse: the first offending field by its name in
 /// the file formats ("x" "y" "r1" "r2" "ux" "uy" "angle"), its value, and the rule.
 struct EllipseFault {
+  /// name of the field
   const char* field;
-  double value;
+  double value;  ///< the value that breaks the rule
+  /// what is allowed
   const char* rule;
 };
 
 /// Thrown by the constructors of Ellipse; what() reads "r2 = -1: a semi-axis must be ...".
 class InvalidEllipse : public std::invalid_argument {
  public:
+  /// With the text "FIELD = VALUE: RULE".
   explicit InvalidEllipse(const EllipseFault& fault);
+  /// What is wrong.
   const EllipseFault& fault() const noexcept { return fault_; }
 
  private:
@@ -55,6 +59,8 @@ class Ellipse {
   Ellipse(const Vec2& centre, const Vec2& semi_axes, const Vec2& direction = Vec2(1.0, 0.0));
 
   /// The direction is (cos, sin) of the angle, each rounded correctly to double.
+  /// @param centre  finite
+  /// @param semi_axes  of each body, finite and > 0
   /// @param angle  rad, finite
   /// @throws InvalidEllipse
   static Ellipse at_angle(const Vec2& centre, const Vec2& semi_axes, double angle);
@@ -63,19 +69,25 @@ class Ellipse {
   static std::optional<EllipseFault> find_fault(const Vec2& centre, const Vec2& semi_axes,
                                                 const Vec2& direction) noexcept;
 
+  /// As given to the constructor.
   const Vec2& centre() const noexcept { return centre_; }
+  /// As given to the constructor, both > 0.
   const Vec2& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
   const Vec2& direction() const noexcept { return direction_; }
   /// u/|u|, each component within u of itself (u = 2^-53).
   const Vec2& axis() const noexcept { return axis_; }
+  /// max(a1, a2)
   double largest_semi_axis() const noexcept { return semi_axes_.maxCoeff(); }
+  /// min(a1, a2)
   double smallest_semi_axis() const noexcept { return semi_axes_.minCoeff(); }
   /// The least radius of curvature of the boundary, smallest^2 / largest, rounded.
   double least_radius() const noexcept {
     return smallest_semi_axis() * (smallest_semi_axis() / largest_semi_axis());
   }
+  /// Are both semi-axes equal, exactly?
   bool is_circle() const noexcept { return semi_axes_[0] == semi_axes_[1]; }
+  /// pi a1 a2, in the unit of length squared.
   double area() const noexcept;
 
   /// The same solid elsewhere. @param centre  finite (asserted)
@@ -105,6 +117,7 @@ class Ellipse {
 inline Vec2 turned_back(const Vec2& axis, const Vec2& v) noexcept {
   return {axis[0] * v[0] + axis[1] * v[1], axis[0] * v[1] - axis[1] * v[0]};
 }
+/// A vector of the frame of the axis in the frame.
 inline Vec2 turned(const Vec2& axis, const Vec2& v) noexcept {
   return {axis[0] * v[0] - axis[1] * v[1], axis[1] * v[0] + axis[0] * v[1]};
 }

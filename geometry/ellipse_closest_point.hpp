@@ -20,6 +20,7 @@
 
 namespace tangency::inline v0 {
 
+/// The point of an ellipse that is nearest to a given point.
 struct PlaneClosestPoint {
   double distance;        ///< signed, < 0 inside, in the unit of length of the ellipse
   Vec2 normal;            ///< unit, the outer normal of the boundary at the closest point
@@ -45,6 +46,7 @@ PlaneClosestPoint closest_point(const Ellipse& body, const Vec2& point) noexcept
 PlaneClosestPoint closest_point(const MatrixEllipse& body, const Vec2& point) noexcept;
 
 /// With the separation d = p - c given, in place of point and centre: for periodic images.
+/// @param body  the body
 /// @param separation  finite
 PlaneClosestPoint closest_point_from_centre(const Ellipse& body, const Vec2& separation) noexcept;
 

@@ -20,16 +20,17 @@
 
 namespace tangency::inline v0 {
 
+/// The least distance from the boundary of an inner ellipse to that of an outer one.
 struct PlaneClearance {
   double clearance;  ///< signed, in the unit of length of the bodies
   Vec2 normal;       ///< unit, outwards
   Vec2 arm_inner;    ///< witness point of the inner body, relative to its centre
-  Vec2 arm_outer;
+  Vec2 arm_outer;    ///< outer's witness point relative to its centre
   /// Proven, whatever the status: |clearance - true clearance| is at most this.
   /// docs/derivations/containment.md
   double clearance_error;
   GapStatus status;  ///< ok: the error is at most 100 u L; local: it is wider
-  GapTier tier;
+  GapTier tier;      ///< how the answer was found
 };
 
 /// The global minimum over all normals: any pose, any semi-axes. Where several normals tie the
@@ -37,6 +38,8 @@ struct PlaneClearance {
 PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer) noexcept;
 
 /// The same with the separation d = c_outer - c_inner given, in place of the centres.
+/// @param inner  the body inside
+/// @param outer  the body around it
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 PlaneClearance clearance(const Ellipse& inner, const Ellipse& outer,
                          const Vec2& separation) noexcept;
@@ -47,6 +50,7 @@ PlaneClearance clearance(const MatrixEllipse& inner, const MatrixEllipse& outer)
 
 /// From exact integers, as in space.
 ContainmentMargin containment_margin(const Ellipse& inner, const Ellipse& outer) noexcept;
+/// @overload
 ContainmentMargin containment_margin(const Ellipse& inner, const Ellipse& outer,
                                      const Vec2& separation) noexcept;
 /// Of ellipses given by matrices: exactly the bodies as they were given.

@@ -25,20 +25,23 @@
 
 namespace tangency::inline v0 {
 
+/// A common point of two boundaries.
 struct Crossing {
   Vec2 arm_a = Vec2::Zero();  ///< from the centre of A
   Vec2 arm_b = Vec2::Zero();  ///< from the centre of B
-  int multiplicity = 0;
+  int multiplicity = 0;       ///< 1 where they cross, 2 to 4 where they touch
 };
 
+/// The common points of two boundaries.
 struct Crossings {
-  int count;  ///< distinct points; 0 where the boundaries are equal
-  bool equal;
+  int count;   ///< distinct points; 0 where the boundaries are equal
+  bool equal;  ///< are the ellipses the same set, with every point of the boundary common?
   /// In the order of (x, y) from the centre of A, and from the centre of B alike; those that are
   /// no crossings, from `count` on, have multiplicity 0.
   std::array<Crossing, 4> at;
 };
 
+/// @overload
 Crossings crossings(const Ellipse& a, const Ellipse& b) noexcept;
 /// With d = c_B - c_A given, in place of the centres, here and below: for periodic images.
 Crossings crossings(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
@@ -50,24 +53,28 @@ Crossings crossings(const MatrixEllipse& a, const MatrixEllipse& b) noexcept;
 /// overlap by 1e-16 of their size and more. Infinite above the range of doubles; below it rounded
 /// to a subnormal or to 0, for bodies that overlap too.
 double common_area(const Ellipse& a, const Ellipse& b) noexcept;
+/// @overload
 double common_area(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
+/// Whether the plane scheme has an answer.
 enum class ChordStatus {
   ok,
   not_applicable,  ///< the boundaries do not cross in exactly two points
 };
 
+/// The contact of the published plane scheme.
 struct ChordContact {
-  ChordStatus status;
-  double depth;  ///< along the normal through the chord's midpoint, > 0
-  Vec2 normal;   ///< unit, perpendicular to the chord, to the side where A's boundary is inside B
-  Vec2 arm_a;    ///< where that line leaves A, from the centre of A
-  Vec2 arm_b;    ///< where it leaves B the other way, from the centre of B
-  Vec2 point;    ///< half-way between the two: the contact point, from the centre of A
+  ChordStatus status;  ///< the numbers are those of a contact where it is `ok`
+  double depth;        ///< along the normal through the chord's midpoint, > 0
+  Vec2 normal;  ///< unit, perpendicular to the chord, to the side where A's boundary is inside B
+  Vec2 arm_a;   ///< where that line leaves A, from the centre of A
+  Vec2 arm_b;   ///< where it leaves B the other way, from the centre of B
+  Vec2 point;   ///< half-way between the two: the contact point, from the centre of A
 };
 
 /// Not applicable, too, where the boundaries touch in two points without crossing.
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b) noexcept;
+/// @overload
 ChordContact chord_contact(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
 }  // namespace tangency::inline v0

@@ -31,8 +31,8 @@ struct PlaneGap {
   /// the value of the branch (as wide as |d| where even that is not proven), and the true gap is at
   /// least gap - gap_error. docs/derivations/ellipses.md
   double gap_error;
-  GapStatus status;
-  GapTier tier;  ///< fast, factored (double-double), search or exact
+  GapStatus status;  ///< what is proven
+  GapTier tier;      ///< fast, factored (double-double), search or exact
 };
 
 /// The global gap: for overlapping solids the shortest separating translation. Any pose, any
@@ -58,6 +58,8 @@ PlaneGap signed_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation) 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
 /// and stays with the stationary answer it leads to. `ok` where that is known to be global, `local`
 /// where not: a shorter way out may exist. Never < 0 for solids that are apart.
+/// @param a,b  the bodies, in this order
+/// @param separation  c_B - c_A, finite
 /// @param previous_normal  from A to B; not zero, of moderate length
 PlaneGap follow_gap(const Ellipse& a, const Ellipse& b, const Vec2& separation,
                     const Vec2& previous_normal) noexcept;

@@ -22,19 +22,21 @@
 
 namespace tangency::inline v0 {
 
+/// How two ellipses lie, and what decided it.
 struct EllipseRelation {
-  Relation relation;
-  Inner inner;  ///< the body inside, for internal_touch; else none
+  Relation relation;  ///< exact
+  Inner inner;        ///< the body inside, for internal_touch; else none
   /// Distinct real points that the two boundaries have in common: 0 to 4; nothing where they are
   /// equal.
   std::optional<int> crossings;
-  Tier tier;
+  Tier tier;  ///< what decided it
 };
 
 /// The exact tier allocates; the filter does not.
 EllipseRelation relation(const Ellipse& a, const Ellipse& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 /// Exact for d as it is given.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite
 EllipseRelation relation(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
@@ -43,6 +45,7 @@ EllipseRelation relation(const MatrixEllipse& a, const MatrixEllipse& b) noexcep
 
 /// Do the interiors meet?
 bool overlaps(const Ellipse& a, const Ellipse& b) noexcept;
+/// @overload
 bool overlaps(const Ellipse& a, const Ellipse& b, const Vec2& separation) noexcept;
 
 }  // namespace tangency::inline v0

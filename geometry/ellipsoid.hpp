@@ -20,15 +20,19 @@ namespace tangency::inline v0 {
 /// What is wrong with the numbers of a would-be ellipsoid: the first offending field by its name
 /// in the file formats ("x" "y" "z" "r1" "r2" "r3" "qw" "qx" "qy" "qz"), its value, and the rule.
 struct EllipsoidFault {
+  /// name of the field
   const char* field;
-  double value;
+  double value;  ///< the value that breaks the rule
+  /// what is allowed
   const char* rule;
 };
 
 /// Thrown by the constructor of Ellipsoid; what() reads "r2 = -1: a semi-axis must be ...".
 class InvalidEllipsoid : public std::invalid_argument {
  public:
+  /// With the text "FIELD = VALUE: RULE".
   explicit InvalidEllipsoid(const EllipsoidFault& fault);
+  /// What is wrong.
   const EllipsoidFault& fault() const noexcept { return fault_; }
 
  private:
@@ -55,7 +59,9 @@ class Ellipsoid {
   static std::optional<EllipsoidFault> find_fault(const Vec3& centre, const Vec3& semi_axes,
                                                   const Quaternion& orientation) noexcept;
 
+  /// As given to the constructor.
   const Vec3& centre() const noexcept { return centre_; }
+  /// As given to the constructor, all > 0.
   const Vec3& semi_axes() const noexcept { return semi_axes_; }
   /// As given to the constructor.
   Quaternion orientation() const noexcept { return orientation_; }
@@ -72,10 +78,13 @@ class Ellipsoid {
   /// Are all semi-axes within [2^-60, 2^60], so that products of up to ten of them and squares of
   /// distances as moderate neither overflow nor underflow?
   bool moderate() const noexcept { return moderate_; }
+  /// max(a1, a2, a3)
   double largest_semi_axis() const noexcept { return largest_; }
+  /// min(a1, a2, a3)
   double smallest_semi_axis() const noexcept { return smallest_; }
   /// The least radius of curvature of the surface, smallest^2 / largest, rounded.
   double least_radius() const noexcept { return least_radius_; }
+  /// Are all semi-axes equal, exactly?
   bool is_sphere() const noexcept { return is_sphere_; }
 
   /// The same solid elsewhere, sharing the work of the constructor.

@@ -35,8 +35,8 @@ struct Gap {
   /// the value of the branch (as wide as |d| where even that is not proven), and the true gap is at
   /// least gap - gap_error. docs/derivations/gap-certificate.md
   double gap_error;
-  GapStatus status;
-  GapTier tier;
+  GapStatus status;  ///< what is proven
+  GapTier tier;      ///< how the answer was found
 };
 
 /// The global gap: for overlapping solids the shortest separating translation.
@@ -59,12 +59,14 @@ struct Gap {
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 Gap signed_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
 /// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with the sign
 /// of the true bodies' relation, and their roundings in gap_error, which `ok` bounds no longer.
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
+/// @overload
 Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Vec3& separation) noexcept;
 
 /// The answer of the branch that a moving contact is on: starts from the normal of a moment ago
@@ -72,6 +74,8 @@ Gap signed_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Vec3& s
 /// then the same as signed_gap; `local` where not: a shorter way out may exist. Never < 0 for
 /// solids that are apart. Allocates only in tier `exact` and where a `local` answer has to be held
 /// against the exact relation.
+/// @param a,b  the bodies, in this order
+/// @param separation  c_B - c_A, finite
 /// @param previous_normal  from A to B; not zero, of moderate length
 Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                const Vec3& previous_normal) noexcept;
@@ -81,12 +85,14 @@ Gap follow_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
 struct ContactBounds {
   double normal;  ///< of |normal - true normal|
   double arm_a;   ///< of |arm_a - true arm_a|, in the unit of length
-  double arm_b;
+  double arm_b;   ///< of |arm_b - true arm_b|, in the unit of length
 };
 
+/// @param a,b  the bodies, in this order
 /// @param gap  the answer of signed_gap() or follow_gap() for this pair. Where nothing can be
 ///             proven (ties, a status other than ok) the bounds are 2 and the largest diameters.
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept;
+/// @overload
 ContactBounds contact_bounds(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                              const Gap& gap) noexcept;
 

@@ -53,18 +53,19 @@ struct Accuracy {
   static constexpr Accuracy standard() { return {}; }
   /// Gap, normal and points to rounding.
   static constexpr Accuracy certified() { return {0.0, 0.0, true}; }
+  /// gap_error at most 16 u L more than a length. @param length  at least 0
   static constexpr Accuracy within(double length) { return {0.0, length, false}; }
 };
 
 /// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
 struct GapColumns {
-  std::span<double> gap = {};
-  std::span<double> gap_error = {};
-  std::span<Vec3> normal = {};
-  std::span<Vec3> arm_a = {};
-  std::span<Vec3> arm_b = {};
-  std::span<GapStatus> status = {};
-  std::span<GapTier> tier = {};
+  std::span<double> gap = {};        ///< Gap::gap
+  std::span<double> gap_error = {};  ///< Gap::gap_error
+  std::span<Vec3> normal = {};       ///< Gap::normal
+  std::span<Vec3> arm_a = {};        ///< Gap::arm_a
+  std::span<Vec3> arm_b = {};        ///< Gap::arm_b
+  std::span<GapStatus> status = {};  ///< Gap::status
+  std::span<GapTier> tier = {};      ///< Gap::tier
   /// The contact point less A's centre: arm_a + half of what leads from there to B's witness point.
   /// Off by no more than half of both arms' contact_bounds() and 8 u L.
   std::span<Vec3> point = {};
@@ -72,7 +73,7 @@ struct GapColumns {
 
 /// The same with how much more than `gap` the true gap may be.
 struct BoundedColumns {
-  GapColumns answers;
+  GapColumns answers;  ///< gap, error, normal, points, status and tier, as BoundedGap has them
   std::span<double> above = {};  ///< BoundedGap::above
 };
 
@@ -83,10 +84,15 @@ struct BoundedColumns {
 /// indices only where asserts are on. So does a body of MovingBodies that is none (a semi-axis that
 /// is not finite and > 0, an orientation that is not finite or all 0) where a pair names it: the
 /// line says which and why.
+/// @param bodies  the bodies, by index
+/// @param list  the pairs, with separations where they are given
+/// @param answers  where the answers go
+/// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the list, the calling one among them; each is started for the
 ///                 call, which some thousands of pairs are worth
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
 void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// The same for moving bodies. Separations have to be given where the bodies have no centres, here
@@ -96,6 +102,10 @@ void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColu
 /// The same for a[i] and b[i], at the cost of reading whole bodies.
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @param a,b  the bodies, in this order
+/// @param answers  where the answers go
+/// @param accuracy  how good the answers have to be
+/// @param threads  that may work on the call
 /// @param separations  in place of the centres
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
                  std::span<const Vec3> separations, std::span<Gap> answers, Accuracy accuracy = {},
@@ -105,13 +115,20 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
 /// `separations` is empty, of the rounded c_B - c_A, and signed_gap() where that overflows. Deeper
 /// than -rho (gap.hpp) branches of MovingBodies are followed in the lanes too, those of a BodyArray
 /// pair by pair.
+/// @param bodies  the bodies, by index
+/// @param list  the pairs, with separations where they are given
+/// @param answers  where the answers go
+/// @param accuracy  how good the answers have to be
+/// @param threads  that may work on the call
 /// @param previous_normals  may be the same memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
 void follow_gaps(const MovingBodies& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
@@ -120,6 +137,7 @@ void follow_gaps(const BodyArray& bodies, const PairList& list,
 /// exact relation. Allocates for threads alone.
 void bounded_gaps(const BodyArray& bodies, const PairList& list, const BoundedColumns& answers,
                   Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
 void bounded_gaps(const MovingBodies& bodies, const PairList& list, const BoundedColumns& answers,
                   Accuracy accuracy = {}, int threads = 1) noexcept;
 

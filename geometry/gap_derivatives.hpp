@@ -39,9 +39,12 @@ namespace tangency::inline v0 {
 enum GapParameter { kCentre = 0, kRotation = 3, kSemiAxes = 6, kOfBodyB = 9 };
 
 // Unaligned, so that the layout is the same whatever instruction set a user compiles for.
+/// First derivatives by the 18 parameters, in the order of the file's head.
 using GapGradient = Eigen::Matrix<double, 18, 1, Eigen::DontAlign>;
+/// Second derivatives by the 18 parameters.
 using GapHessian = Eigen::Matrix<double, 18, 18, Eigen::DontAlign>;
 
+/// Whether the derivatives exist and are known.
 enum class DerivativeStatus {
   ok,          ///< derivatives of the gap
   local,       ///< of the branch of a `local` Gap: the gap's where no other branch ties or leads
@@ -52,10 +55,10 @@ enum class DerivativeStatus {
 
 /// Gradient and Hessian are all 0 where the status is neither `ok` nor `local`.
 struct GapDerivatives {
-  GapGradient gradient;  ///< unit: length over that of the parameter (length or rad)
-  GapHessian hessian;    ///< unit: length over those of the two parameters
-  double least_radius;   ///< smallest eigenvalue of W, a length: how sharp the best normal is
-  DerivativeStatus status;
+  GapGradient gradient;     ///< unit: length over that of the parameter (length or rad)
+  GapHessian hessian;       ///< unit: length over those of the two parameters
+  double least_radius;      ///< smallest eigenvalue of W, a length: how sharp the best normal is
+  DerivativeStatus status;  ///< the numbers are derivatives where it is `ok` or `local`
 };
 
 /// Derivatives at an answer of signed_gap() or follow_gap() for these bodies.
@@ -76,10 +79,13 @@ struct GapDerivatives {
 /// -rho, least_radius >= g + rho, rho the sum of the bodies' a_min^2 / a_max. Ties between
 /// *separate* local maxima are known to the search alone: where the Gap is `local`, so are its
 /// derivatives. Any scale; does not allocate.
+/// @param a,b  the bodies, in this order
 /// @param gap  of this pair; only its status and normal, polished here by Newton's method, are used
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Gap& gap) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres.
+/// @param a,b  the bodies, in this order
+/// @param gap  the answer for this pair
 /// @param separation  finite: else the process ends with one line on standard error
 GapDerivatives gap_derivatives(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation,
                                const Gap& gap) noexcept;

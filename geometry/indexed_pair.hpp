@@ -10,7 +10,7 @@ namespace tangency::inline v0 {
 
 /// A and B of a pair by their places in a BodyArray.
 struct IndexedPair {
-  std::uint32_t a, b;
+  std::uint32_t a, b;  ///< places of A and B in the array of bodies
 };
 
 }  // namespace tangency::inline v0

@@ -18,12 +18,15 @@ namespace tangency::inline v0 {
 /// whether it gets them is up to the system.
 template <class T>
 struct LargePages {
+  /// what is allocated
   using value_type = T;
 
   LargePages() = default;
   template <class U>
+  /// Of any type to any other: it has no state.
   LargePages(const LargePages<U>&) noexcept {}  // NOLINT: as allocators convert
 
+  /// Memory for count values. @throws std::bad_alloc
   T* allocate(std::size_t count) {
     constexpr std::size_t kPage = std::size_t{1} << 21, kLine = 64;
     const std::size_t step = count * sizeof(T) >= kPage ? kPage : kLine;
@@ -36,8 +39,10 @@ struct LargePages {
 #endif
     return static_cast<T*>(memory);
   }
+  /// What allocate() gave.
   void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
 
+  /// Always: it has no state.
   bool operator==(const LargePages&) const noexcept { return true; }
 };
 

@@ -32,13 +32,14 @@ class MatrixEllipse {
  public:
   /// xx, yy and xy of a symmetric matrix.
   struct Symmetric2 {
-    double xx, yy, xy;
+    double xx, yy, xy;  ///< its entries
   };
 
   /// That solid itself.
   MatrixEllipse(const Ellipse& ellipse);
 
   /// { x : (x - c)' M^-1 (x - c) <= level }.
+  /// @param centre  finite
   /// @param shape  length^2; positive definite
   /// @param level  finite and > 0
   /// @throws InvalidEllipse  also where a semi-axis is beyond the range of doubles

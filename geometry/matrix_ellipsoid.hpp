@@ -41,6 +41,7 @@ class MatrixEllipsoid {
 
   /// { x : (x - c)' M^-1 (x - c) <= level }: of a covariance matrix, the ellipsoid of that squared
   /// Mahalanobis distance. With level 1 and M = R diag(a^2) R' the semi-axes are a.
+  /// @param centre  finite
   /// @param shape  length^2; symmetric to the bit, positive definite
   /// @param level  finite and > 0
   /// @throws InvalidEllipsoid  also where a semi-axis is beyond the range of doubles

@@ -14,6 +14,7 @@
 
 namespace tangency::inline v0 {
 
+/// The motion of a rigid body: it turns about a pivot, which moves in a straight line.
 struct Motion {
   Vec3 velocity = Vec3::Zero();          ///< of the pivot, length per time
   Vec3 angular_velocity = Vec3::Zero();  ///< in space, radians per time

@@ -42,8 +42,8 @@ struct ShapeRow;
 
 /// Where bodies are and how they are turned, of a range of them.
 struct PoseColumns {
-  QuaternionColumn orientations;
-  VectorColumn centres = {};  ///< as many; or none: all at the origin
+  QuaternionColumn orientations;  ///< of each body, of any length but 0
+  VectorColumn centres = {};      ///< as many; or none: all at the origin
 };
 
 /// The bodies Ellipsoid(centre, semi_axes[i], orientations[i]).
@@ -60,14 +60,20 @@ class MovingBodies {
  public:
   MovingBodies() noexcept;
   /// Looks at the columns, and refreshes all of them.
+  /// @param semi_axes  of each body, finite and > 0
   /// @param orientations  as many as semi_axes
   MovingBodies(std::span<const Vec3> semi_axes, std::span<const Quaternion> orientations);
   /// Owns copies.
   MovingBodies(const VectorColumn& semi_axes, const PoseColumns& poses);
   ~MovingBodies();
+  /// Of bodies that look at columns, the copy looks at the same; of those that own them, it owns
+  /// its own.
   MovingBodies(const MovingBodies&);
+  /// As the constructor does.
   MovingBodies& operator=(const MovingBodies&);
+  /// Its source is empty afterwards.
   MovingBodies(MovingBodies&&) noexcept;
+  /// Its source is empty afterwards.
   MovingBodies& operator=(MovingBodies&&) noexcept;
 
   /// Other columns from now on, to be refreshed before anything is asked. Allocates only where
@@ -77,6 +83,7 @@ class MovingBodies {
   /// To be called after columns that are looked at were changed, from body `first` to before
   /// `last`; of bodies that are owned it changes nothing. What is written does not depend on the
   /// ranges.
+  /// @param first  the first body of the range
   /// @param last  not before first, and at most size()
   void refresh(std::size_t first, std::size_t last) noexcept;
 
@@ -88,6 +95,7 @@ class MovingBodies {
   /// The bodies from `first` on, as many as there are orientations; their semi-axes stay. Centres
   /// stay too where the poses have none.
   void set_poses(std::size_t first, const PoseColumns& poses);
+  /// @overload
   void set_pose(std::size_t i, const Quaternion& orientation, const Vec3& centre);
   /// The bodies from `first` on, as many as there are rows; their poses stay.
   void set_semi_axes(std::size_t first, const VectorColumn& semi_axes);
@@ -101,7 +109,9 @@ class MovingBodies {
   /// left there are no centres either, until some are set.
   void resize(std::size_t count);
 
+  /// The number of bodies.
   std::size_t size() const noexcept { return semi_axes_.size(); }
+  /// Are centres owned, so that separations need not be given?
   bool has_centres() const noexcept { return !centres_.empty(); }
   /// As many as bodies, or none. Valid until their number changes.
   std::span<const Vec3> centres() const noexcept { return centres_; }
@@ -111,12 +121,17 @@ class MovingBodies {
 
   /// c_B + edges * image - c_A of each pair, rounded, for PairList::separations. Bodies need
   /// centres.
+  /// @param pairs  which bodies, and which image of the second
+  /// @param edges  columns: the edge vectors of the cell
   /// @param answers  as many as pairs
   void separations(std::span<const NearPair> pairs, const Mat3& edges,
                    std::span<Vec3> answers) const noexcept;
 
+  /// For the library's own use.
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
+  /// For the library's own use.
   const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
+  /// For the library's own use.
   const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:

@@ -40,6 +40,7 @@ class NearGrids;
 /// The search in parts, for callers with threads. Keeps copies of what it needs.
 class NearPairSearch {
  public:
+  /// @param lattice  which edges the bodies are repeated along
   /// @param centres  finite
   /// @param reaches  finite, >= 0; one a centre
   /// @throws std::invalid_argument  naming what is not so; where edges are linearly dependent, or a
@@ -49,7 +50,9 @@ class NearPairSearch {
   NearPairSearch(std::span<const Vec3> centres, std::span<const double> reaches,
                  const Lattice& lattice);
   ~NearPairSearch();
+  /// Its source is empty afterwards.
   NearPairSearch(NearPairSearch&&) noexcept;
+  /// Its source is empty afterwards.
   NearPairSearch& operator=(NearPairSearch&&) noexcept;
 
   /// Bodies: parts of the search are ranges of [0, size()). Neighbours in that order are near each
@@ -69,6 +72,7 @@ class NearPairSearch {
 };
 
 /// What the parts of a search found, as one list in ascending order.
+/// @param parts  what each part of the search found
 /// @param bodies  every a is below
 std::vector<NearPair> sorted_pairs(std::span<const std::vector<NearPair>> parts,
                                    std::size_t bodies);

@@ -46,6 +46,7 @@ Neighbours neighbours(const MovingBodies& bodies, const NeighbourQuestion& quest
 /// Beside the bodies' own search memory is that of some blocks for each thread.
 void for_each_neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question,
                          const std::function<void(const NeighbourBlock&)>& take);
+/// @overload
 void for_each_neighbours(const MovingBodies& bodies, const NeighbourQuestion& question,
                          const std::function<void(const NeighbourBlock&)>& take);
 

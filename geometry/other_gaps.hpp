@@ -33,6 +33,7 @@
 
 namespace tangency::inline v0 {
 
+/// Whether a gap by another definition exists and is known.
 enum class OtherGapStatus {
   ok,
   not_applicable,  ///< the definition says nothing about this pair
@@ -41,17 +42,18 @@ enum class OtherGapStatus {
 
 /// The Perram-Wertheim contact function and what it says of sizes. The numbers are 0 unless `ok`.
 struct PerramWertheimFactor {
-  double factor;        ///< F >= 0, without a unit; infinite beyond the range of doubles
-  double scale;         ///< mu = sqrt F: both bodies, scaled by mu about their centres, touch
-  double factor_error;  ///< proven: |factor - F| is at most this
-  double scale_error;   ///< proven: |scale - mu| is at most this
-  OtherGapStatus status;
+  double factor;          ///< F >= 0, without a unit; infinite beyond the range of doubles
+  double scale;           ///< mu = sqrt F: both bodies, scaled by mu about their centres, touch
+  double factor_error;    ///< proven: |factor - F| is at most this
+  double scale_error;     ///< proven: |scale - mu| is at most this
+  OtherGapStatus status;  ///< the numbers are answers where it is `ok`
 };
 
 /// Both numbers to 1.02 u of themselves + 2^-1073; 0 without error where the centres coincide.
 /// `not_converged` far beyond aspect ratios of 1e20, else `ok`.
 PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 PerramWertheimFactor perram_wertheim_factor(const Ellipsoid& a, const Ellipsoid& b,
                                             const Vec3& separation) noexcept;
@@ -66,7 +68,7 @@ struct OtherGap {
   Vec3 normal;  ///< unit, from A to B
   Vec3 arm_a;   ///< A's witness point relative to its centre
   Vec3 arm_b;   ///< B's
-  OtherGapStatus status;
+  OtherGapStatus status;  ///< the numbers are answers where it is `ok`
   /// Proven: |gap - the true gap by this definition| is at most this, which is at most 1.01 (u
   /// |gap|
   /// + u L / 64) + 2^-1072 and mostly little above u |gap|.

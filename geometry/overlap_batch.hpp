@@ -24,6 +24,9 @@ namespace tangency::inline v0 {
 /// Here and below a length that does not match and a separation that is not finite end the process
 /// with one line on standard error, in every build; indices only where asserts are on (a release
 /// build does not look at them).
+/// @param bodies  the bodies, by index
+/// @param list  the pairs, with separations where they are given
+/// @param answers  where the answers go
 /// @param threads  as for signed_gaps()
 void overlaps(const BodyArray& bodies, const PairList& list, std::span<bool> answers,
               int threads = 1) noexcept;

@@ -16,7 +16,7 @@ namespace tangency::inline v0 {
 
 /// The pairs of one call.
 struct PairList {
-  std::span<const IndexedPair> pairs;
+  std::span<const IndexedPair> pairs;  ///< which bodies
   /// c_B - c_A of each pair, as for periodic images; empty: that of the centres.
   std::span<const Vec3> separations = {};
 };

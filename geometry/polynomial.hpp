@@ -16,14 +16,16 @@
 
 namespace tangency::inline v0 {
 
+/// A real root of a quartic.
 struct QuarticRoot {
-  double x;
+  double x;      ///< nearest known value
   double error;  ///< >= 0; infinite where not even 1/x is known
   /// Does p change sign? Otherwise p comes within its rounding of 0 at x and turns back: a double
   /// root, or two close ones, or a near miss.
   bool crosses;
 };
 
+/// The real roots of a quartic.
 struct QuarticRoots {
   int count;                         ///< at most 4 cross
   std::array<QuarticRoot, 16> root;  ///< by increasing x; those beyond count are zero

@@ -53,6 +53,7 @@ template <FixedVector Vector>
 int exponent_of(const Vector& v) noexcept {
   return v.unaryExpr([](double x) { return exponent_of(x); }).maxCoeff();
 }
+/// Each component of a vector, scaled.
 template <FixedVector Vector>
 Vector scaled_by_power(const Vector& v, int power) noexcept {
   return v.unaryExpr([power](double x) { return scaled_by_power(x, power); });

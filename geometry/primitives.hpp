@@ -26,6 +26,7 @@
 
 namespace tangency::inline v0 {
 
+/// A solid ball.
 struct Sphere {
   Vec3 centre;    ///< finite
   double radius;  ///< finite, >= 0: a point is a sphere
@@ -49,12 +50,16 @@ Gap signed_gap(const Sphere& a, const Sphere& b) noexcept;
 /// A sphere and an ellipsoid: the signed distance of the sphere's centre from the ellipsoid, less
 /// the radius. The global answer however deep the overlap, so `ok`; ties as in closest_point.hpp.
 Gap signed_gap(const Sphere& a, const Ellipsoid& b) noexcept;
+/// @overload
 Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept;
 
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite
 Gap signed_gap(const Sphere& a, const Sphere& b, const Vec3& separation) noexcept;
+/// @overload
 Gap signed_gap(const Sphere& a, const Ellipsoid& b, const Vec3& separation) noexcept;
+/// @overload
 Gap signed_gap(const Ellipsoid& a, const Sphere& b, const Vec3& separation) noexcept;
 
 /// An ellipsoid and a wall. Both arms are relative to the ellipsoid's centre, the wall having none.
@@ -68,6 +73,7 @@ struct WallGap {
   double gap_error;
   GapStatus status;  ///< ok: the global answer
 };
+/// @overload
 WallGap signed_gap(const Ellipsoid& body, const Plane& wall) noexcept;
 
 /// An ellipsoid and a wall without thickness: as of the solid wall that has the body's centre on
@@ -78,13 +84,17 @@ WallGap signed_gap(const Ellipsoid& body, const Sheet& sheet) noexcept;
 
 /// The same with the separation d = p - c given from the body's centre to a point of the plane, in
 /// place of centre and offset: for periodic images.
+/// @param body  the body
+/// @param wall  the wall
 /// @param separation  finite
 WallGap signed_gap(const Ellipsoid& body, const Plane& wall, const Vec3& separation) noexcept;
+/// @overload
 WallGap signed_gap(const Ellipsoid& body, const Sheet& sheet, const Vec3& separation) noexcept;
 
 /// Of a body given in any form: the answer of MatrixEllipsoid::ellipsoid() with its rounding in
 /// gap_error, and the sign of the exact relation. Allocates where that is decided exactly.
 WallGap signed_gap(const MatrixEllipsoid& body, const Plane& wall) noexcept;
+/// @overload
 WallGap signed_gap(const MatrixEllipsoid& body, const Sheet& sheet) noexcept;
 
 /// How a body lies to a solid wall, as point sets, exact for the stored doubles: separate,

@@ -23,15 +23,19 @@ namespace tangency::inline v0 {
 /// What is wrong with the coefficients of a would-be quadric: the first offending one by its name
 /// in the file formats ("A" "B" "C" "D" "E" "F" "G" "H" "J" "K"), its value, and the rule.
 struct QuadricFault {
+  /// name of the field
   const char* field;
-  double value;
+  double value;  ///< the value that breaks the rule
+  /// what is allowed
   const char* rule;
 };
 
 /// Thrown where a coefficient is not finite; what() reads "K = inf: a coefficient must be finite".
 class InvalidQuadric : public std::invalid_argument {
  public:
+  /// With the text "FIELD = VALUE: RULE".
   explicit InvalidQuadric(const QuadricFault& fault);
+  /// What is wrong.
   const QuadricFault& fault() const noexcept { return fault_; }
 
  private:
@@ -47,6 +51,7 @@ class InvalidQuadric : public std::invalid_argument {
 /// All up to rounding.
 class Quadric {
  public:
+  /// The ten coefficients, in the order of the file's head.
   using Coefficients = QuadricCoefficients;
 
   /// @param coefficients  A B C D E F G H J K

@@ -44,10 +44,11 @@ std::string_view to_string(QuadricType type) noexcept;
 /// imaginary_parallel_planes and no_points.
 bool is_empty(QuadricType type) noexcept;
 
+/// The type of a quadric, and what decided it.
 struct Classification {
-  QuadricType type;
-  int rank4;  ///< rank of Q, 0 to 4
-  int rank3;  ///< rank of Q_s, 0 to 3
+  QuadricType type;  ///< exact
+  int rank4;         ///< rank of Q, 0 to 4
+  int rank3;         ///< rank of Q_s, 0 to 3
   Tier tier;  ///< which tier answered; border types, with Q or Q_s singular, are always exact's
 };
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/batch/pair_task.hpp>
 #include <tangency/geometry/batch/parts.hpp>
 #include <tangency/geometry/floating_point.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
@@ -18,10 +19,10 @@
 namespace tangency::inline v0 {
 namespace {
 
+using detail::kBlock;
 using detail::LaneBlock;
 using detail::LaneBody;
 
-constexpr std::size_t kBlock = LaneBlock::kPairs;
 // (X), (H) of docs/derivations/primitives.md, section 6, over u.
 constexpr double kOfTerms = 6.0, kOfHeight = 6.0, kOfSupport = 16.0, kOfWallGap = 2.0;
 // Of the length of a wall's normal and of what is far away: no square over- or underflows. Chosen.
@@ -53,12 +54,7 @@ struct Asked {
   }
   Ellipsoid body(std::size_t i) const {
     const std::size_t index = list.pairs[i].a;
-    if (array != nullptr) return (*array)[index];
-    try {
-      return (*moving)[index];
-    } catch (const InvalidEllipsoid& invalid) {
-      contract::no_ellipsoid(call, index, invalid.what());
-    }
+    return array != nullptr ? (*array)[index] : detail::made_body(call, *moving, index);
   }
   void require_pair(std::size_t i) const {
     const auto [a, b] = list.pairs[i];
@@ -79,8 +75,7 @@ struct Asked {
         other(of_other),
         other_count(others),
         list(of_list) {
-    if (!list.separations.empty() || (moving != nullptr && !moving->has_centres()))
-      contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
+    detail::require_separations(call, list, moving == nullptr || moving->has_centres());
   }
 };
 

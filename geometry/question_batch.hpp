@@ -35,45 +35,53 @@ namespace tangency::inline v0 {
 /// Answers by columns, as the fields of WallGap. Each span is as long as the list of pairs, or
 /// empty: not asked for.
 struct WallColumns {
-  std::span<double> gap = {};
-  std::span<double> gap_error = {};
-  std::span<Vec3> normal = {};
-  std::span<Vec3> arm_body = {};
-  std::span<Vec3> arm_wall = {};
-  std::span<GapStatus> status = {};
+  std::span<double> gap = {};        ///< WallGap::gap
+  std::span<double> gap_error = {};  ///< WallGap::gap_error
+  std::span<Vec3> normal = {};       ///< WallGap::normal
+  std::span<Vec3> arm_body = {};     ///< WallGap::arm_body
+  std::span<Vec3> arm_wall = {};     ///< WallGap::arm_wall
+  std::span<GapStatus> status = {};  ///< WallGap::status
 };
 
 /// As the fields of ClosestPoint.
 struct PointColumns {
-  std::span<double> distance = {};
-  std::span<double> distance_error = {};
-  std::span<Vec3> normal = {};
-  std::span<Vec3> arm = {};
-  std::span<GapStatus> status = {};
+  std::span<double> distance = {};        ///< ClosestPoint::distance
+  std::span<double> distance_error = {};  ///< ClosestPoint::distance_error
+  std::span<Vec3> normal = {};            ///< ClosestPoint::normal
+  std::span<Vec3> arm = {};               ///< ClosestPoint::arm
+  std::span<GapStatus> status = {};       ///< ClosestPoint::status
 };
 
 /// signed_gap(body, wall) of every pair. Of moving bodies without centres separations have to be
 /// given, here and below.
-/// @param walls, sheets, balls, points  as the single calls have them
-/// @param threads                       as for the gaps of pairs
+/// @param bodies  the bodies, by index
+/// @param list  the pairs, with separations where they are given
+/// @param answers  where the answers go
+/// @param walls    as the single calls have them; sheets, balls and points below alike
+/// @param threads  as for the gaps of pairs
 void signed_gaps(const BodyArray& bodies, std::span<const Plane> walls, const PairList& list,
                  const WallColumns& answers, int threads = 1) noexcept;
+/// @overload
 void signed_gaps(const MovingBodies& bodies, std::span<const Plane> walls, const PairList& list,
                  const WallColumns& answers, int threads = 1) noexcept;
+/// @overload
 void signed_gaps(const BodyArray& bodies, std::span<const Sheet> sheets, const PairList& list,
                  const WallColumns& answers, int threads = 1) noexcept;
+/// @overload
 void signed_gaps(const MovingBodies& bodies, std::span<const Sheet> sheets, const PairList& list,
                  const WallColumns& answers, int threads = 1) noexcept;
 
 /// signed_gap(body, ball) of every pair: a ball of radius 0 is a point.
 void signed_gaps(const BodyArray& bodies, std::span<const Sphere> balls, const PairList& list,
                  const GapColumns& answers, int threads = 1) noexcept;
+/// @overload
 void signed_gaps(const MovingBodies& bodies, std::span<const Sphere> balls, const PairList& list,
                  const GapColumns& answers, int threads = 1) noexcept;
 
 /// closest_point(body, point) of every pair.
 void closest_points(const BodyArray& bodies, std::span<const Vec3> points, const PairList& list,
                     const PointColumns& answers, int threads = 1) noexcept;
+/// @overload
 void closest_points(const MovingBodies& bodies, std::span<const Vec3> points, const PairList& list,
                     const PointColumns& answers, int threads = 1) noexcept;
 

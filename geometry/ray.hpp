@@ -19,17 +19,20 @@
 
 namespace tangency::inline v0 {
 
+/// A line with a direction, which need not be a unit vector.
 struct Ray {
   Vec3 origin;     ///< finite
   Vec3 direction;  ///< finite, of any length but 0 (asserted)
 };
 
+/// How a ray and a body lie.
 enum class RayStatus {
   miss,     ///< no point of the surface in the interval
   hit,      ///< one or two points
   grazing,  ///< the line touches the surface in one point, exactly, which is in the interval
 };
 
+/// A point where a ray meets a surface.
 struct SurfacePoint {
   double t;     ///< origin + t direction, in the direction's own length
   Vec3 arm;     ///< the point relative to the ellipsoid's centre
@@ -38,7 +41,7 @@ struct SurfacePoint {
 
 /// The points of the surface on the ray, by increasing t.
 struct RayHit {
-  RayStatus status;
+  RayStatus status;        ///< exact
   int count;               ///< how many of the points there are: 0, 1 or 2
   SurfacePoint points[2];  ///< the first is the first hit; those beyond count are zero
 };
@@ -59,6 +62,8 @@ struct RayHit {
 ///   hit by x / k.
 ///
 /// t is infinite where the true one is beyond the range of doubles.
+/// @param body  the body
+/// @param ray  origin and direction
 /// @param t_begin, t_end  t_begin <= t_end; infinities allowed, NaN not (asserted)
 RayHit intersect(const Ellipsoid& body, const Ray& ray, double t_begin = 0.0,
                  double t_end = std::numeric_limits<double>::infinity()) noexcept;
@@ -69,6 +74,10 @@ RayHit intersect(const MatrixEllipsoid& body, const Ray& ray, double t_begin = 0
                  double t_end = std::numeric_limits<double>::infinity()) noexcept;
 
 /// With the separation d = origin - c given, in place of origin and centre: for periodic images.
+/// @param body  the body
+/// @param direction  not zero, of any length
+/// @param t_begin  where the interval of the line begins
+/// @param t_end  where the interval of the line ends
 /// @param separation  finite
 RayHit intersect_from_centre(const Ellipsoid& body, const Vec3& separation, const Vec3& direction,
                              double t_begin = 0.0,

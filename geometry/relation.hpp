@@ -39,6 +39,7 @@
 
 namespace tangency::inline v0 {
 
+/// How two solids lie, as sets of points.
 enum class Relation {
   separate,        ///< no common point
   external_touch,  ///< common points, interiors disjoint
@@ -52,28 +53,33 @@ enum class Relation {
 /// As the file formats write it: "separate", "external_touch", ...
 std::string_view to_string(Relation relation) noexcept;
 
+/// Which body lies within the other.
 enum class Inner { none, a, b };
 
+/// How two solids lie, and what decided it.
 struct RelationAnswer {
-  Relation relation;
-  Inner inner;  ///< the body inside, for internal_touch; else none
-  Tier tier;
+  Relation relation;  ///< exact
+  Inner inner;        ///< the body inside, for internal_touch; else none
+  Tier tier;          ///< what decided it
 };
 
 /// The exact tier allocates; the filter does not.
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 /// Exact for d as it is given.
+/// @param a,b  the bodies, in this order
 /// @param separation  finite, here and below: else the process ends with one line on standard error
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
 
+/// Whether two solids share a point, and what decided it.
 struct OverlapAnswer {
-  bool overlaps;
-  Tier tier;
+  bool overlaps;  ///< exact
+  Tier tier;      ///< what decided it
 };
 
 /// Do the interiors meet, and which tier knew. The exact tier allocates; the filter does not.
 OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+/// @overload
 OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b,
                              const Vec3& separation) noexcept;
 
@@ -81,6 +87,7 @@ OverlapAnswer overlap_answer(const Ellipsoid& a, const Ellipsoid& b,
 inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b) noexcept {
   return overlap_answer(a, b).overlaps;
 }
+/// @overload
 inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
   return overlap_answer(a, b, separation).overlaps;
 }
@@ -88,15 +95,19 @@ inline bool overlaps(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separat
 /// Of bodies given by matrices: exact for the numbers as they were given, not for rounded axes.
 /// Takes some 50 us where the filter leaves a doubt, and allocates.
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
+/// @overload
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
                         const Vec3& separation) noexcept;
 
 /// Of A and an image of B, identities (8) and (9). Where the separation of the two is a vector of
 /// doubles at the price of the pair alone, else some 15 us, of bodies by matrices 50 us; allocates
 /// then.
+/// @param a,b  the bodies, in this order
+/// @param image  the image of b
 /// @param edges  columns; finite. Those that the image does not count are not read
 RelationAnswer relation(const Ellipsoid& a, const Ellipsoid& b, const Mat3& edges,
                         const LatticeImage& image) noexcept;
+/// @overload
 RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, const Mat3& edges,
                         const LatticeImage& image) noexcept;
 
@@ -104,6 +115,7 @@ RelationAnswer relation(const MatrixEllipsoid& a, const MatrixEllipsoid& b, cons
 /// 1e-30 of the size from one, and for shapes or scales that are extreme. In bounded time (at most
 /// a few us), and allocates nothing.
 std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b) noexcept;
+/// @overload
 std::optional<bool> overlaps_by_filter(const Ellipsoid& a, const Ellipsoid& b,
                                        const Vec3& separation) noexcept;
 

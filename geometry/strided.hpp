@@ -33,9 +33,12 @@ template <std::size_t N>
 class NumberColumn {
  public:
   NumberColumn() = default;
+  /// Rows of doubles.
   NumberColumn(const Strided<double>& rows) : NumberColumn(rows, false) {}
+  /// Rows of floats, each of which means the value that it has.
   NumberColumn(const Strided<float>& rows) : NumberColumn(rows, true) {}
 
+  /// The number of rows.
   std::size_t size() const noexcept { return size_; }
   /// i < size(), not checked.
   void read(std::size_t i, double* row) const noexcept {
@@ -66,13 +69,17 @@ class NumberColumn {
 /// x y z of each row.
 class VectorColumn : public NumberColumn<3> {
  public:
+  /// From rows of doubles or floats.
   using NumberColumn::NumberColumn;
+  /// Vectors one after the other.
   VectorColumn(std::span<const Vec3> vectors)
       : NumberColumn(Strided<double>{vectors.empty() ? nullptr : vectors[0].data(), vectors.size(),
                                      static_cast<std::ptrdiff_t>(sizeof(Vec3))}) {}
 
+  /// @overload
   VectorColumn(const std::vector<Vec3>& vectors) : VectorColumn(std::span<const Vec3>(vectors)) {}
 
+  /// Row i < size().
   Vec3 operator[](std::size_t i) const noexcept {
     Vec3 v;
     read(i, v.data());
@@ -84,17 +91,21 @@ class VectorColumn : public NumberColumn<3> {
 class QuaternionColumn : public NumberColumn<4> {
  public:
   QuaternionColumn() = default;
+  /// Rows of four numbers in the order given.
   QuaternionColumn(const NumberColumn& rows, QuaternionOrder order)
       : NumberColumn(rows), order_(order) {}
+  /// Quaternions one after the other.
   QuaternionColumn(std::span<const Quaternion> quaternions)
       : NumberColumn(Strided<double>{quaternions.empty() ? nullptr : quaternions[0].coeffs().data(),
                                      quaternions.size(),
                                      static_cast<std::ptrdiff_t>(sizeof(Quaternion))}),
         order_(QuaternionOrder::xyzw) {}
 
+  /// @overload
   QuaternionColumn(const std::vector<Quaternion>& quaternions)
       : QuaternionColumn(std::span<const Quaternion>(quaternions)) {}
 
+  /// Row i < size().
   Quaternion operator[](std::size_t i) const noexcept {
     double q[4];
     read(i, q);

@@ -10,22 +10,27 @@ namespace tangency::inline v0 {
 
 /// A symmetric 3x3 matrix.
 struct Symmetric3 {
-  double xx, yy, zz, yz, zx, xy;
+  double xx, yy, zz, yz, zx, xy;  ///< the six entries
 
+  /// The product with a vector, rounded.
   Vec3 operator*(const Vec3& v) const noexcept {
     return {xx * v.x() + xy * v.y() + zx * v.z(),  //
             xy * v.x() + yy * v.y() + yz * v.z(),  //
             zx * v.x() + yz * v.y() + zz * v.z()};
   }
+  /// Every entry times s, rounded.
   Symmetric3 operator*(double s) const noexcept {
     return {s * xx, s * yy, s * zz, s * yz, s * zx, s * xy};
   }
+  /// The sum by entries, rounded.
   Symmetric3 operator+(const Symmetric3& b) const noexcept {
     return {xx + b.xx, yy + b.yy, zz + b.zz, yz + b.yz, zx + b.zx, xy + b.xy};
   }
+  /// xx + yy + zz
   double trace() const noexcept { return xx + yy + zz; }
   /// v' S v
   double form(const Vec3& v) const noexcept { return v.dot(*this * v); }
+  /// The full matrix.
   Mat3 matrix() const { return (Mat3() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished(); }
 };
 
@@ -50,6 +55,7 @@ inline Symmetric3 mixed_adjugate(const Symmetric3& a, const Symmetric3& b) noexc
           a.yz * b.zx + a.zx * b.yz - a.zz * b.xy - a.xy * b.zz};
 }
 
+/// Its adjugate: the transposed matrix of cofactors, rounded.
 inline Symmetric3 adjugate(const Symmetric3& a) noexcept {
   return {a.yy * a.zz - a.yz * a.yz, a.zz * a.xx - a.zx * a.zx, a.xx * a.yy - a.xy * a.xy,
           a.zx * a.xy - a.xx * a.yz, a.xy * a.yz - a.yy * a.zx, a.yz * a.zx - a.zz * a.xy};

@@ -18,6 +18,7 @@ constexpr std::string_view to_string(Tier tier) noexcept {
 
 // ---- gap.hpp
 
+/// What is proven of a gap.
 enum class GapStatus {
   ok,     ///< the global answer, proven, with a gap_error of at most 100 u L
   local,  ///< a stationary answer; that no shorter penetration exists is not proven
@@ -38,6 +39,7 @@ inline constexpr double kOrdinaryGapErrorBound = 16.0;
 
 // ---- trace_contact.hpp: how far the published scheme of curves came
 
+/// Whether the scheme of curves has an answer.
 enum class TraceStatus {
   ok,
   not_overlapping,   ///< the exact relation is not `overlap`: apart, touching, nested or equal

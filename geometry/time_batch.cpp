@@ -9,8 +9,10 @@
 #include <cstdint>
 
 #include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/batch/pair_task.hpp>
 #include <tangency/geometry/batch/parts.hpp>
 #include <tangency/geometry/bodies/moving_pair.hpp>
+#include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -19,6 +21,7 @@
 namespace tangency::inline v0 {
 namespace {
 
+using detail::kBlock;
 using detail::LaneBlock;
 using detail::LaneBody;
 using detail::MotionBounds;
@@ -26,10 +29,9 @@ using detail::PairMoment;
 using Status = ContactTimeStatus;
 
 constexpr const char* kCall = "times_of_contact";
-constexpr std::size_t kBlock = LaneBlock::kPairs;
 // Of L, of the gap at the start, whose normal alone is asked for. Chosen: a normal to 1e-3 rad
 // separates a pair for a frame as well as a better one does.
-constexpr double kRough = 0x1p-20;
+constexpr double kRough = Accuracy::fast().of_size;
 constexpr int kMostRounds = 64;  // chosen: contacts of a frame need 3 to 6, grazing passes 20 to 30
 
 /// The pairs of one call, wherever their bodies are.
@@ -47,12 +49,7 @@ struct Asked {
     return list.separations.empty() ? nullptr : &list.separations[i];
   }
   Ellipsoid body(std::size_t index) const {
-    if (bodies != nullptr) return (*bodies)[index];
-    try {
-      return (*moving)[index];
-    } catch (const InvalidEllipsoid& invalid) {
-      contract::no_ellipsoid(kCall, index, invalid.what());
-    }
+    return bodies != nullptr ? (*bodies)[index] : detail::made_body(kCall, *moving, index);
   }
   void require_pair(std::size_t i) const {
     const auto [a, b] = list.pairs[i];
@@ -94,8 +91,7 @@ struct Asked {
     const auto [index_a, index_b] = list.pairs[i];
     const Ellipsoid a = body(index_a), b = body(index_b);
     const Vec3* const d = separation(i);
-    return d != nullptr ? overlaps_by_filter(a.moved_to(Vec3::Zero()), b.moved_to(*d)) == true
-                        : overlaps_by_filter(a, b) == true;
+    return (d != nullptr ? overlaps_by_filter(a, b, *d) : overlaps_by_filter(a, b)) == true;
   }
 };
 
@@ -323,8 +319,8 @@ void require_columns(const TimeColumns& columns, std::size_t count) {
 void run(const Asked& asked, int threads) {
   assert(std::isfinite(asked.horizon) && asked.horizon >= 0.0 && asked.tolerance > 0.0);
   const std::size_t count = asked.list.pairs.size();
-  if (!asked.list.separations.empty() || (asked.moving != nullptr && !asked.moving->has_centres()))
-    contract::require_length(kCall, "separations", asked.list.separations.size(), count);
+  detail::require_separations(kCall, asked.list,
+                              asked.moving == nullptr || asked.moving->has_centres());
   if (asked.motions.size() != asked.body_count)
     contract::wrong_column(kCall, "motions", asked.motions.size(), asked.body_count);
   require_columns(asked.to, count);

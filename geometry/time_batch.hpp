@@ -28,8 +28,8 @@ namespace tangency::inline v0 {
 
 /// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
 struct TimeColumns {
-  std::span<ContactTimeStatus> status = {};
-  std::span<double> time = {};        ///< as TimeOfContact's, and so are the next two
+  std::span<ContactTimeStatus> status = {};  ///< TimeOfContact::status
+  std::span<double> time = {};               ///< as TimeOfContact's, and so are the next two
   std::span<double> latest = {};      ///< latest - time bounds the error of `time` for `contact`
   std::span<double> resolution = {};  ///< length
   /// Unit, from A to B: of the gap at a moment near `time`, at or before `latest`, for `contact`,
@@ -42,6 +42,9 @@ struct TimeColumns {
 /// Does not allocate but for threads, and as the single call does. Lengths that do not match,
 /// indices that are none, separations that are not finite and, of MovingBodies, bodies that are
 /// none end the process as in gap_batch.hpp.
+/// @param bodies  the bodies, by index
+/// @param list  the pairs, with separations where they are given
+/// @param answers  where the answers go
 /// @param motions    of each body; finite, and so the distances and angles covered in the horizon
 /// @param horizon    time, finite and >= 0 (asserted)
 /// @param tolerance  time, > 0 (asserted)

@@ -27,6 +27,7 @@ Motion screw(const Ellipsoid& body, const Vec3& axis_point, const Vec3& angular_
 /// The body at time t, rounded: within 16 u (1 + |w| t) of the size of its path and of itself.
 Ellipsoid moved(const Ellipsoid& body, const Motion& motion, double t) noexcept;
 
+/// What is known of the first contact within the horizon.
 enum class ContactTimeStatus {
   none,               ///< apart throughout [0, horizon]
   contact,            ///< apart before `time`, in contact at some moment of [time, latest]
@@ -35,8 +36,9 @@ enum class ContactTimeStatus {
   not_converged,      ///< apart before `time`; the rest was not looked at
 };
 
+/// The first moment at which two moving bodies share a point.
 struct TimeOfContact {
-  ContactTimeStatus status;
+  ContactTimeStatus status;  ///< what is known
   double time;    ///< never after the first contact, whatever the status; the horizon for `none`
   double latest;  ///< for `contact`: the first contact is no later; else `time`
   double resolution;  ///< the gap, at `time`, below which rounding hides whether there is one
@@ -58,6 +60,7 @@ struct TimeOfContact {
 /// is above `resolution` is `none`.
 ///
 /// Does not allocate, but where only the exact relation can tell a start or a pass from a touch.
+/// @param a,b  the bodies, in this order
 /// @param motion_a, motion_b  finite, and so the distances and angles covered in the horizon
 /// @param horizon    time, finite and >= 0 (asserted)
 /// @param tolerance  time, > 0 (asserted)
@@ -66,6 +69,12 @@ TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const 
 
 /// The same with the separation d = c_B - c_A at t = 0 given, in place of the centres: for periodic
 /// images.
+/// @param a  the first body
+/// @param motion_a  of the first body
+/// @param b  the second body
+/// @param motion_b  of the second body
+/// @param horizon  until when it is asked, > 0
+/// @param tolerance  > 0, in time
 /// @param separation  finite
 TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                               const Motion& motion_b, const Vec3& separation, double horizon,

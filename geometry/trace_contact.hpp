@@ -36,21 +36,22 @@ namespace tangency::inline v0 {
 
 /// The contact of an ordered pair (A, B). The numbers are 0 unless `ok`.
 struct TraceContact {
-  TraceStatus status;
-  double gap;   ///< < 0: minus the published depth, in the unit of length of the bodies
-  Vec3 normal;  ///< unit, from A to B
-  Vec3 arm_a;   ///< P relative to A's centre
-  Vec3 arm_b;   ///< Q relative to B's centre
+  TraceStatus status;  ///< the numbers are those of a contact where it is `ok`
+  double gap;          ///< < 0: minus the published depth, in the unit of length of the bodies
+  Vec3 normal;         ///< unit, from A to B
+  Vec3 arm_a;          ///< P relative to A's centre
+  Vec3 arm_b;          ///< Q relative to B's centre
   std::array<Vec3, 4> corners;  ///< C1, ..., C4 relative to A's centre
-  TraceCone cone;
-  bool other_pole;  ///< the pole is not A's shortest axis: the cone held that
-  int curves;       ///< theta-curves cut, whole levels: 1 where the middle one has an arc
+  TraceCone cone;               ///< which cone the normal is from
+  bool other_pole;              ///< the pole is not A's shortest axis: the cone held that
+  int curves;  ///< theta-curves cut, whole levels: 1 where the middle one has an arc
 
   /// The published reference point, the middle of PQ, relative to A's centre; B's contact vector is
   /// this minus d = c_B - c_A.
   Vec3 contact_vector_a(const Vec3& separation) const noexcept {
     return 0.5 * (arm_a + (arm_b + separation));
   }
+  /// The contact point less B's centre. @param separation  c_B - c_A
   Vec3 contact_vector_b(const Vec3& separation) const noexcept {
     return 0.5 * ((arm_a - separation) + arm_b);
   }

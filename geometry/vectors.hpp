@@ -16,9 +16,13 @@
 
 namespace tangency::inline v0 {
 
+/// A vector in the plane.
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+/// A vector in space.
 using Vec3 = Eigen::Vector3d;  // three doubles are not aligned
+/// A 3x3 matrix.
 using Mat3 = Eigen::Matrix3d;  // nor are nine
+/// A 4x4 matrix.
 using Mat4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 /// (w, x, y, z) in its constructor, stored as x, y, z, w.
 using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;

@@ -28,11 +28,17 @@ endfunction()
 function(tangency_library target component folder)
   target_compile_features(${target} PUBLIC cxx_std_20)
   list(TRANSFORM ARGN PREPEND "${include_tangency}/${folder}/" OUTPUT_VARIABLE headers)
+  set_property(GLOBAL APPEND PROPERTY tangency_public_headers ${headers})
   target_sources(${target} PUBLIC
     FILE_SET HEADERS BASE_DIRS "${PROJECT_BINARY_DIR}/include" FILES ${headers})
   # A part of anybody's shared library. Calls within the library go to the library's own functions:
   # exported.map and -Bsymbolic-functions see to it, and g++ may inline them.
-  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL "")
+  # What it becomes a part of shows nothing of it, and takes its own functions, not those of another copy.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  endif()
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   # Why: docs/decisions/0015-package.md.
@@ -42,7 +48,8 @@ function(tangency_library target component folder)
   tangency_install_library(${target} ${component})
 endfunction()
 
-# tangency_install_library(TARGET COMPONENT): tangency::NAME for tangency_NAME, built and installed.
+# tangency_install_library(TARGET COMPONENT): tangency::NAME for tangency_NAME, built and installed. What
+# a program needs to run is in the component COMPONENT-runtime, if it is a shared library.
 function(tangency_install_library target component)
   string(REPLACE "tangency_" "" name ${target})
   if(NOT TARGET tangency::${name})
@@ -62,7 +69,8 @@ function(tangency_install_library target component)
   if(TANGENCY_INSTALL)
     install(TARGETS ${target} EXPORT tangency_${component}
       INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-      LIBRARY COMPONENT ${component} ARCHIVE COMPONENT ${component} RUNTIME COMPONENT ${component}
+      LIBRARY COMPONENT ${component}-runtime NAMELINK_COMPONENT ${component}
+      ARCHIVE COMPONENT ${component} RUNTIME COMPONENT ${component}-runtime
       ${headers})
   endif()
 endfunction()
@@ -73,17 +81,47 @@ function(tangency_install_tool target)
                BASE_DIRECTORY "${CMAKE_INSTALL_FULL_BINDIR}" OUTPUT_VARIABLE libraries)
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
     install(TARGETS ${target} RUNTIME COMPONENT tools)
+    tangency_install_descriptions(${target})
   endif()
 endfunction()
 
-# tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE): the file tangency-COMPONENT.pc. Who links a
-# static library needs what is private to it, and is not to know of which kind it is.
+# What a tool says of its own command line (geometry/tables/command_text.hpp): its manual page, and the
+# completions of two shells.
+function(tangency_install_descriptions target)
+  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    return()
+  endif()
+  get_target_property(name ${target} OUTPUT_NAME)
+  set(dir "${CMAKE_CURRENT_BINARY_DIR}/described")
+  set(commands "")
+  foreach(form man:${name}.1 bash:${name} zsh:_${name})
+    string(REPLACE ":" ";" form ${form})
+    list(GET form 0 shell)
+    list(GET form 1 file)
+    list(APPEND commands COMMAND "$<TARGET_FILE:${target}>" --describe ${shell} > "${dir}/${shell}/${file}")
+    file(MAKE_DIRECTORY "${dir}/${shell}")
+  endforeach()
+  add_custom_command(TARGET ${target} POST_BUILD ${commands})
+  install(DIRECTORY "${dir}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+  install(DIRECTORY "${dir}/bash/" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          COMPONENT tools)
+  set(functions site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(functions vendor-completions)  # where Debian's zsh looks for those of packages
+  endif()
+  install(DIRECTORY "${dir}/zsh/" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/${functions}" COMPONENT tools)
+endfunction()
+
+# tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE [LIBRARY ...]): the file tangency-COMPONENT.pc.
+# Who links a static library needs what is private to it, packages and libraries, and is not to know of
+# which kind it is.
 function(tangency_pkg_config component description requires private)
   get_target_property(type tangency_${component} TYPE)
   set(libraries "-L\${libdir} -ltangency_${component}")
   if(type STREQUAL "STATIC_LIBRARY")
     list(APPEND requires ${private})
-    string(APPEND libraries " -pthread")
+    list(JOIN ARGN " " others)
+    string(APPEND libraries " ${others} -pthread")
   endif()
   list(JOIN requires ", " requires)
   set(pkg_config_dir "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig")
@@ -115,13 +153,18 @@ function(tangency_install_package)
                 "${PROJECT_BINARY_DIR}/tangencyConfigVersion.cmake" .ci/packaging/dependencies.cmake
           DESTINATION "${package_dir}" COMPONENT geometry)
 
-  tangency_pkg_config(geometry "How two ellipsoids touch, exactly" "eigen3 >= 3.4" "gmpxx;libhwy")
+  tangency_pkg_config(geometry "How two ellipsoids touch, exactly (C++20)" "eigen3 >= 3.4" "gmpxx;libhwy")
   if(TARGET tangency_dem)
-    tangency_pkg_config(micromechanics "Fabric and stress of any contacts" "eigen3 >= 3.4" qhull_r)
-    tangency_pkg_config(dem "Assemblies of ellipsoids in a periodic cell"
+    tangency_pkg_config(micromechanics "Fabric and stress of any contacts (C++20)" "eigen3 >= 3.4" qhull_r)
+    tangency_pkg_config(dem "Assemblies of ellipsoids in a periodic cell (C++20)"
                         "tangency-geometry = ${PROJECT_VERSION}" "tbb;tomlplusplus;libhwy")
   endif()
 
+  if(TARGET tangency_c)
+    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}" -lstdc++)
+  endif()
+
+  include(.ci/packaging/debian.cmake)
   set(documents "${CMAKE_INSTALL_DATAROOTDIR}/doc/tangency")  # also within another project
   install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${documents}" COMPONENT geometry)
   install(DIRECTORY LICENSES docs/example DESTINATION "${documents}" COMPONENT geometry)

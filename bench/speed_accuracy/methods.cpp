@@ -123,6 +123,62 @@ std::vector<NamedAccuracy> accuracies(double least) {
           {"within 1e-9", Accuracy::within(1e-9 * least)}};
 }
 
+/// The lanes of a batch over all pairs of a family, block by block.
+struct Lanes {
+  explicit Lanes(const Pairs& of_pairs)
+      : pairs(&of_pairs),
+        columns(of_pairs.size()),
+        list(of_pairs.list),
+        normals(of_pairs.previous_normal) {
+    list.resize(columns.gap.size(), list.front());
+    normals.resize(columns.gap.size(), normals.front());
+    settled.resize(columns.gap.size() / kBlock);
+  }
+
+  /// @param aim  what is asked of a block
+  template <class Aim>
+  void run(bool following, bool arms, const Aim& aim) {
+    Columns& c = columns;
+    for (std::size_t first = 0; first < pairs->size(); first += kBlock) {
+      LaneBlock block{};
+      block.bodies_a = block.bodies_b = pairs->array->lanes();
+      block.pairs = &list[first];
+      block.count = static_cast<int>(std::min(kBlock, pairs->size() - first));
+      block.normals = following ? normals[first].data() : nullptr;
+      block.centres_are_exact = true;
+      aim(block);
+      block.gap = &c.gap[first];
+      block.gap_error = &c.gap_error[first];
+      block.normal = c.normal[first].data();
+      if (arms) block.arm_a = c.arm_a[first].data(), block.arm_b = c.arm_b[first].data();
+      settled[first / kBlock] = detail::gap_lanes(block);
+    }
+  }
+  bool settles(std::size_t i) const { return (settled[i / kBlock] >> i % kBlock & 1) != 0; }
+
+  const Pairs* pairs;
+  Columns columns;
+  std::vector<IndexedPair> list;
+  std::vector<Vec3> normals;
+  std::vector<std::uint64_t> settled;  ///< bits by block
+};
+
+/// Pairs that a batch call's last lanes leave open.
+std::vector<std::size_t> left_by_lanes(const Pairs& pairs, const Accuracy& accuracy,
+                                       bool following) {
+  Lanes lanes(pairs);
+  lanes.run(following, false, [&](LaneBlock& block) {
+    block.tolerance_of_size = accuracy.of_size;
+    block.tolerance = accuracy.length;
+    block.polish = accuracy.normals;
+    block.centres_are_exact = !following;  // as of a batch call
+  });
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!lanes.settles(i)) left.push_back(i);
+  return left;
+}
+
 void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy& named,
                bool following, std::int64_t level) {
   const Pairs& p = pairs;
@@ -142,6 +198,9 @@ void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy
     for (std::size_t i = 0; i < count; ++i) answers.push_back(columns->answer(i));
     return answers;
   };
+  method.left = [&p, following, accuracy = named.accuracy] {
+    return left_by_lanes(p, accuracy, following);
+  };
   all.push_back(std::move(method));
 }
 
@@ -150,46 +209,22 @@ void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy
 /// leave to the single call have no answer.
 void add_lanes(std::vector<Method>& all, const Pairs& pairs, int steps, bool following,
                std::int64_t level) {
-  struct Work {
-    Columns columns;
-    std::vector<IndexedPair> list;
-    std::vector<Vec3> normals;
-    std::vector<std::uint64_t> settled;  ///< bits by block
-  };
-  const auto work =
-      std::make_shared<Work>(Work{Columns(pairs.size()), pairs.list, pairs.previous_normal, {}});
-  work->list.resize(work->columns.gap.size(), pairs.list.front());
-  work->normals.resize(work->columns.gap.size(), pairs.previous_normal.front());
-  work->settled.resize(work->columns.gap.size() / kBlock);
-  const auto solve = [&pairs, work, steps, following](bool arms) {
-    Columns& c = work->columns;
-    for (std::size_t first = 0; first < pairs.size(); first += kBlock) {
-      LaneBlock block{};
-      block.bodies_a = block.bodies_b = pairs.array->lanes();
-      block.pairs = &work->list[first];
-      block.count = static_cast<int>(std::min(kBlock, pairs.size() - first));
-      block.normals = following ? work->normals[first].data() : nullptr;
-      block.centres_are_exact = true;
+  const auto lanes = std::make_shared<Lanes>(pairs);
+  const auto solve = [lanes, steps, following](bool arms) {
+    lanes->run(following, arms, [&](LaneBlock& block) {
       block.tolerance = std::numeric_limits<double>::infinity();
       block.followed_steps = steps;
       block.first_steps = following ? steps + 1 : steps;
       block.coarse = std::numeric_limits<double>::quiet_NaN();  // no pair is: a step is a step
-      block.gap = &c.gap[first];
-      block.gap_error = &c.gap_error[first];
-      block.normal = c.normal[first].data();
-      if (arms) block.arm_a = c.arm_a[first].data(), block.arm_b = c.arm_b[first].data();
-      work->settled[first / kBlock] = detail::gap_lanes(block);
-    }
+    });
   };
   Method method{"gap_lanes", following ? "following" : "cold", steps, level, {}, true, {}, {}};
   method.run = [solve] { solve(false); };
-  method.answers = [solve, work, count = pairs.size()] {
+  method.answers = [solve, lanes, count = pairs.size()] {
     solve(true);
     std::vector<Answer> answers;
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool settled = (work->settled[i / kBlock] >> i % kBlock & 1) != 0;
-      answers.push_back(settled ? Answer(work->columns.answer(i)) : Answer());
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      answers.push_back(lanes->settles(i) ? Answer(lanes->columns.answer(i)) : Answer());
     return answers;
   };
   all.push_back(std::move(method));

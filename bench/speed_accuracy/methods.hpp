@@ -3,6 +3,7 @@
 /// Every method, option and number of steps that is held against the others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -34,6 +35,8 @@ struct Method {
 
   std::function<void()> run;                     ///< all pairs once: what is timed
   std::function<std::vector<Answer>()> answers;  ///< of the last run
+  /// Of a batch: the pairs that no lane proves, in order, which the single call answers.
+  std::function<std::vector<std::size_t>()> left{};
 };
 
 /// "single" for 0, else the name of the instruction set.

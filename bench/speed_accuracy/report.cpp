@@ -39,6 +39,8 @@ Json number(double value) {
 
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
 
+Json number(const std::optional<std::size_t>& value) { return value ? Json(*value) : Json(); }
+
 Json text(const std::string& value) { return value.empty() ? Json() : Json(value); }
 
 /// Median, 99 % and largest of one kind of error.
@@ -90,7 +92,11 @@ std::vector<Column<Row>> method_columns() {
       {"inverses", "the same over the time of Eigen's 3x3 inverse in the same run",
        [](const Row& r) { return number(r.ns / r.inverse); }},
       {"instructions", "per pair, by callgrind, of the first pairs of the family",
-       [](const Row& r) { return number(r.instructions); }}};
+       [](const Row& r) { return number(r.instructions); }},
+      {"left", "pairs of a batch that no lane proves: answered by the single call",
+       [](const Row& r) { return number(r.left); }},
+      {"left_deep", "those of them that overlap deeper than rho, where no normal alone is a proof",
+       [](const Row& r) { return number(r.left_deep); }}};
   all.insert(all.end(), rest.begin(), rest.end());
   return all;
 }

@@ -3,6 +3,7 @@
 /// What was measured, as CSV and JSON, and what the scripts beside this make of it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Row {
   double ns = 0;       ///< per pair
   double inverse = 0;  ///< ns of Eigen's 3x3 inverse, the yardstick, in the same run
   std::optional<double> instructions{};  ///< per pair
+  /// Of a batch: pairs that its lanes leave to the single call, and those of them that overlap
+  /// deeper than rho, of which no normal alone proves anything.
+  std::optional<std::size_t> left{}, left_deep{};
 
   /// The same for no other row.
   std::string key() const;

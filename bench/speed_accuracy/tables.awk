@@ -33,6 +33,7 @@ END {
   options()
   print "\n### Families\n\nns a pair; of the batch calls at the best instruction set.\n"
   families()
+  if ((1, "left") in column) leaving_lanes()
   if (ahead_ways > 0) yes_or_no_first()
 }
 
@@ -93,6 +94,22 @@ function families(   row, there) {
            there in row_of ? sprintf("%.0f", cell[row_of[there], "ns"]) : "", cell[row, "ns"],
            error(cell[row, "gap_error_largest"]), cell[row, "local"], batch(row, "standard"),
            batch(row, "fast")
+  }
+}
+# Of pairs answered by a batch at the best level: how many no lane proves, and how many of them are
+# deep.
+function left_of(method,   there) {
+  there = key(row, method, "standard", level[1])
+  if (!(there in row_of)) return " | |"
+  return sprintf(" %d | %d |", cell[row_of[there], "left"], cell[row_of[there], "left_deep"])
+}
+function leaving_lanes() {
+  print "\n### What leaves the lanes\n\nPairs of a batch, `standard`, that no lane proves, and those of them that overlap " \
+        "deeper than rho, where no normal alone is a proof.\n"
+  print "| family | pairs | `signed_gaps`: left | deep | `follow_gaps`: left | deep |\n" rule("---|", 5)
+  for (row = 1; row <= rows; ++row) {
+    if (cell[row, "method"] != "signed_gap") continue
+    print "| " cell[row, "family"] " | " cell[row, "pairs"] " |" left_of("signed_gaps") left_of("follow_gaps")
   }
 }
 function yes_or_no_first(   k) {

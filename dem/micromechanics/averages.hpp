@@ -26,8 +26,9 @@ namespace tangency::inline v0::micromechanics {
 
 /// How directions are sorted, by a number of the user.
 struct Classes {
+  /// How the sphere of directions is divided.
   enum class Kind { near_uniform, polar };
-  Kind kind = Kind::near_uniform;
+  Kind kind = Kind::near_uniform;  ///< how it is divided
   int count = 4;  ///< N: near_uniform has 24 N^2 classes, polar N rings of 2 N sectors about z
 
   /// The published choices: 4 and 18.
@@ -47,20 +48,24 @@ struct Classes {
 /// spheres, and of disks in the plane.
 std::optional<int> telling_axis(const Vec3& semi_axes, int dimensions = 3);
 
+/// A tensor of orientations, with standard errors.
 struct TensorEstimate {
-  double mean = kNotDefined, mean_error = kNotDefined;  ///< what the tensor is relative to
-  Mat3 second = Mat3::Zero(), second_error = Mat3::Zero();
-  std::optional<SymmetricTensor4> fourth, fourth_error;  ///< in space
+  double mean = kNotDefined, mean_error = kNotDefined;      ///< what the tensor is relative to
+  Mat3 second = Mat3::Zero(), second_error = Mat3::Zero();  ///< deviatoric, symmetric, in space
+  std::optional<SymmetricTensor4> fourth, fourth_error;     ///< in space
   /// unexplained_variance of the model of order 2, and of orders 2 and 4; in space.
   double unexplained2 = kNotDefined, unexplained4 = kNotDefined;
 
   /// The root of the sum of squares of the standard errors of all components: what |second| is from
   /// scatter alone.
   double second_scatter() const { return second_error.norm(); }
+  /// As second_scatter(), of the fourth order; NaN where there is none.
   double fourth_scatter() const { return fourth_error ? fourth_error->norm() : kNotDefined; }
 };
 
+/// All averages over the contacts of one state.
 struct Averages {
+  /// Empty where no contact or no column tells it.
   using Tensor = std::optional<TensorEstimate>;
 
   Mat3 stress = Mat3::Zero();                  ///< stress_of
@@ -83,6 +88,9 @@ struct Averages {
   std::optional<Mat3> stress_of_both_orders() const;
 };
 
+/// @param contacts  the contacts
+/// @param classes  how directions are sorted
+/// @param estimator  how coefficients are estimated
 /// @param bodies  may be empty: then what needs them is
 /// @throws std::invalid_argument  as require_sound() and SpherePartition do
 ///
@@ -93,6 +101,7 @@ Averages averages_of(const ContactArrays& contacts, const BodyArrays& bodies,
 
 /// What the theory of the stress takes; empty where a tensor is, and in the other dimension.
 std::optional<SecondOrderState> second_order_state(const Averages& averages, int dimensions);
+/// The averages in the plane; empty in space, and where a tensor is empty.
 std::optional<PlaneState> plane_state(const Averages& averages, int dimensions);
 
 }  // namespace tangency::inline v0::micromechanics

@@ -40,6 +40,7 @@ struct ContactArrays {
   double volume = 0.0;         ///< of the packing, voids included; an area in the plane
   int dimensions = 3;          ///< 2 or 3
 
+  /// The number of contacts.
   std::size_t size() const { return normal.size(); }
   /// From the centre of a to the contact point, or from that of b. Needs `arm`.
   Vec3 lever(std::size_t contact, bool of_b) const {
@@ -66,7 +67,7 @@ inline constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
 /// With its standard deviation. Contacts of one particle and the two sides of a contact may depend
 /// on each other: deviations account for both. NaN where there are too few data to tell.
 struct Estimate {
-  double value = 0.0, error = 0.0;
+  double value = 0.0, error = 0.0;  ///< the estimate and its standard error
 };
 
 /// @throws std::invalid_argument where an array is not what ContactArrays says
@@ -102,6 +103,7 @@ Coordination coordination_of(const ContactArrays& contacts);
 /// Unit vectors from the centre of each particle to its contacts, two a contact: of a, then of b.
 /// Needs `arm`. Turned into body axes by the inverse orientation of their particles they are the
 /// local contact vectors [Ouadfel1998, section 7.2], as fit_orientations takes them.
+/// @param contacts  the contacts
 /// @param orientation  of each particle, unit, body to space; empty: vectors stay in space axes.
 ///                     Else `bodies` is needed too
 std::vector<Vec3> contact_vectors(const ContactArrays& contacts,

@@ -56,6 +56,7 @@ std::optional<LengthShares> length_shares_by_area(const Spheroid& s);
 PairShares pair_shares(const LengthShares& shares);
 /// 0, 1, 2: short, intermediate, long, by the length of the surface in that direction: overlap does
 /// not enter. Of any ellipsoid; empty of a sphere.
+/// @param semi_axes  of each body, finite and > 0
 /// @param direction  in body axes, of any length but 0
 std::optional<std::size_t> length_class(const Vec3& semi_axes, const Vec3& direction);
 
@@ -78,12 +79,13 @@ struct SpheroidStatistics {
   Estimate a1;  ///< 5 <P2(cos beta)>: a^cv along the axis of symmetry
   /// Means over the sides of what the models say of their bodies.
   double area_law_a1 = 0.0;
+  /// shares of lengths: by the model with the measured a1, and by area
   LengthShares calculated{}, by_area{};
   PairShares calculated_pairs{};  ///< pair_shares(calculated)
   /// The largest distances of the measured G from that of the model with the measured a1, and from
   /// A(beta)/A(pi). Scatter alone makes 0.4/sqrt(sides).
-  double off_model = 0.0, off_area = 0.0;
-  LocalCorrelations correlations;
+  double off_model = 0.0, off_area = 0.0;  ///< 0 where the measured G is the predicted one
+  LocalCorrelations correlations;          ///< on what the place of a contact depends
 };
 
 /// Measured, of all contact sides of bodies of one shape.
@@ -96,6 +98,7 @@ struct ContactStatistics {
   std::optional<SpheroidStatistics> spheroid;  ///< empty of triaxial bodies
 };
 /// Empty of spheres, which have no body axes, and without a side.
+/// @param bodies  the bodies, by index
 /// @param contacts  in space, else std::invalid_argument
 /// @param shape     of the bodies that count; a packing of several is asked once for each
 ///
@@ -105,6 +108,8 @@ std::optional<ContactStatistics> contact_statistics_of(const ContactArrays& cont
                                                        const BodyArrays& bodies, Shape shape);
 
 /// The measured G at angles: half the share of sides whose axis is within beta, up to pi/2.
+/// @param bodies  the bodies, by index
+/// @param beta  angles to the axis, rad
 /// @param contacts  in space, else std::invalid_argument
 /// @param shape     prolate or oblate, else empty
 std::vector<double> measured_distribution(const ContactArrays& contacts, const BodyArrays& bodies,

@@ -35,11 +35,15 @@ namespace tangency::inline v0::micromechanics {
 /// (2) exchanging a and b of a contact, or the order of contacts, changes nothing but rounding
 class DirectionGroups {
  public:
+  /// @param partition  the classes of directions
   /// @param normals  unit, out of a; one a contact. Need not outlive the call
   DirectionGroups(SpherePartition partition, std::span<const Vec3> normals);
 
+  /// The partition that was given.
   const SpherePartition& partition() const { return partition_; }
+  /// The number of contacts.
   std::size_t contacts() const { return group_.size(); }
+  /// As given, one a contact.
   const std::vector<Vec3>& normals() const { return normals_; }
   /// The class of the side of a.
   std::size_t group(std::size_t contact) const { return group_[contact]; }
@@ -56,10 +60,12 @@ class DirectionGroups {
 
   /// Class means, 0 of empty classes.
   std::vector<double> means(std::span<const double> scalars) const;
+  /// @overload
   std::vector<Vec3> means(std::span<const Vec3> vectors) const;
 
   /// Averages of a scalar; 0 without contacts.
   double over_contacts(std::span<const double> scalars) const;
+  /// Mean over all directions of the means of classes, weighted by area.
   double over_orientations(std::span<const double> scalars) const;
 
  private:
@@ -76,7 +82,9 @@ inline constexpr double kRoundedVariance = 1e-28;
 
 /// v . n, and v less that along n, of each contact.
 std::vector<double> normal_components(std::span<const Vec3> normals, std::span<const Vec3> v);
+/// v less its part along the normal, one a contact.
 std::vector<Vec3> tangential_components(std::span<const Vec3> normals, std::span<const Vec3> v);
+/// |v| of each vector.
 std::vector<double> lengths(std::span<const Vec3> v);
 
 /// The stress by groups of contacts of one direction [Ouadfel1998, eq. 2.80-2.86].
@@ -90,6 +98,7 @@ struct GroupSums {
   /// times its mean. Together volume times `exact`.
   std::vector<Mat3> products;
 };
+/// @param contacts  the contacts
 /// @param groups  of the normals of `contacts`
 /// With half the branch on both sides where `arm` is empty, else with the contact vectors of each
 /// side; the exact sum is the same.
@@ -98,17 +107,21 @@ GroupSums group_sums(const DirectionGroups& groups, const ContactArrays& contact
 /// The share of the variance of class means that a model leaves, weighted as over orientations: 0
 /// is a perfect model, 1 that of a constant. NaN where class means do not vary. Sampling scatter of
 /// the class means is in it: a true model of few contacts leaves more than 0.
+/// @param groups  the contacts, sorted by direction
+/// @param scalars  one a contact
 /// @param model  of scalars; of a tangential vector, whose mean is 0; of the density of normals
 double unexplained_variance(const DirectionGroups& groups, std::span<const double> scalars,
                             const ScalarHarmonics& model);
+/// @overload
 double unexplained_variance(const DirectionGroups& groups, std::span<const Vec3> tangential,
                             const TangentialHarmonics& model);
+/// @overload
 double unexplained_variance(const DirectionGroups& groups, const ScalarHarmonics& density);
 
 /// The contacts whose normals have their largest component, by size, along one axis: those that
 /// mainly bear the stress along it [Ouadfel1998, section 5.4.7].
 struct AxisGroup {
-  std::int64_t contacts = 0;
+  std::int64_t contacts = 0;       ///< how many were counted
   double fraction = 0.0;           ///< of all contacts; NaN without any
   double mean_normal_force = 0.0;  ///< over the group's contacts; NaN without any
 };
@@ -121,9 +134,9 @@ std::array<AxisGroup, 3> axis_groups(std::span<const Vec3> normals, std::span<co
 /// partition, with n = axis cos(beta) + r sin(beta) [Ouadfel1998, eq. 2.74]. As the model has it in
 /// TangentialHarmonics::radial.
 struct RadialRing {
-  double beta = 0.0;   ///< angle of the ring's middle to the axis, radian
-  double value = 0.0;  ///< over the sectors that are not empty; 0 where all are
-  std::size_t filled_sectors = 0;
+  double beta = 0.0;               ///< angle of the ring's middle to the axis, radian
+  double value = 0.0;              ///< over the sectors that are not empty; 0 where all are
+  std::size_t filled_sectors = 0;  ///< sectors that hold at least one contact
 };
 /// @throws std::invalid_argument if the partition is not polar
 std::vector<RadialRing> radial_means(const DirectionGroups& groups,

@@ -43,8 +43,9 @@ enum class Estimator {
 /// physical contact is one datum. For independent contacts and a model that holds. NaN where there
 /// are too few data to tell.
 struct HarmonicErrors {
-  double mean = 0.0;
-  Mat3 second = Mat3::Zero();
+  double mean = 0.0;           ///< of the mean
+  Mat3 second = Mat3::Zero();  ///< of the tensor of order 2
+  /// of the tensor of order 4
   SymmetricTensor4 fourth{};
 };
 
@@ -53,7 +54,7 @@ struct HarmonicErrors {
 struct OrientationFit {
   ScalarHarmonics model;  ///< the mean is 1/(4 pi)
   HarmonicErrors error;   ///< of independent directions all alike: sqrt(5/count) of a_xx
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< how many directions
 };
 /// a = (15/2)(<nn> - I/3), b = (315/8) times the harmonic part of <nnnn>. Empty without directions.
 /// @param directions  unit, else std::invalid_argument
@@ -61,26 +62,32 @@ struct OrientationFit {
 /// (1) turning all directions turns the tensors
 std::optional<OrientationFit> fit_orientations(std::span<const Vec3> directions);
 
+/// A scalar by harmonics of even order, with standard errors.
 struct ScalarFit {
-  ScalarHarmonics model;
-  HarmonicErrors error;
+  ScalarHarmonics model;     ///< the fit
+  HarmonicErrors error;      ///< standard errors of its coefficients
   double unexplained = 0.0;  ///< unexplained_variance of the class means
 };
+/// The tangential part of a vector by harmonics, with standard errors.
 struct TangentialFit {
   TangentialHarmonics model;  ///< its mean is that of the normal component
   HarmonicErrors error;       ///< its mean has none: 0
-  double unexplained = 0.0;
+  double unexplained = 0.0;   ///< share of the variance that the model leaves
   /// |F - F'| over |F|, F the mean over orientations of v_t (x) n: the part of moments that are not
   /// balanced. The model has none of it. NaN without tangential components.
   double asymmetry = 0.0;
 };
+/// A vector by harmonics: its part along the normal and the rest.
 struct VectorFit {
-  ScalarFit normal;
-  TangentialFit tangential;
+  ScalarFit normal;          ///< the part along the normal
+  TangentialFit tangential;  ///< the part across it
 };
 
 /// Of a scalar that is the same from both sides. Empty where coefficients are open or the mean is
 /// 0.
+/// @param groups  the contacts, sorted by direction
+/// @param values  one a contact
+/// @param estimator  how coefficients are estimated
 /// @param order  2 or 4, else std::invalid_argument; with 2 the fourth-order tensor is 0
 std::optional<ScalarFit> fit_scalars(const DirectionGroups& groups, std::span<const double> values,
                                      Estimator estimator = Estimator::unbiased, int order = 4);
@@ -98,8 +105,10 @@ std::optional<VectorFit> fit_vectors(const DirectionGroups& groups, std::span<co
 struct Fabric {
   Mat3 stress = Mat3::Zero();    ///< stress_of
   double contact_density = 0.0;  ///< m_v, contact sides per volume
+  /// contacts, and classes of directions that hold none
   std::size_t contacts = 0, empty_classes = 0;
   std::optional<OrientationFit> normals;  ///< a^r, b^r
+  /// share of the variance of their density that the model leaves
   double normals_unexplained = 0.0;
   std::optional<VectorFit> force;                 ///< f0, a^n, b^n, a^t, b^t
   std::optional<VectorFit> branch;                ///< z0, a^z, b^z, a^zt, b^zt

@@ -18,7 +18,7 @@ namespace tangency::inline v0::micromechanics {
 /// A fully symmetric tensor of order 4 in space by its 15 different components.
 class SymmetricTensor4 {
  public:
-  static constexpr std::size_t kComponents = 15;
+  static constexpr std::size_t kComponents = 15;  ///< of a fully symmetric tensor of order 4
 
   /// nnnn
   static SymmetricTensor4 power(const Vec3& n);
@@ -30,6 +30,7 @@ class SymmetricTensor4 {
 
   /// Component with indices 0 to 2, in any order.
   double operator()(int i, int j, int k, int l) const { return components[index(i, j, k, l)]; }
+  /// A component; the order of the indices does not matter.
   double& operator()(int i, int j, int k, int l) { return components[index(i, j, k, l)]; }
 
   /// b_ijkl n_i n_j n_k n_l
@@ -45,14 +46,19 @@ class SymmetricTensor4 {
   /// R_ia R_jb R_kc R_ld b_abcd
   SymmetricTensor4 rotated(const Mat3& rotation) const;
 
+  /// Component by component.
   SymmetricTensor4& operator+=(const SymmetricTensor4& other);
+  /// Component by component.
   SymmetricTensor4& operator*=(double factor);
+  /// Component by component.
   friend SymmetricTensor4 operator+(SymmetricTensor4 a, const SymmetricTensor4& b) {
     return a += b;
   }
+  /// Component by component.
   friend SymmetricTensor4 operator-(SymmetricTensor4 a, SymmetricTensor4 b) {
     return a += b *= -1.0;
   }
+  /// Component by component.
   friend SymmetricTensor4 operator*(double factor, SymmetricTensor4 a) { return a *= factor; }
 
   /// With y occurring q times and z r times among the indices: at s (s + 1) / 2 + r, s = q + r.
@@ -85,6 +91,7 @@ inline constexpr double kScalarFactor2 = 15.0 / 2.0, kScalarFactor4 = 315.0 / 8.
 ///
 /// (3) harmonic_part(nn):uu is (2/3) P2(n . u), and harmonic_part(nnnn)::uuuu (8/35) P4(n . u)
 constexpr double legendre2(double square) { return 1.5 * square - 0.5; }
+/// P4, as legendre2() is P2.
 constexpr double legendre4(double square, double fourth) {
   return (35.0 * fourth - 30.0 * square + 3.0) / 8.0;
 }
@@ -96,29 +103,35 @@ double modulus(const Mat3& a);
 /// Orthonormal bases of the harmonics: of the symmetric traceless tensors of order 2, and of the
 /// fully symmetric traceless ones of order 4. Made at the first call.
 const std::array<Mat3, 5>& second_basis();
+/// An orthonormal basis of the deviatoric fully symmetric tensors of order 4.
 const std::array<SymmetricTensor4, 9>& fourth_basis();
 
 /// g(n) = mean (1 + a:nn + b::nnnn). Of contact normals the mean is 1/(4 pi).
 struct ScalarHarmonics {
-  double mean = 0.0;
-  Mat3 second = Mat3::Zero();
+  double mean = 0.0;           ///< over all directions
+  Mat3 second = Mat3::Zero();  ///< relative, deviatoric
+  /// relative, deviatoric
   SymmetricTensor4 fourth{};
 
+  /// At a unit normal n.
   double value(const Vec3& n) const { return mean * (1.0 + n.dot(second * n) + fourth.along(n)); }
 };
 
 /// g(n) = mean (a n - (a:nn) n + b nnn - (b::nnnn) n): mean times the gradient on the sphere of
 /// a:nn/2 + b::nnnn/4. Perpendicular to n, g(-n) = -g(n). The mean is that of the normal component.
 struct TangentialHarmonics {
-  double mean = 0.0;
-  Mat3 second = Mat3::Zero();
+  double mean = 0.0;           ///< what the tensors are relative to
+  Mat3 second = Mat3::Zero();  ///< deviatoric
+  /// deviatoric
   SymmetricTensor4 fourth{};
 
+  /// At a unit normal n: tangential to the sphere.
   Vec3 value(const Vec3& n) const;
 
   /// The mean over all directions with the angle beta to an axis of value . r, where
   /// n = axis cos(beta) + r sin(beta): the radial component [Ouadfel1998, eq. 2.77-2.79]. Only
   /// axis.a.axis and b::axis^4 survive, of fields that are not axisymmetric too.
+  /// @param beta  angles to the axis, rad
   /// @param axis  unit
   double radial(double beta, const Vec3& axis) const;
 };

@@ -22,6 +22,7 @@ namespace tangency::inline v0::micromechanics {
 
 /// The share of chi-squared's distribution above a value [AbramowitzStegun1964, eq. 26.4.4,
 /// 26.4.5].
+/// @param chi_squared  the value
 /// @param degrees  at least 1
 ///
 /// (1) equals the incomplete gamma function
@@ -29,8 +30,8 @@ double chi_squared_tail(double chi_squared, std::int64_t degrees);
 
 /// Of a table of counts: are rows and columns independent?
 struct Contingency {
-  std::int64_t count = 0;
-  double chi_squared = 0.0;
+  std::int64_t count = 0;    ///< counts in the table
+  double chi_squared = 0.0;  ///< the statistic
   std::int64_t degrees = 0;  ///< (rows - 1)(columns - 1), of those that are not empty
   /// The share of independent samples whose chi-squared is larger. NaN where degrees are 0 or the
   /// least expected count is below 5: then the distribution is not that of chi-squared.
@@ -40,12 +41,16 @@ struct Contingency {
   std::int64_t count_needed = 0;
   double cramers_v = 0.0;  ///< [Cramer1946, chapter 21]: 0 of none, 1 of full dependence
 };
+/// @param columns  orientations and centres
 /// @param counts  row by row, none negative; std::invalid_argument otherwise
 Contingency contingency_of(std::span<const std::int64_t> counts, std::size_t columns);
 
 /// Contact sides by the class of |cos gamma|, equally many in each, and by the class of the body's
 /// axis, opposite ones together. Sides count as independent data. They nearly are: bodies keep
 /// their neighbours apart, which makes chi-squared smaller.
+/// @param contacts  the contacts
+/// @param bodies  the bodies, by index
+/// @param shape  of the bodies that count
 /// @param local_classes  at least 2
 /// @param partition      of axes: near_uniform(1) has 12 pairs of classes
 /// Contacts must be in space, bodies of `shape`: errors and emptiness are normal_rotation_of's.

@@ -22,8 +22,9 @@ namespace tangency::inline v0::micromechanics {
 
 /// What the theory knows of a plane packing; names as in SecondOrderState.
 struct PlaneState {
-  double contact_density = 0.0;  ///< contact sides per area
-  double force = 0.0, branch = 0.0;
+  double contact_density = 0.0;      ///< contact sides per area
+  double force = 0.0, branch = 0.0;  ///< means that the tensors are relative to
+  /// tensors of normals, forces along and across them, branches along and across
   Mat3 r = Mat3::Zero(), n = Mat3::Zero(), t = Mat3::Zero(), z = Mat3::Zero(), zt = Mat3::Zero();
 
   /// m_v f0 z0 / 4
@@ -41,7 +42,7 @@ double plane_shear_ratio(const Mat3& stress);
 
 /// Amplitudes of coaxial tensors along the major axis of contact normals, with signs.
 struct PlaneAmplitudes {
-  double r = 0.0, n = 0.0, t = 0.0, z = 0.0, zt = 0.0;
+  double r = 0.0, n = 0.0, t = 0.0, z = 0.0, zt = 0.0;  ///< signed amplitudes of the same tensors
 };
 /// The positive principal value of a plane tensor.
 double amplitude(const Mat3& a);
@@ -55,11 +56,13 @@ double coaxial_shear_ratio(const PlaneAmplitudes& a);
 
 /// Estimates and standard deviations; of fields that are empty in Fabric, alike.
 struct PlaneScalarFit {
-  double mean = 0.0, mean_error = 0.0;
+  double mean = 0.0, mean_error = 0.0;  ///< over all directions, and its standard error
+  /// deviatoric, and standard errors of its components
   Mat3 second = Mat3::Zero(), second_error = Mat3::Zero();
 };
+/// A vector in the plane by harmonics.
 struct PlaneVectorFit {
-  PlaneScalarFit normal;
+  PlaneScalarFit normal;  ///< the part along the normal
   /// The mean is that of the normal component, without an error of its own.
   PlaneScalarFit tangential;
 };
@@ -68,17 +71,22 @@ struct PlaneVectorFit {
 std::optional<PlaneScalarFit> fit_plane_orientations(std::span<const Vec3> directions);
 
 /// By contacts sorted into equal arcs, as fit_vectors. `contact_sums` takes no arcs.
+/// @param normals  unit, one a contact
+/// @param vectors  one a contact
+/// @param estimator  how coefficients are estimated
 /// @param arcs  even and at least 4, so that opposite directions are of opposite classes;
 ///              std::invalid_argument otherwise
 std::optional<PlaneVectorFit> fit_plane_vectors(std::span<const Vec3> normals,
                                                 std::span<const Vec3> vectors, int arcs = 36,
                                                 Estimator estimator = Estimator::unbiased);
 
+/// Fabric and stress of contacts in the plane.
 struct PlaneFabric {
-  Mat3 stress = Mat3::Zero();
-  double contact_density = 0.0;
-  std::size_t contacts = 0;
-  std::optional<PlaneScalarFit> normals;
+  Mat3 stress = Mat3::Zero();             ///< force per length
+  double contact_density = 0.0;           ///< contact sides per area
+  std::size_t contacts = 0;               ///< how many
+  std::optional<PlaneScalarFit> normals;  ///< empty where there are no contacts
+  /// of forces and branches, empty where there are no contacts
   std::optional<PlaneVectorFit> force, branch;
 };
 /// Of contacts in the plane: dimensions must be 2, else std::invalid_argument.

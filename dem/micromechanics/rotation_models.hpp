@@ -24,8 +24,9 @@ namespace tangency::inline v0::micromechanics {
 /// Plane: a^r_rot/a^E = c1 + a_l c2, with signs as published, of contact vectors that have the
 /// density (1/2 pi)(1 + a_l cos 2 beta) (eq. 7.46-7.47). `along` is the long semi-axis.
 struct PlaneRotation {
-  double c1 = 0.0, c2 = 0.0;
+  double c1 = 0.0, c2 = 0.0;  ///< coefficients of the model
 
+  /// At an anisotropy a_l of the long axes.
   double factor(double a_l) const { return c1 + a_l * c2; }
 };
 /// (1) equals its integrals; c1 = (k-1)/(k+1), c2 = -2k/(k+1)^2, k = (along/across)^2
@@ -37,10 +38,12 @@ double arc_law_density(const Spheroid& ellipse, double beta);
 double arc_law_anisotropy(const Spheroid& ellipse);
 /// The published ways to the same number, on `points` angles (i + 1/2) 2 pi/points: as an integral
 /// (eq. 7.52), and by least squares (eq. 7.53).
+/// @param ellipse  its semi-axes
 /// @param points  at least 3, else std::invalid_argument
 ///
 /// (3) the two are one number but for rounding
 double arc_law_anisotropy_by_integral(const Spheroid& ellipse, int points);
+/// By least squares over `points` angles.
 double arc_law_anisotropy_by_least_squares(const Spheroid& ellipse, int points);
 
 /// What tensors of order 2 and 4 of axes are multiplied by.
@@ -52,9 +55,10 @@ struct RotationFactors {
 /// Space, of contact vectors with the density (1/4 pi)(1 + a1 P2(cos beta)): <P2> = c1 + a1 c2,
 /// <P4> = d1 + a1 d2.
 struct SpaceRotation {
-  double c1 = 0.0, c2 = 0.2;
-  double d1 = 0.0, d2 = 0.0;
+  double c1 = 0.0, c2 = 0.2;  ///< coefficients of the factor of second order
+  double d1 = 0.0, d2 = 0.0;  ///< coefficients of the factor of fourth order
 
+  /// Both factors at an anisotropy a1.
   RotationFactors factors(double a1) const { return {c1 + a1 * c2, d1 + a1 * d2}; }
 };
 /// (4) equals its integrals; of a sphere the factors are a1/5 and 0, of needles -1/2 and 3/8, of

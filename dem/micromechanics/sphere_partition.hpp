@@ -33,11 +33,13 @@ class SpherePartition {
   /// @param axis     of any length but 0; std::invalid_argument otherwise, as of the other two
   static SpherePartition polar(int rings, int sectors, const Vec3& axis = Vec3::UnitZ());
 
+  /// The number of classes.
   std::size_t size() const { return area_.size(); }
   /// Solid angle of a class.
   double area(std::size_t g) const { return area_[g]; }
   /// Unit vector at the middle of a class by its angles, the published place.
   const Vec3& direction(std::size_t g) const { return direction_[g]; }
+  /// The class opposite to class g.
   std::size_t opposite(std::size_t g) const;
 
   /// The class of a direction, in a time that does not grow with the number of classes. Of equally
@@ -50,7 +52,9 @@ class SpherePartition {
   /// Of a polar partition: how many rings, the axis, and the sectors of each. Near-uniform ones
   /// have 0 rings.
   std::size_t rings() const { return rings_; }
+  /// The number of sectors of each ring.
   std::size_t sectors() const { return sectors_; }
+  /// Of the rings, unit.
   const Vec3& axis() const { return axis_; }
 
  private:

@@ -20,24 +20,27 @@ namespace tangency::inline v0::micromechanics {
 /// By its semi-axes: on the axis of symmetry, and across. Prolate: along > across. In the plane the
 /// ellipse with these semi-axes.
 struct Spheroid {
-  double along = 1.0, across = 1.0;
+  double along = 1.0, across = 1.0;  ///< semi-axes along the axis of revolution and across it
 };
 
 /// @throws std::invalid_argument unless both semi-axes are finite and > 0
 void require_sound(const Spheroid& s);
 
+/// Which semi-axes are equal.
 enum class Shape { sphere, prolate, oblate, triaxial };
 
 /// Chosen: semi-axes within this relative distance count as equal; growth and text files round.
 inline constexpr double kEqualAxes = 1e-9;
+/// Are two semi-axes equal but for rounding?
 bool are_equal_axes(double one, double other);
 
+/// Which semi-axes are equal, but for rounding.
 Shape shape_of(const Vec3& semi_axes);
 
 /// A body of revolution: its spheroid, and which of its body axes is that of symmetry.
 struct Symmetry {
-  Spheroid spheroid;
-  std::size_t axis = 0;
+  Spheroid spheroid;     ///< its semi-axes
+  std::size_t axis = 0;  ///< which body axis is the axis of revolution
 };
 /// Empty of spheres and of three different semi-axes.
 std::optional<Symmetry> symmetry_of(const Vec3& semi_axes);

@@ -46,12 +46,14 @@ class NoMesh : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Centres in a periodic cell.
 struct PeriodicCentres {
-  std::span<const Vec3> position;
-  Mat3 edges = Mat3::Identity();  ///< columns: the edge vectors of the cell, as dem::Cell has them
-  int dimensions = 3;             ///< 2 or 3
+  std::span<const Vec3> position;  ///< one a body, length
+  Mat3 edges = Mat3::Identity();   ///< columns: the edge vectors of the cell, as dem::Cell has them
+  int dimensions = 3;              ///< 2 or 3
 
   double volume() const;  ///< of the cell; an area in the plane
+  /// Of an image, length.
   Vec3 translation(const PeriodicImage& image) const;
   /// From the centre of k to that of the image of l.
   Vec3 branch(const std::array<std::int64_t, 2>& bodies, const PeriodicImage& image) const;
@@ -66,11 +68,13 @@ struct PeriodicPairs {
   std::span<const std::array<std::int64_t, 2>> bodies;  ///< indices into the positions
   std::span<const PeriodicImage> image;                 ///< of the second
 
+  /// The number of pairs.
   std::size_t size() const { return bodies.size(); }
 };
 /// @throws std::invalid_argument where pairs are not what PeriodicPairs says
 void require_sound(const PeriodicPairs& pairs, const PeriodicCentres& centres);
 
+/// An edge of a net, from a body to an image of a body.
 struct MeshEdge {
   std::array<std::int64_t, 2> bodies{};  ///< k, l
   PeriodicImage image{};                 ///< of l
@@ -84,18 +88,18 @@ struct MeshEdge {
 
 /// (1) (1/V) sum branch (x) area is the unit tensor, of the plane in the plane
 struct StrainMesh {
-  int dimensions = 3;
-  double volume = 0.0;
-  std::vector<MeshEdge> edges;
-  std::size_t cells = 0;    ///< polygons, triangles or tetrahedra
-  std::size_t centres = 0;  ///< particles that are corners of one
+  int dimensions = 3;           ///< 2 or 3
+  double volume = 0.0;          ///< of the cell, length^dimensions
+  std::vector<MeshEdge> edges;  ///< each once
+  std::size_t cells = 0;        ///< polygons, triangles or tetrahedra
+  std::size_t centres = 0;      ///< particles that are corners of one
 };
 
 /// A triangle or tetrahedron of a periodic net: particles, and the images of them that are its
 /// corners. The fourth of a triangle is not used.
 struct PeriodicSimplex {
-  std::array<std::int64_t, 4> bodies{};
-  std::array<PeriodicImage, 4> image{};
+  std::array<std::int64_t, 4> bodies{};  ///< at the corners; as many as dimensions + 1
+  std::array<PeriodicImage, 4> image{};  ///< of each corner
 };
 
 /// The Delaunay triangles or tetrahedra of the centres, each once, by Qhull [Barber1996]. Where
@@ -121,6 +125,8 @@ StrainMesh simplex_mesh(const PeriodicCentres& centres, std::span<const Periodic
 /// Edges leave a centre in the order of their contact points, not of their branches: with convex
 /// bodies no two edges cross then that are drawn by way of the contact points, even where straight
 /// ones would.
+/// @param centres  where the particles are
+/// @param contacts  the contacts
 /// @param arm  contact point less centre of the first body, one a pair; empty: that the edges are
 ///             straight
 /// @throws NoMesh where contacts do not span the cell along both axes, or edges cross

@@ -40,12 +40,16 @@ std::optional<SecondOrderState> second_order_state(const Fabric& fabric);
 ///
 /// (1) the eight together are the integral of the models of order 2
 struct StressParts {
+  /// of the isotropic state, of each anisotropy, and of two jointly
   Mat3 isotropic, fabric, branch, force, fabric_branch, fabric_force, force_branch;
   Mat3 fabric_force_branch;  ///< of order 3 in the anisotropies, dropped in eq. 6.21
 
+  /// The sum of the seven parts above.
   Mat3 seven() const;
+  /// All parts.
   Mat3 sum() const { return seven() + fabric_force_branch; }
 };
+/// The stress by parts.
 StressParts stress_parts(const SecondOrderState& state);
 
 /// A third of the trace, and the deviator of the symmetric part, of the first seven parts, by
@@ -53,9 +57,15 @@ StressParts stress_parts(const SecondOrderState& state);
 ///
 /// (2) they are those of StressParts::seven()
 double mean_stress(const SecondOrderState& state);
+/// The deviator of the symmetric part.
 Mat3 deviatoric_stress(const SecondOrderState& state);
 
 /// The stress of models of orders 2 and 4 together, by a quadrature that is exact for them.
+/// @param contact_density  contact sides per volume
+/// @param force  of normal forces
+/// @param tangential_force  of tangential forces
+/// @param branch  of the normal components of branches
+/// @param tangential_branch  of tangential branches
 /// @param density  its mean counts: 1/(4 pi)
 Mat3 stress_of_models(double contact_density, const ScalarHarmonics& density,
                       const ScalarHarmonics& force, const TangentialHarmonics& tangential_force,
@@ -65,6 +75,7 @@ Mat3 stress_of_models(double contact_density, const ScalarHarmonics& density,
 double shear_stress_ratio(const Mat3& stress);
 /// sin(phi) of a triaxial state, s2 = s3: 3 a_s / (6 + a_s). From degrees and back.
 double shear_stress_ratio_of_friction_angle(double degrees);
+/// Of a ratio of shear stress to mean stress, rad.
 double friction_angle_of_shear_stress_ratio(double ratio);
 
 /// What each anisotropy and each pair of them gives to a_s. Pure numbers; NaN without deviator.
@@ -73,6 +84,7 @@ struct ShearShares {
   double rz = 0.0, rf = 0.0, zf = 0.0;                  ///< of fabric, branches and forces jointly
   double rfz = 0.0;                                     ///< of all three, dropped in eq. 6.21
 
+  /// All parts.
   double sum() const { return r + z + zt + n + t + rz + rf + zf + rfz; }
   /// Of the shape of particles: z + zt + rz/2 + zf/2.
   double shape() const { return z + zt + 0.5 * (rz + zf); }
@@ -80,16 +92,18 @@ struct ShearShares {
 /// In any state: each part's deviator along that of the whole, over the mean of the whole.
 ///
 /// (3) they add up to a_s of the whole
+/// @param state  of a run
 /// @param eighth  whether the part of order 3 is in the whole; else rfz is 0
 ShearShares shear_shares(const SecondOrderState& state, bool eighth = false);
 
 /// Sizes with signs, A_X = sgn(X:a^r) |X| (eq. 6.28).
 struct SignedMagnitudes {
-  double r = 0.0, z = 0.0, zt = 0.0, n = 0.0, t = 0.0;
+  double r = 0.0, z = 0.0, zt = 0.0, n = 0.0, t = 0.0;  ///< signed magnitudes of the tensors
   /// + where contacts prefer the axis, as in compression; - in extension: sgn(det a^r), that of the
   /// axial principal value.
   double sense = 1.0;
 };
+/// Of each tensor along the deviatoric stress.
 SignedMagnitudes signed_magnitudes(const SecondOrderState& state);
 
 /// D_n = 1 + (2/15)(A_r A_n + A_r A_z + A_n A_z + (3/2) A_t A_zt): mean stress over s0.
@@ -117,6 +131,7 @@ struct Coaxiality {
   /// tensor that is 0.
   double commutator = 0.0;
 };
+/// How nearly two deviatoric tensors share their axes.
 Coaxiality coaxiality(const Mat3& x, const Mat3& y);
 
 /// |x2 - x3| / |x1| of the principal values of a deviator, x1 the largest in size: 0 is

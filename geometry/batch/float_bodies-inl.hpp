@@ -10,6 +10,7 @@
 #endif
 
 #include <cstddef>
+#include <cstdint>
 
 #include <tangency/geometry/batch/float_rows.hpp>
 #include <tangency/geometry/batch/pack_bodies-inl.hpp>

@@ -17,7 +17,7 @@ namespace tangency::inline v0::detail {
 std::uint64_t gap_lanes(LaneBlock& block) noexcept;
 
 /// The same by a start and steps in float, one evaluation in double and a last step in float:
-/// section 4 of the derivation. Reads rows in place of bodies, and bodies where arms are wanted; of
+/// section 5 of the derivation. Reads rows in place of bodies, and bodies where arms are wanted; of
 /// followed normals it proves the global gap alone. What it leaves open is for gap_lanes().
 std::uint64_t mixed_gap_lanes(LaneBlock& block) noexcept;
 

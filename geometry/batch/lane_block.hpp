@@ -48,10 +48,10 @@ struct LaneBlock {
 
   const LaneBody* bodies_a;  ///< first of the array that index a counts in
   const LaneBody* bodies_b;
-  const FloatRow* floats_a;  ///< the same bodies, for float_lanes.hpp; null where none are kept
-  const FloatRow* floats_b;
   const ShapeRow* rows_a;  ///< the same bodies; read by mixed_gap_lanes() alone
   const ShapeRow* rows_b;
+  const FloatRow* floats_a;  ///< the same bodies, for float_lanes.hpp; null where none are kept
+  const FloatRow* floats_b;
   const IndexedPair* pairs;
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Each stage is a short loop over the block: the chain of operations of one pack is long, and the
 // processor works at the next ones meanwhile.
-#include <tangency/geometry/batch/gap_lanes.hpp>
-
 #include <cstddef>
+#include <cstdint>
 
+#include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 
 #undef HWY_TARGET_INCLUDE
@@ -60,11 +60,20 @@ HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, 
 }
 #endif
 
-HWY_INLINE void load_rows_of(const ShapeRow* rows, const IndexedPair* pairs,
+/// One of the bodies of each pair; those of the next block are asked for meanwhile.
+HWY_INLINE void load_rows_of(const LaneBlock& block, const ShapeRow* rows,
                              std::uint32_t IndexedPair::*which, BodyColumns& to) {
+  const auto row = [&](const IndexedPair* pairs, std::size_t i)
+                       HWY_ATTR { return rows[pairs[i].*which].centre; };
   for (std::size_t i = 0; i < kPairs; i += 4) {
-    load_four(rows[pairs[i].*which].centre, rows[pairs[i + 1].*which].centre,
-              rows[pairs[i + 2].*which].centre, rows[pairs[i + 3].*which].centre, to, i);
+    const IndexedPair* here = block.pairs;
+    load_four(row(here, i), row(here, i + 1), row(here, i + 2), row(here, i + 3), to, i);
+    if (block.next_pairs == nullptr) continue;
+    for (std::size_t k = i; k < i + 4; ++k) {
+      const double* const next = row(block.next_pairs, k);
+      __builtin_prefetch(next);
+      __builtin_prefetch(next + 8);
+    }
   }
 }
 
@@ -253,8 +262,8 @@ HWY_INLINE void find_arms(const LaneBlock& block, const MixedColumns& work, std:
 HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
   MixedColumns work;
   const std::size_t lanes = pack_lanes(), count = static_cast<std::size_t>(block.count);
-  load_rows_of(block.rows_a, block.pairs, &IndexedPair::a, work.a);
-  load_rows_of(block.rows_b, block.pairs, &IndexedPair::b, work.b);
+  load_rows_of(block, block.rows_a, &IndexedPair::a, work.a);
+  load_rows_of(block, block.rows_b, &IndexedPair::b, work.b);
   block.within_float = false;
   for (std::size_t i = 0; i < kPairs; i += lanes) block.within_float |= scale(block, work, i);
   if (!block.within_float) return 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// What a normal, the value in double there and a step in float prove about the gap, one pair in
-/// each lane: section 4 of docs/derivations/gap-batch.md, whose names stand here. Lengths are in
+/// each lane: section 5 of docs/derivations/gap-batch.md, whose names stand here. Lengths are in
 /// the pair's own unit. Compiled once for each instruction set.
 #if defined(TANGENCY_MIXED_PROOFS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TANGENCY_MIXED_PROOFS_INL
@@ -26,8 +26,8 @@ constexpr double kOfRest = 8.0;
 constexpr double kOfStep = 0x1p-19;
 // (T): of sum a^3/h^2 |delta|^3 and of |gap| |delta|^4 in the value; of sum a^3/h^2 |delta|^2 in e.
 constexpr double kThird = 0.55, kFourth = 1.5, kSecond = 1.2;
-// The largest a |delta| / h, |delta| and |n.delta| that (T) holds for, and a / h.
-constexpr double kTurnOfBody = 0x1p-8, kTurn2 = 0x1p-20, kAlong = 0x1p-20, kThinnest = 0x1p10;
+// The largest a |delta| / h, |delta| and |n.delta| that (T) and (E) hold for.
+constexpr double kTurnOfBody = 0x1p-8, kTurn2 = 0x1p-20, kAlong = 0x1p-20;
 // (F): what roundings in float may do to a bound, relative; and to the sign's and the ball's own
 // differences.
 constexpr double kFloatBound = 1.0 + 0x1p-18, kOfFloatSum = 0x1p-21;
@@ -65,7 +65,7 @@ HWY_INLINE FloatVec3 bend(const FloatBody& body, const FloatVec3& v) {
   return flat * body.inverse_h;
 }
 
-/// (Q): the value at n + step and how far the maximum is above it.
+/// (L): the value at n + step and how far the maximum is above it.
 HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool centres_are_exact,
                             double factor_error) {
   const auto c = [](double x) HWY_ATTR { return all<FloatPack>(x); };
@@ -97,7 +97,7 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
       multiply_add(c(kOfStep) * most, length, multiply_add(c(kSecond) * cubes, step2, rest_error));
   const FloatPack half_left2 = multiply_add(c(0.57), dot(left, left),  //
                                             c(4.6) * (left_error * left_error));
-  const FloatPack sum = size + at.radii;
+  const FloatPack sum = size + (at.radii + absolute(second));
   const FloatPack ball = multiply_take(c(kOfFloatSum), sum, ((at.gap + second) + at.radii) - known);
   const FloatPack half = c(0.5) * (half_left2 * rough_inverse(ball));
 
@@ -107,8 +107,8 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
     return multiply_add(c(roundings_of_size * kUnitRoundoff), at.size, at.tolerance) *
            c(1.0 - 0x1p-20);
   };
-  const FloatMask in_reach = (thin * length <= c(kTurnOfBody)) & (step2 <= c(kTurn2)) &
-                             (absolute(along) <= c(kAlong)) & (thin <= c(kThinnest));
+  const FloatMask in_reach =
+      (thin * length <= c(kTurnOfBody)) & (step2 <= c(kTurn2)) & (absolute(along) <= c(kAlong));
   const FloatPack doubt = multiply_add(c(kOfFloatSum), size + absolute(beyond), error);
   const FloatPack most_error = within(kLaneErrorBound + factor_error);
   const FloatMask nearer = (step2 <= c(kLongest2)) & (at.gap + at.radii > c(0.0));

@@ -34,7 +34,7 @@ bool meet_wherever(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d, double
   const double share = off / b.smallest_semi_axis() * (1.0 + 0x1p-40) + 0x1p-50;
   const Vec3 axes = (1.0 - share) * b.semi_axes();
   if (!(share < 1.0) || !(axes.minCoeff() > 0.0)) return false;
-  return overlaps_by_filter(a.moved_to(Vec3::Zero()), Ellipsoid(d, axes, b.orientation())) == true;
+  return overlaps_by_filter(a, Ellipsoid(Vec3::Zero(), axes, b.orientation()), d) == true;
 }
 
 /// Candidates that are asked about by their centres, or all by separations.

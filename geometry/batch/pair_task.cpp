@@ -62,6 +62,20 @@ void aim(const PairTask& task, LaneBlock& block) {
 
 }  // namespace
 
+Ellipsoid made_body(const char* call, const MovingBodies& bodies, std::size_t body) noexcept {
+  try {
+    return bodies[body];
+  } catch (const InvalidEllipsoid& invalid) {
+    contract::no_ellipsoid(call, body, invalid.what());
+  }
+}
+
+void require_separations(const char* call, const PairList& list,
+                         bool bodies_have_centres) noexcept {
+  if (!list.separations.empty() || !bodies_have_centres)
+    contract::require_length(call, "separations", list.separations.size(), list.pairs.size());
+}
+
 PairTask::PairTask(const char* of_call, const BodyArray& of_bodies, const PairList& list) noexcept
     : call(of_call),
       bodies(&of_bodies),
@@ -72,8 +86,7 @@ PairTask::PairTask(const char* of_call, const BodyArray& of_bodies, const PairLi
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
       count(list.pairs.size()) {
-  if (!list.separations.empty())
-    contract::require_length(call, "separations", list.separations.size(), count);
+  require_separations(call, list, true);
 }
 
 PairTask::PairTask(const char* of_call, const MovingBodies& of_bodies,
@@ -87,8 +100,7 @@ PairTask::PairTask(const char* of_call, const MovingBodies& of_bodies,
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
       count(list.pairs.size()) {
-  if (!list.separations.empty() || !of_bodies.has_centres())
-    contract::require_length(call, "separations", list.separations.size(), count);
+  require_separations(call, list, of_bodies.has_centres());
 }
 
 PairTask::PairTask(const char* of_call, std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
@@ -111,7 +123,10 @@ Vec3 PairTask::separation(std::size_t i) const noexcept {
 
 Gap PairTask::single(std::size_t i, const Vec3* previous_normal) const noexcept {
   require_finite_separation(i);
-  if (moving != nullptr) return single(i, made(pairs[i].a), made(pairs[i].b), previous_normal);
+  if (moving != nullptr) {
+    return single(i, made_body(call, *moving, pairs[i].a), made_body(call, *moving, pairs[i].b),
+                  previous_normal);
+  }
   return single(i, a(i), b(i), previous_normal);
 }
 
@@ -129,31 +144,24 @@ BoundedGap PairTask::bounded(std::size_t i) const noexcept {
   const auto ask = [&](const Ellipsoid& a, const Ellipsoid& b) {
     return separations != nullptr ? bounded_gap(a, b, separations[i]) : bounded_gap(a, b);
   };
-  return moving != nullptr ? ask(made(pairs[i].a), made(pairs[i].b)) : ask(a(i), b(i));
+  if (moving == nullptr) return ask(a(i), b(i));
+  return ask(made_body(call, *moving, pairs[i].a), made_body(call, *moving, pairs[i].b));
 }
 
 bool PairTask::overlaps(std::size_t i) const noexcept {
   if (separations == nullptr) return tangency::overlaps(a(i), b(i));
   require_finite_separation(i);
-  return tangency::overlaps(a(i).moved_to(Vec3::Zero()), b(i).moved_to(separations[i]));
+  return tangency::overlaps(a(i), b(i), separations[i]);
 }
 
 std::optional<bool> PairTask::overlaps_by_filter(std::size_t i) const noexcept {
   if (separations == nullptr) return tangency::overlaps_by_filter(a(i), b(i));
   require_finite_separation(i);
-  return tangency::overlaps_by_filter(a(i).moved_to(Vec3::Zero()), b(i).moved_to(separations[i]));
+  return tangency::overlaps_by_filter(a(i), b(i), separations[i]);
 }
 
 void PairTask::require_finite_separation(std::size_t i) const noexcept {
   if (separations != nullptr) contract::require_finite(call, "separation", separations[i]);
-}
-
-Ellipsoid PairTask::made(std::size_t body) const noexcept {
-  try {
-    return (*moving)[body];
-  } catch (const InvalidEllipsoid& invalid) {
-    contract::no_ellipsoid(call, body, invalid.what());
-  }
 }
 
 /// The two indices of a pair are one number p of 64 bits: where neither half has its highest bit,
@@ -241,8 +249,8 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   block.nearer_normals = work.nearer_normals[0].data();
   if (task.indexed()) {
     block.bodies_a = block.bodies_b = task.lanes;
-    block.floats_a = block.floats_b = task.floats;
     block.rows_a = block.rows_b = task.rows;
+    block.floats_a = block.floats_b = task.floats;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
     if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;

@@ -19,6 +19,13 @@ namespace tangency::inline v0::detail {
 
 inline constexpr std::size_t kBlock = LaneBlock::kPairs;
 
+/// A body of a call, which ends the process where its numbers make none.
+Ellipsoid made_body(const char* call, const MovingBodies& bodies, std::size_t body) noexcept;
+
+/// Ends the process where separations are given and are not as many as pairs, or where none are and
+/// the bodies have no centres.
+void require_separations(const char* call, const PairList& list, bool bodies_have_centres) noexcept;
+
 /// The pairs of one call.
 struct PairTask {
   const char* call = nullptr;
@@ -73,7 +80,6 @@ struct PairTask {
 
  private:
   void require_finite_separation(std::size_t i) const noexcept;
-  Ellipsoid made(std::size_t body) const noexcept;
   Gap single(std::size_t i, const Ellipsoid& a, const Ellipsoid& b,
              const Vec3* previous_normal) const noexcept;
   [[noreturn]] void name_outside(std::size_t first, std::size_t n) const noexcept;

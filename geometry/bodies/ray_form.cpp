@@ -101,7 +101,7 @@ RayForm::RayForm(IntegerForm<4> form, int exponent, const Ellipsoid& body, const
 
 int RayForm::level_sign(double t) const {
   const auto [mantissa, exponent] = decode(t);
-  const mpz_class m(static_cast<long>(mantissa));
+  const mpz_class m = to_integer(mantissa);
   const long shift = exponent + unit_;
   const long up = std::max(0L, shift), down = std::max(0L, -shift);
   return sgn(mpz_class(shifted(c0_, 2 * down) + 2 * m * shifted(c1_, up + down) +
@@ -110,7 +110,7 @@ int RayForm::level_sign(double t) const {
 
 int RayForm::slope_sign(double t) const {
   const auto [mantissa, exponent] = decode(t);
-  const mpz_class m(static_cast<long>(mantissa));
+  const mpz_class m = to_integer(mantissa);
   const long shift = exponent + unit_;
   return sgn(mpz_class(shifted(c1_, std::max(0L, -shift)) + m * shifted(c2_, std::max(0L, shift))));
 }

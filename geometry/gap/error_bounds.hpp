@@ -18,7 +18,7 @@ inline constexpr double kOrdinaryError = kOrdinaryGapErrorBound * kUnitRoundoff;
 /// Of a/h: (V) and (R) hold up to it, where terms of second order are below 2^-6 u a.
 inline constexpr double kThinnestAlongNormal = 0x1p42;
 /// Of |gap| in (V), over u: 5 of sums and product, 1 of gap -+ (V), 3.65 of the normal's length,
-/// by the series of normals/newton.cpp; 3.5 where Eigen normalises it.
+/// by the series of normals/newton.hpp; 3.5 where Eigen normalises it.
 inline constexpr double kOfGap = 9.71, kOfGapNormalised = 9.61;
 /// Of max |d - x_A| in (V), over u: 1.75 derived, the rest covers the tangential part.
 inline constexpr double kOfReach = 2.02;

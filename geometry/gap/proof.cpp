@@ -14,45 +14,79 @@ namespace {
 
 struct Sides {
   TwoLanes h;          ///< support functions
+  TwoLanes inverse;    ///< 1 / h
+  TwoLanes thin;       ///< a / h, a the largest semi-axis
   TwoLanesVec3 point;  ///< support points from the centres
 };
 
 Sides sides(const Pair& pair, const Vec3& n) noexcept {
   const TwoLanesRotations rotations(pair.a.rotation(), pair.b.rotation());
   const TwoLanesVec3 axes = both(pair.a.semi_axes(), pair.b.semi_axes());
+  const TwoLanes largest{pair.a.largest_semi_axis(), pair.b.largest_semi_axis()};
   const TwoLanesVec3 y = rotations.back(n) * axes;
   const TwoLanes h = sqrt(dot(y, y));
-  return {h, rotations * (y * (1.0 / h) * axes)};
+  const TwoLanes inverse = 1.0 / h;
+  return {h, inverse, largest * inverse, rotations * (y * inverse * axes)};
 }
 
-}  // namespace
+// (N): of |step| a/h.
+constexpr double kLongestStep = 0x1p-20;
+// Of the last step's length times that of the step from the normal that the Hessian is of: the way
+// that is left, in rad. Chosen: normals are worth more than the gap alone needs.
+constexpr double kClose = 0x1p-36;
 
-void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
-  const double axis_a = pair.a.largest_semi_axis(), axis_b = pair.b.largest_semi_axis();
-  const Sides at = sides(pair, normal);
+/// (V), (R) and (B). Returns r.
+[[gnu::always_inline]] inline Vec3 prove_at(const Pair& pair, const Vec3& normal, const Sides& at,
+                                            GapProof& proof) noexcept {
+  const TwoLanes largest{pair.a.largest_semi_axis(), pair.b.largest_semi_axis()};
   const Vec3 point_a = at.point.of_a(), point_b = at.point.of_b();
   const Vec3 beyond_a = pair.d - point_a;
   const Vec3 rest = (beyond_a - point_b) + pair.d_low;
   // n.x is h but for the second order of n's rounding, so n.rest has fewer errors than
   // n.d - h_A - h_B.
   const double gap = normal.dot(rest);
-  const double axes = axis_a + axis_b, h = at.h[0] + at.h[1];
-  const double thin_a = axis_a / at.h[0], thin_b = axis_b / at.h[1];
-  const double radii = axis_a * thin_a + axis_b * thin_b;
-  const double error = value_error(axes, h, beyond_a.cwiseAbs().maxCoeff(), gap, kOfGap);
+  const double axes = sum(largest), radii = sum(largest * at.thin);
+  const double error = value_error(axes, sum(at.h), beyond_a.cwiseAbs().maxCoeff(), gap, kOfGap);
   proof.gap = gap;
   proof.low = gap - error;
-  proof.normal = normal;
-  proof.arm_a = point_a;
-  proof.arm_b = -point_b;
   const double ball = proof.low + pair.least_radius();
   // (R): rounding, of which the radii of curvature amplify that of the normal.
-  const double reach2 =
-      reach_squared((rest - gap * normal).squaredNorm(), rest_error(radii, axes, gap));
+  const Vec3 r = rest - gap * normal;
+  const double reach2 = reach_squared(r.squaredNorm(), rest_error(radii, axes, gap));
   // Beyond kThinnestAlongNormal (V) and (R) do not hold: what low is then is not asked for.
-  proof.global = ball > 0.0 && std::max(thin_a, thin_b) <= kThinnestAlongNormal;
+  proof.global = ball > 0.0 && std::max(at.thin[0], at.thin[1]) <= kThinnestAlongNormal;
   // (B): the ball seen from the origin.
   proof.high = proof.global ? gap + (error + reach2 / ball) : GapProof::kUnproven;
+  return r;
+}
+
+}  // namespace
+
+void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept {
+  const Sides at = sides(pair, normal);
+  prove_at(pair, normal, at, proof);
+  proof.normal = normal;
+  proof.arm_a = at.point.of_a();
+  proof.arm_b = -at.point.of_b();
+}
+
+bool prove_gap_and_step(const Pair& pair, const NearlyStationary& near, GapProof& proof) noexcept {
+  const Vec3& n = near.normal;
+  const Sides at = sides(pair, n);
+  const Vec3 r = prove_at(pair, n, at, proof);
+  const Vec3 step = near.step(r, n);
+  // (N): x(n + step) = (x + M step / h) / sqrt(1 + y), with y h^2 = (2 h x + M step) . step.
+  const TwoLanesSymmetric3 shapes(pair.a.shape(), pair.b.shape());
+  const TwoLanesVec3 moved = shapes * step * at.inverse;
+  const TwoLanes y = (2.0 * dot(at.point, step) + dot(moved, step)) * at.inverse;
+  const TwoLanes shorter = 1.0 - y * (0.5 - 0.375 * y);
+  const TwoLanesVec3 point = (at.point + moved) * shorter;
+  proof.normal = renormalised(n + step);
+  proof.arm_a = point.of_a();
+  proof.arm_b = -point.of_b();
+  const double square = step.squaredNorm(), thin = std::max(at.thin[0], at.thin[1]);
+  return near.step.turned * square <= kClose * kClose &&
+         square * (thin * thin) <= kLongestStep * kLongestStep;
 }
 
 namespace {

@@ -12,13 +12,14 @@
 #include <limits>
 
 #include <tangency/geometry/gap/cap.hpp>
+#include <tangency/geometry/normals/newton.hpp>
 
 namespace tangency::inline v0::detail {
 
 /// An enclosure of the gap of the branch that a normal is on, with what was evaluated there.
 struct GapProof {
   double gap;   ///< between low and high
-  double low;   ///< never above f(n), and so never above the global gap
+  double low;   ///< never above the value of f at a normal, and so never above the global gap
   double high;  ///< never below the local maximum of f near n; infinite where none is proven
   bool global;  ///< is high never below the global gap either?
   Vec3 normal;
@@ -40,6 +41,10 @@ struct ContactShift {
 /// @param normal  unit, as Eigen normalises it
 /// @param proof   what is proven; filled in place, which the fast path is measurably quicker for
 void prove_gap(const Pair& pair, const Vec3& normal, GapProof& proof) noexcept;
+
+/// The same at the normal that Newton's method came near with; normal and arms are those after the
+/// step that was left. False where that is no last one, and they are nothing to rely on.
+bool prove_gap_and_step(const Pair& pair, const NearlyStationary& near, GapProof& proof) noexcept;
 
 /// What prove_gap_in_double_double() knows besides: the cap in which `high` bounds f.
 struct CapProof : GapProof {

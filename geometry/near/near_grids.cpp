@@ -269,7 +269,8 @@ std::uint64_t NearGrids::box_of(const Level& level, const Place& place) const {
 }
 
 std::size_t NearGrids::bucket_of(const Level& level, std::uint64_t box) const {
-  return level.first_bucket + (level.hashed ? scattered(box) & level.mask : box);
+  return level.first_bucket +
+         static_cast<std::size_t>(level.hashed ? scattered(box) & level.mask : box);
 }
 
 NearGrids::Range NearGrids::range_around(const Level& level, const Seat& seat, double reach) const {

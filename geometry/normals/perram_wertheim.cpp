@@ -17,7 +17,7 @@ double PerramWertheimForm::first_guess() const noexcept {
 }
 
 double PerramWertheimForm::maximise(int steps) const noexcept {
-  constexpr double kSettled = 0.01;  // chosen: what follows is Newton's method on the normal itself
+  constexpr double kSettled = 0.1;  // chosen: what follows is Newton's method on the normal itself
   PerramWertheimSearch search;
   double l = first_guess();
   for (int i = 0; i < steps; ++i) {

@@ -12,8 +12,12 @@
 #include <limits>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/numbers/two_lanes.hpp>
 
 namespace tangency::inline v0::detail {
+
+/// Of maximise(), where Newton's method on the normal follows; measured: more do not shorten it.
+inline constexpr int kPerramWertheimSteps = 2;
 
 /// D and N at one l by their terms, and what Euler's operator l d/dl makes of them once and twice.
 struct PerramWertheimAt {
@@ -41,13 +45,14 @@ class PerramWertheimSearch {
     const double curvature = (n * at.num2() - p * p) - (d * at.det2() - q * q) - at.l * s * s;
     (slope > 0.0 ? low_ : high_) = at.l;
     // exp(x) by (1 + x/2) / (1 - x/2), |x| <= 1.8, a factor of up to 19: no more is needed of a
-    // step.
+    // step. With x = -slope / curvature that is one quotient.
     constexpr double kLongest = 0.9;
-    double half = slope > 0.0 ? kLongest : -kLongest;
+    const double most = (1.0 + kLongest) / (1.0 - kLongest);
+    double factor = slope > 0.0 ? most : 1.0 / most;
     if (-2.0 * kLongest * curvature > (slope < 0.0 ? -slope : slope)) {
-      half = -0.5 * slope / curvature;
+      factor = (2.0 * curvature - slope) / (2.0 * curvature + slope);
     }
-    const double l = at.l * ((1.0 + half) / (1.0 - half));
+    const double l = at.l * factor;
     return low_ < l && l < high_ ? l : between(at.l, slope);
   }
 
@@ -62,16 +67,21 @@ class PerramWertheimSearch {
 /// D and N of a pair of moderate() bodies as polynomials in l, by their coefficients.
 class PerramWertheimForm {
  public:
-  PerramWertheimForm(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept
-      : a_(a), b_(b), d_(d), mixed_(mixed_adjugate(a.shape(), b.shape())) {
-    const Symmetric3 dd = square(d);
+  PerramWertheimForm(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
+    const TwoLanesSymmetric3 adjugates(a.shape_adjugate(), b.shape_adjugate());
+    const TwoLanes inner = trace_of_product(adjugates, {b.shape(), a.shape()});
+    const TwoLanesVec3 outer_d = adjugates * d;
+    const TwoLanes outer = dot(outer_d, d);
+    direction_[0] = outer_d.of_a();
+    direction_[1] = mixed_adjugate(a.shape(), b.shape()) * d;
+    direction_[2] = outer_d.of_b();
     det_[0] = a.shape_determinant();
-    det_[1] = trace_of_product(a.shape_adjugate(), b.shape());
-    det_[2] = trace_of_product(b.shape_adjugate(), a.shape());
+    det_[1] = inner[0];
+    det_[2] = inner[1];
     det_[3] = b.shape_determinant();
-    num_[0] = trace_of_product(a.shape_adjugate(), dd);
-    num_[1] = trace_of_product(mixed_, dd);
-    num_[2] = trace_of_product(b.shape_adjugate(), dd);
+    num_[0] = outer[0];
+    num_[1] = direction_[1].dot(d);
+    num_[2] = outer[1];
   }
 
   /// A first guess at the maximiser of F: where the outer coefficients balance; at coinciding
@@ -91,14 +101,11 @@ class PerramWertheimForm {
   /// A multiple > 0 of (M_A + l M_B)^-1 d, the direction of the normal at l, namely det(l) times
   /// it.
   Vec3 normal_direction(double l) const noexcept {
-    return a_.shape_adjugate() * d_ + l * (mixed_ * d_ + l * (b_.shape_adjugate() * d_));
+    return direction_[0] + l * (direction_[1] + l * direction_[2]);
   }
 
  private:
-  const Ellipsoid& a_;
-  const Ellipsoid& b_;
-  Vec3 d_;
-  Symmetric3 mixed_;
+  Vec3 direction_[3];  ///< J_A d, X d, J_B d
   double det_[4];
   double num_[3];
 };

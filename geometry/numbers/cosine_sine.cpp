@@ -59,7 +59,7 @@ std::optional<CosineSine> in_double_double(double angle) {
   DoubleDouble r = two_sum(angle, -k * kHalfPi[0]);
   r = r + DoubleDouble(-k * kHalfPi[1]) + two_product(-k, kHalfPi[2]);
   const auto turned =
-      quarters_on(series(r, 0), series(r, 1), static_cast<unsigned>(static_cast<long>(k)));
+      quarters_on(series(r, 0), series(r, 1), static_cast<unsigned>(static_cast<int>(k)));
   // r is within |k| 2^-122 + 2^-101 |r| + 2^-114; the series within 2^-96 of their sums.
   const double reduction = std::abs(k) * 0x1p-121 + 0x1p-113;
   const auto error = [&](const DoubleDouble& v) { return 0x1p-95 * std::abs(v.high) + reduction; };
@@ -120,7 +120,7 @@ std::optional<double> nearest(const mpz_class& value, const mpz_class& error, mp
 /// With `bits` bits behind the point.
 std::optional<CosineSine> in_integers(double angle, mp_bitcnt_t bits) {
   const exact::Dyadic dyadic = exact::decode(angle);
-  mpz_class scaled = static_cast<long>(dyadic.mantissa);
+  mpz_class scaled = exact::to_integer(dyadic.mantissa);
   const long shift = static_cast<long>(bits) + dyadic.exponent;
   if (shift >= 0) {
     scaled <<= static_cast<mp_bitcnt_t>(shift);

@@ -11,8 +11,6 @@
 namespace tangency::inline v0::exact {
 namespace {
 
-static_assert(sizeof(long) == sizeof(std::int64_t), "GMP reads and writes 64-bit values as long");
-
 template <std::size_t N>
 void swap_indices(IntegerForm<N>& form, std::size_t i, std::size_t j) {
   if (i == j) return;
@@ -107,9 +105,18 @@ int common_exponent(std::span<const double> values) noexcept {
   return smallest == none ? 0 : smallest;
 }
 
+mpz_class to_integer(std::int64_t value) {
+  // GMP's own conversions end at a long, which has 32 bits on some systems.
+  if constexpr (sizeof(long) >= sizeof(value)) return static_cast<long>(value);
+  mpz_class result = static_cast<long>(value >> 32);
+  result <<= 32;
+  result += static_cast<unsigned long>(value & 0xffffffff);
+  return result;
+}
+
 mpz_class to_integer(double value, int exponent) {
   const Dyadic dyadic = decode(value);
-  mpz_class result = static_cast<long>(dyadic.mantissa);
+  mpz_class result = to_integer(dyadic.mantissa);
   if (dyadic.mantissa == 0) return result;
   assert(dyadic.exponent >= exponent && "an integer multiple of 2^exponent");
   result <<= static_cast<mp_bitcnt_t>(dyadic.exponent - exponent);
@@ -118,7 +125,7 @@ mpz_class to_integer(double value, int exponent) {
 
 mpq_class to_rational(double value) {
   const Dyadic dyadic = decode(value);
-  mpq_class result = static_cast<long>(dyadic.mantissa);
+  mpq_class result = to_integer(dyadic.mantissa);
   if (dyadic.exponent >= 0) {
     result <<= static_cast<mp_bitcnt_t>(dyadic.exponent);
   } else {

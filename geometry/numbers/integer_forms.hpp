@@ -34,6 +34,9 @@ Dyadic decode(double value) noexcept;
 /// The largest e for which every value is an integer multiple of 2^e; 0 where all are zero.
 int common_exponent(std::span<const double> values) noexcept;
 
+/// value, whatever the size of a long.
+mpz_class to_integer(std::int64_t value);
+
 /// value / 2^exponent. Requires that this is an integer: exponent <= common_exponent({value}).
 mpz_class to_integer(double value, int exponent);
 

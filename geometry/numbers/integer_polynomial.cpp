@@ -42,13 +42,9 @@ int quartic_discriminant_sign(std::span<const mpz_class> coefficients) {
   return sgn(mpz_class(4 * i * i * i - j * j));
 }
 
-/// Arithmetic modulo the prime 2^61 - 1.
-constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
-
-std::uint64_t modular_product(std::uint64_t a, std::uint64_t b) {
-  __extension__ using Wide = unsigned __int128;
-  return static_cast<std::uint64_t>(Wide{a} * b % kPrime);
-}
+/// A prime. Chosen: the largest whose residues are an unsigned long, and their products 64 bits,
+/// everywhere. One pair in 2^31 that is coprime is not so modulo it, and takes longer.
+constexpr std::uint64_t kPrime = (std::uint64_t{1} << 31) - 1;
 
 std::vector<std::uint64_t> modular(const IntegerPolynomial& p) {
   std::vector<std::uint64_t> residues;
@@ -67,8 +63,8 @@ bool modular_coprime(std::vector<std::uint64_t> a, std::vector<std::uint64_t> b)
     const std::size_t shift = a.size() - b.size();
     const std::uint64_t weight = a.back(), factor = b.back();
     for (std::size_t i = 0; i < a.size(); ++i) {
-      const std::uint64_t taken = i < shift ? 0 : modular_product(weight, b[i - shift]);
-      a[i] = (modular_product(factor, a[i]) + (kPrime - taken)) % kPrime;
+      const std::uint64_t taken = i < shift ? 0 : weight * b[i - shift] % kPrime;
+      a[i] = (factor * a[i] + (kPrime - taken)) % kPrime;
     }
     while (!a.empty() && a.back() == 0) a.pop_back();
   }

@@ -42,7 +42,9 @@ std::uint64_t bits_below(const mpq_class& x) {
   const long quantum = std::max(exponent - 52, -1074L);
   const mpq_class scaled = x * power_of_two(-quantum);
   const mpz_class mantissa = scaled.get_num() / scaled.get_den();
-  return (static_cast<std::uint64_t>(quantum + 1074) << 52) + mantissa.get_ui();
+  // Below 2^53, so that the double is exact.
+  return (static_cast<std::uint64_t>(quantum + 1074) << 52) +
+         static_cast<std::uint64_t>(mantissa.get_d());
 }
 
 std::uint64_t bits_above(const mpq_class& x) {

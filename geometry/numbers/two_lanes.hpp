@@ -34,6 +34,9 @@ inline TwoLanesVec3 both(const Vec3& a, const Vec3& b) noexcept {
 inline TwoLanesVec3 operator*(const TwoLanesVec3& v, const TwoLanes& s) noexcept {
   return {v.x * s, v.y * s, v.z * s};
 }
+inline TwoLanesVec3 operator+(const TwoLanesVec3& v, const TwoLanesVec3& w) noexcept {
+  return {v.x + w.x, v.y + w.y, v.z + w.z};
+}
 /// By components.
 inline TwoLanesVec3 operator*(const TwoLanesVec3& v, const TwoLanesVec3& w) noexcept {
   return {v.x * w.x, v.y * w.y, v.z * w.z};
@@ -62,6 +65,17 @@ struct TwoLanesSymmetric3 {
             zx * v.x() + yz * v.y() + zz * v.z()};
   }
 };
+
+/// tr(S_A T_A), tr(S_B T_B)
+inline TwoLanes trace_of_product(const TwoLanesSymmetric3& s,
+                                 const TwoLanesSymmetric3& t) noexcept {
+  return s.xx * t.xx + s.yy * t.yy + s.zz * t.zz + 2.0 * (s.yz * t.yz + s.zx * t.zx + s.xy * t.xy);
+}
+
+/// w_A S_A + w_B S_B
+inline Symmetric3 weighted_sum(const TwoLanesSymmetric3& s, const TwoLanes& w) noexcept {
+  return {sum(w * s.xx), sum(w * s.yy), sum(w * s.zz), sum(w * s.yz), sum(w * s.zx), sum(w * s.xy)};
+}
 
 /// Two rotations by their columns, the body axes in space.
 struct TwoLanesRotations {

@@ -12,14 +12,30 @@
 namespace tangency::inline v0::detail {
 namespace {
 
-constexpr mp_limb_t kTop = mp_limb_t{1} << 63;
-constexpr int kLimbBits = 64;
+constexpr int kLimbBits = GMP_LIMB_BITS;
+constexpr mp_limb_t kTop = mp_limb_t{1} << (kLimbBits - 1);
 constexpr int kDigits = std::numeric_limits<double>::digits;
 
 }  // namespace
 
+std::uint64_t WideFloat::top() const noexcept {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kTopLimbs; ++i) {
+    const auto limb = static_cast<std::size_t>(kLimbs - 1 - i);
+    bits |= std::uint64_t{limbs_[limb]} << (64 - (i + 1) * kLimbBits);
+  }
+  return bits;
+}
+
+void WideFloat::set_top(std::uint64_t bits) noexcept {
+  for (int i = 0; i < kTopLimbs; ++i) {
+    const auto limb = static_cast<std::size_t>(kLimbs - 1 - i);
+    limbs_[limb] = static_cast<mp_limb_t>(bits >> (64 - (i + 1) * kLimbBits));
+  }
+}
+
 WideFloat::WideFloat(double v) noexcept : negative_(std::signbit(v)) {
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(v) & ~kTop;
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(v) & ~(std::uint64_t{1} << 63);
   if (bits == 0) {
     negative_ = false;
     return;
@@ -28,16 +44,16 @@ WideFloat::WideFloat(double v) noexcept : negative_(std::signbit(v)) {
   constexpr std::uint64_t kHidden = std::uint64_t{1} << (kDigits - 1);
   const std::uint64_t fraction = bits & (kHidden - 1);
   const std::uint64_t mantissa = bits >= kHidden ? kHidden | fraction : fraction;
-  limbs_[kLimbs - 1] = mantissa << std::countl_zero(mantissa);
+  set_top(mantissa << std::countl_zero(mantissa));
   exponent_ = exponent_of(v) + 1;
 }
 
 WideFloat::operator double() const noexcept {
   if (is_zero()) return 0.0;
-  constexpr int kDropped = kLimbBits - kDigits;
-  const mp_limb_t top = limbs_[kLimbs - 1];
+  constexpr int kDropped = 64 - kDigits;
+  const std::uint64_t highest = top();
   // At most 2^53, and so a double, whatever the rounding mode.
-  const mp_limb_t kept = (top >> kDropped) + ((top >> (kDropped - 1)) & 1);
+  const std::uint64_t kept = (highest >> kDropped) + ((highest >> (kDropped - 1)) & 1);
   constexpr long kBeyond = 2000;  // an exponent that no double has
   const long power = std::clamp(exponent_, -kBeyond, kBeyond) - kDigits;
   const double value = std::scalbn(static_cast<double>(kept), static_cast<int>(power));

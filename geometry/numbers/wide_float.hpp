@@ -12,6 +12,7 @@
 #include <gmp.h>
 
 #include <array>
+#include <cstdint>
 
 #include <tangency/geometry/numbers/vector3.hpp>
 #include <tangency/geometry/vectors.hpp>
@@ -43,8 +44,13 @@ class WideFloat {
   }
 
  private:
-  static constexpr int kLimbs = 8;
-  static_assert(GMP_NUMB_BITS == 64, "limbs of 64 bits are assumed");
+  static_assert(GMP_NAIL_BITS == 0 && 512 % GMP_LIMB_BITS == 0,
+                "limbs are full, and make 512 bits");
+  static constexpr int kLimbs = 512 / GMP_LIMB_BITS;
+  static constexpr int kTopLimbs = 64 / GMP_LIMB_BITS;  ///< that make the highest 64 bits
+
+  std::uint64_t top() const noexcept;  ///< the highest 64 bits
+  void set_top(std::uint64_t bits) noexcept;
 
   /// Shifts a mantissa that is not 0 until its highest bit is set.
   void normalise() noexcept;

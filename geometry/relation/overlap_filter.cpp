@@ -158,7 +158,7 @@ Vec3 OverlapFilter::scaled_normal() const noexcept {
 }
 
 void OverlapFilter::settle(const Ellipsoid& a, const Ellipsoid& b, const Vec3& d) noexcept {
-  const Stationary found = newton_from(a, b, d, scaled_normal().normalized(), Finish::late);
+  const Stationary found = newton_from(a, b, d, scaled_normal().normalized());
   normal_ = with_largest_component_near_1(found.normal);
   settled_ = true;
   answer_ = decide_by_factors(a, b, d, normal_);

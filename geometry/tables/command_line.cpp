@@ -17,6 +17,7 @@
 #include <string_view>
 #include <utility>
 
+#include <tangency/geometry/tables/command_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
 namespace tangency::inline v0::tables {
@@ -42,6 +43,33 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
     }
   }
   return slips[a.size()][b.size()];
+}
+
+/// What the help says of an option or an argument by its place.
+OptionText text_of(const CLI::Option& option) {
+  OptionText text{.names = {}, .value = option.get_type_name(), .help = option.get_description()};
+  if (option.get_positional()) text.names.push_back(option.get_name(true));
+  for (const std::string& name : option.get_snames()) text.names.push_back('-' + name);
+  for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+  if (option.get_positional() || option.get_items_expected_max() == 0) text.value.clear();
+  return text;
+}
+
+CommandText text_of(const CLI::App& app) {
+  CommandText text{.name = app.get_name(),
+                   .description = app.get_description(),
+                   .footer = app.get_footer(),
+                   .options = {},
+                   .arguments = {},
+                   .subcommands = {}};
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
+    (option->get_positional() ? text.arguments : text.options).push_back(text_of(*option));
+  }
+  for (const CLI::App* command : app.get_subcommands({})) {
+    text.subcommands.push_back(text_of(*command));
+  }
+  return text;
 }
 
 }  // namespace
@@ -86,7 +114,9 @@ template Option Option::between(unsigned, unsigned) const;
 template Option Option::between(std::size_t, std::size_t) const;
 
 Option Option::one_of(const std::vector<std::string>& words) const {
-  option_->check(CLI::IsMember(words).description(""));
+  std::string names;
+  for (const std::string& word : words) names += (names.empty() ? "" : "|") + word;
+  option_->check(CLI::IsMember(words).description(""))->type_name(names);
   return *this;
 }
 
@@ -120,7 +150,24 @@ void Command::footer(const std::string& text) { app_->footer(text); }
 Program::Program(const std::string& name, const std::string& description,
                  const std::string& version)
     : Command(*new CLI::App(description, name)), own_(&app()) {
-  if (!version.empty()) own_->set_version_flag("--version", name + ' ' + version);
+  if (version.empty()) return;
+  own_->set_version_flag("--version", name + ' ' + version);
+  // As --version does: before anything that is required is missed.
+  own_->add_option_function<std::string>(
+          "--describe",
+          [this, version](const std::string& form) {
+            std::string text = described(form, version);
+            text.pop_back();  // the end of line that CLI11 prints behind it
+            throw CLI::CallForVersion(text, 0);
+          })
+      ->check(CLI::IsMember({"man", "bash", "zsh"}))
+      ->group("");
+}
+
+std::string Program::described(const std::string& form, const std::string& version) const {
+  const CommandText text = text_of(*own_);
+  if (form == "man") return manual_page(text, version);
+  return form == "bash" ? bash_completion(text) : zsh_completion(text);
 }
 
 Program::~Program() = default;

@@ -92,7 +92,9 @@ class Command {
 
 class Program : public Command {
  public:
-  /// @param version  what --version says behind the name; nothing for a program that has none
+  /// @param version  what --version says behind the name; nothing for a program that has none. One
+  ///                 that has, and so is installed, also has the hidden `--describe man|bash|zsh`:
+  ///                 command_text.hpp
   Program(const std::string& name, const std::string& description, const std::string& version = "");
   ~Program();
   Program(const Program&) = delete;
@@ -108,6 +110,7 @@ class Program : public Command {
  private:
   int parse_and_run(int argc, const char* const* argv);
   int refuse(const std::string& why) const;
+  std::string described(const std::string& form, const std::string& version) const;
   std::string no_subcommand(const std::string& word) const;
 
   std::unique_ptr<CLI::App> own_;

@@ -43,8 +43,7 @@ void add_mixed_terms_option(tables::Command& command, QuadricOptions& options) {
       .option("--mixed-terms", options.mixed_terms,
               "What D, E, F, G, H and J of a quadric are of the factors of their terms: half "
               "(default), or full")
-      .one_of({"half", "full"})
-      .type_name("half|full");
+      .one_of({"half", "full"});
 }
 
 void add_mixed_terms_option(tables::Command& command, ConicOptions& options) {
@@ -52,8 +51,7 @@ void add_mixed_terms_option(tables::Command& command, ConicOptions& options) {
       .option("--mixed-terms", options.mixed_terms,
               "What B, D and E of a conic are of the factors of their terms: full (default), or "
               "half, as the entries of its matrix are")
-      .one_of({"half", "full"})
-      .type_name("half|full");
+      .one_of({"half", "full"});
 }
 
 }  // namespace tangency::inline v0::tool

@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/bench/pairs.hpp>
 #include <tangency/bench/speed_accuracy/count.hpp>
+#include <tangency/bench/speed_accuracy/methods.hpp>
 #include <tangency/bench/timing.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
@@ -53,6 +55,7 @@ bool is_promised(const std::string& column, const TableRow& row) {
     return method != "overlaps" &&
            starts_with_any(method, {"signed_gap", "follow_gap", "gap_lanes"});
   if (column == "local_error_largest") return row.at("local") != "0";
+  if (column.starts_with("left")) return method == "signed_gaps" || method == "follow_gaps";
   if (column == "instructions") return !batch;  // and at the levels that valgrind knows
   return true;
 }
@@ -88,6 +91,9 @@ TEST(SpeedAccuracyRun, AQuickRunFillsEveryColumnWhereItIsPromised) {
         EXPECT_NE(cell, "") << column << " of " << row.at("method") << ' ' << row.at("option");
       }
     }
+    if (!row.at("left").empty()) {
+      EXPECT_LE(std::stoul(row.at("left_deep")), std::stoul(row.at("left")));
+    }
     EXPECT_GT(std::stod(row.at("ns")), 0);
     EXPECT_EQ(row.at("pairs"), "40");
     if (row.at("definition") == "common normal" && row.at("method") != "start alone") {
@@ -110,6 +116,25 @@ TEST(SpeedAccuracyRun, AQuickRunFillsEveryColumnWhereItIsPromised) {
     for (const auto& [column, cell] : row) EXPECT_NE(cell, "") << column;
   }
   EXPECT_NE(read_file(picture).find("</svg>"), std::string::npos);
+}
+
+TEST(SpeedAccuracyRun, TheLanesLeaveFewContactsOfSlenderBodies) {
+  // Of 1000. At aspect 100 one in seven overlaps deeper than rho.
+  const std::map<std::string, std::size_t> most = {{"10", 50}, {"30", 150}, {"100", 200}};
+  std::size_t families = 0;
+  for (const std::string& family : bench::family_names()) {
+    if (!family.starts_with("contacts of ")) continue;
+    ++families;
+    const auto pairs = bench::drawn_pairs(family, 1000);
+    const std::string aspect = family.substr(family.rfind(' ') + 1);
+    for (const auto& method : speed_accuracy::methods_on(*pairs, bench::best_levels())) {
+      if (!method.left || method.option != "standard") continue;
+      bench::force_level(method.level);
+      EXPECT_LE(method.left().size(), most.at(aspect)) << family << ' ' << method.name;
+      bench::force_level(0);
+    }
+  }
+  EXPECT_EQ(families, 6U);
 }
 
 TEST(SpeedAccuracyRun, BadOptionsAreRefusedInOneLine) {

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,6 +13,8 @@
 #include <vector>
 
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/tests/support/instruction_sets.hpp>
+#include <tangency/tests/support/same_bits.hpp>
 #include <tangency/verify/families/adversarial.hpp>
 #include <tangency/verify/families/conversions.hpp>
 #include <tangency/verify/families/extreme.hpp>
@@ -100,30 +100,13 @@ struct Columns {
   std::vector<GapTier> tier;
 };
 
-inline bool same_bits(double x, double y) {
-  return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-}
-inline bool same_bits(const Vec3& v, const Vec3& w) {
-  return same_bits(v[0], w[0]) && same_bits(v[1], w[1]) && same_bits(v[2], w[2]);
-}
-inline bool same_bits(const Gap& g, const Gap& h) {
-  return same_bits(g.gap, h.gap) && same_bits(g.gap_error, h.gap_error) &&
-         same_bits(g.normal, h.normal) && same_bits(g.arm_a, h.arm_a) &&
-         same_bits(g.arm_b, h.arm_b) && g.status == h.status && g.tier == h.tier;
-}
-
 /// Runs with each instruction set that this machine and this build have, one after the other.
 inline void at_every_level(const std::function<void()>& run) {
-  const std::vector<std::int64_t> levels = hwy::SupportedAndGeneratedTargets();
-  ASSERT_FALSE(levels.empty());
-  for (const std::int64_t level : levels) {
-    hwy::SetSupportedTargetsForTest(level);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    SCOPED_TRACE(hwy::TargetName(level));
+  const int levels = for_each_instruction_set([&](const char* name) {
+    SCOPED_TRACE(name);
     run();
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
+  });
+  ASSERT_GT(levels, 0);
 }
 
 }  // namespace tangency::testing

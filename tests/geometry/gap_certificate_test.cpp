@@ -410,9 +410,70 @@ TEST(GapSearch, OfCoaxialBodiesIsThatAlongTheirMeridianAtEveryDepth) {
   }
 }
 
+TEST(GapProof, ArmsAfterTheLastStepAreSupportPointsAtItsNormal) {
+  // (N) of the derivation: steps as long as it takes, in any direction, and no longer ones. Both
+  // support points err, by (N) and by (R).
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto direction = [&] { return Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); };
+  const auto body = [&] {
+    const auto axis = [&] { return std::exp(uniform(0.0, std::log(100.0))); };
+    const Quaternion q(uniform(0.1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    return Ellipsoid(Vec3::Zero(), {axis(), axis(), axis()}, q);
+  };
+  double worst = 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    const Ellipsoid a = body(), b = body();
+    const Vec3 n = direction().normalized(), rest = 10.0 * direction();
+    const Vec3 d = a.support_point(n) + b.support_point(n) + rest;
+    const double thin =
+        std::max(a.largest_semi_axis() / a.support(n), b.largest_semi_axis() / b.support(n));
+    for (const double length : {0.999, 1.001}) {
+      // Of a step that is a multiple of the tangential rest.
+      const double share = length * 0x1p-20 / thin / (rest - n.dot(rest) * n).norm();
+      const detail::NearlyStationary near{{n, true}, {{}, Vec3::Zero(), share, 1.0, 0.0}};
+      detail::GapProof proof;
+      const bool last = detail::prove_gap_and_step(detail::Pair({a, b, &d}), near, proof);
+      ASSERT_EQ(last, length < 1.0) << i;
+      if (!last) continue;
+      for (const bool of_a : {true, false}) {
+        const Ellipsoid& e = of_a ? a : b;
+        const double axis = e.largest_semi_axis(), h = e.support(proof.normal);
+        const double bound = kU * (16.3 * axis * (axis / h) + 27.5 * axis);
+        const Vec3 arm = of_a ? proof.arm_a : Vec3(-proof.arm_b);
+        worst = std::max(worst, (arm - e.support_point(proof.normal)).norm() / bound);
+      }
+    }
+  }
+  std::printf("seed %llu: %.2f of the bound\n", static_cast<unsigned long long>(kSeed), worst);
+  EXPECT_LE(worst, 1.0);
+}
+
+TEST(ContactBounds, OfOrdinaryContactsHoldNormalsToTheLastStep) {
+  // A single step is left where its length times that of the one before is below 2^-36, and what
+  // that leaves is a few times as much.
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    verify::ManufacturedContacts contacts(verify::contact_classes()[k], kSeed);
+    for (int i = 0; i < 1000; ++i) {
+      const auto contact = contacts.next();
+      const Ellipsoid a = to_ellipsoid(contact.a), b = to_ellipsoid(contact.b);
+      largest = std::max(largest, contact_bounds(a, b, signed_gap(a, b)).normal);
+    }
+  }
+  std::printf("seed %llu: normals within %.1e rad\n", static_cast<unsigned long long>(kSeed),
+              largest);
+  EXPECT_LT(largest, 0x1p-32);
+}
+
 TEST(ContactBounds, AreTightForAnOrdinaryContactAndEverythingAtATie) {
   const Ellipsoid a({0, 0, 0}, {1, 1.5, 2}), b({3, 1, 0.5}, {1.2, 1, 0.8}, {0.5, 0.5, 0.1, 0.3});
-  const ContactBounds bounds = contact_bounds(a, b, signed_gap(a, b));
+  // From its own normal a search ends at rounding.
+  const Vec3 apart = b.centre() - a.centre();
+  const ContactBounds bounds =
+      contact_bounds(a, b, apart, follow_gap(a, b, apart, signed_gap(a, b).normal));
   EXPECT_LT(bounds.normal, 1e-14);
   EXPECT_LT(bounds.arm_a, 2e-14);
   EXPECT_LT(bounds.arm_b, 2e-14);

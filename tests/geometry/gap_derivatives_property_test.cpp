@@ -218,7 +218,7 @@ TEST(GapDerivatives, AreTheSameWhereTheDifferenceOfTheCentresOverflows) {
   }
 }
 
-/// The example of docs/guide.md.
+/// The example of docs/guide/further.md, with a turn.
 TEST(GapDerivatives, PredictTheGapOfAPairThatMovesAndTurnsALittle) {
   const Ellipsoid a({0, 0, 0}, {3, 2, 1}), b({4, 1, 0.5}, {1, 2, 1.5});
   const GapDerivatives d = gap_derivatives(a, b, signed_gap(a, b));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include <tangency/geometry/bodies/ellipsoid_form.hpp>
 #include <tangency/geometry/numbers/integer_forms.hpp>
@@ -127,6 +128,17 @@ RC_GTEST_PROP(IntegerForms, TheCommonExponentIsTheLargest, ()) {
     RC_ASSERT(value_of(values[0]) == to_rational(values[0]));
     RC_ASSERT(value_of(values[1]) == to_rational(values[1]));
   }
+}
+
+TEST(IntegerForms, IntegersOf64BitsAreReadWhateverTheSizeOfALong) {
+  for (const std::int64_t value :
+       {std::int64_t{0}, std::int64_t{-1}, (std::int64_t{1} << 31) - 1, std::int64_t{1} << 31,
+        -(std::int64_t{1} << 31) - 1, (std::int64_t{1} << 53) - 1, -(std::int64_t{1} << 53) + 1,
+        INT64_MAX, INT64_MIN}) {
+    EXPECT_EQ(exact::to_integer(value).get_str(), std::to_string(value));
+  }
+  EXPECT_EQ(exact::to_integer(-0x1.fffffffffffffp+52, 0).get_str(), "-9007199254740991");
+  EXPECT_EQ(exact::to_rational(0x1.0000000000001p-52).get_num().get_str(), "4503599627370497");
 }
 
 TEST(IntegerForms, SubnormalsAreReadInEveryEnvironment) {

@@ -37,6 +37,7 @@ COMMANDS = {
     "verify/quartic": ["{quartic_agreement}", "--count", "4000"],
     "verify/time_of_contact": ["{time_of_contact_agreement}", "--count", "1200", "--spins", "1000"],
     "verify/ellipses": ["{ellipse_agreement}", "--share", "0.01", "--numbers", "20"],
+    "verify/batch": ["{batch_agreement}", "--per-family", "100", "--with-oracle", "2"],
 }
 # Whose tests these are, as the rooms of the others follow from their names.
 ROOMS = {"grade/pairs": "geometry/tool/contact", "grade/perram-wertheim": "geometry/tool/contact",

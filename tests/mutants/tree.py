@@ -9,7 +9,7 @@ import subprocess
 PROGRAMS = ["tests_tool", "tests_grade", "tangency_tool", "tangency_verify_tool", "sphere_tool",
             "tests_geometry", "tests_geometry_allocation", "relation_agreement", "gap_agreement",
             "primitives_agreement", "ray_agreement", "quartic_agreement",
-            "time_of_contact_agreement", "ellipse_agreement"]
+            "time_of_contact_agreement", "ellipse_agreement", "batch_agreement"]
 # A shared library is linked once and no program again; bound to itself, it runs its own mutated
 # inline functions even where a program has clean ones. No optimisation that compiling pays for.
 CONFIGURE = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",

@@ -152,6 +152,48 @@ TEST(CommandLine, WhatTheBodyThrowsIsARefusalWithTheNameOfTheProgram) {
             "prog: filesystem error: cannot rename: No space left on device\n");
 }
 
+std::string described_as(const char* form) {
+  Program program("prog-a", "prog-a: does a thing.\nMore of it.", "1.2");
+  std::string word, hidden, file;
+  Command& make = program.subcommand("make", "Makes: it");
+  make.option("--level", word, "How [much]").one_of({"half", "full"});
+  make.option("--secret", hidden, "Nobody's").hidden();
+  make.option("FILE", file, "Input");
+  make.footer(".a line\n'that a request'\nbegins \\ like");
+  program.subcommand("mend", "Mends it");
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(run(program, {"--describe", form}).status, 0);
+  return ::testing::internal::GetCapturedStdout();
+}
+
+// geometry/tables/command_text.hpp (1)
+TEST(CommandText, ManualPageNamesWhatTheHelpNames) {
+  const std::string page = described_as("man");
+  for (const char* line :
+       {".TH PROG-A 1 \"\" \"prog-a 1.2\" \"User Commands\"\n", "prog\\-a \\- does a thing\n",
+        ".SH \"PROG-A MAKE\"\nMakes: it\n", "\\fB\\-\\-level\\fR \\fIhalf|full\\fR\nHow [much]\n",
+        "\\fBFILE\\fR\nInput\n", "\n\\&.a line\n\\&\\(aqthat a request\\(aq\nbegins \\e like\n",
+        ".SH \"PROG-A MEND\"\nMends it\n"}) {
+    EXPECT_NE(page.find(line), std::string::npos) << line << page;
+  }
+  EXPECT_EQ(page.find("secret"), std::string::npos);
+}
+
+// geometry/tables/command_text.hpp (1)
+TEST(CommandText, CompletionsNameWhatTheHelpNames) {
+  const std::string bash = described_as("bash"), zsh = described_as("zsh");
+  for (const char* line :
+       {"'make --level') words='half full' ;;\n", "'make') words='-h --help --level' ;;\n",
+        "words='make mend' ;;\n", "complete -o default -F _prog_a prog-a\n"}) {
+    EXPECT_NE(bash.find(line), std::string::npos) << line << bash;
+  }
+  for (const char* line : {"#compdef prog-a\n", "'make:Makes\\: it'\n",
+                           "'--level[How \\[much\\]]:half|full:(half full)'", "'*:FILE:_files'"}) {
+    EXPECT_NE(zsh.find(line), std::string::npos) << line << zsh;
+  }
+  EXPECT_EQ((bash + zsh).find("secret"), std::string::npos);
+}
+
 /// A program that prints through stdio and std::cout, and lets neither know of an error.
 int print_to(int standard_output, const char* argument = nullptr) {
   ::dup2(standard_output, STDOUT_FILENO);

@@ -20,8 +20,8 @@ class AgreementProgram {
 
   /// The help names the default, which is the value now.
   template <class Value>
-  void option(const std::string& name, Value& value, const std::string& help = "") {
-    program_.option(name, value, help).shows_default();
+  tables::Option option(const std::string& name, Value& value, const std::string& help = "") {
+    return program_.option(name, value, help).shows_default();
   }
 
   /// The whole of the main(): prints the seed, what `kept` prints, and "agrees" or "DISAGREES" as

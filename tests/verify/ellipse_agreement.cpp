@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds what the kernel says of two ellipses against the oracles, family by family: relation,
 // crossings and their multiplicities exactly; their places, the common area and the gap in numbers;
-// and everything against the same pair exchanged. The merge gate runs a part of it; docs/guide.md
+// and everything against the same pair exchanged. The merge gate runs a part of it; docs/testing.md
 // names the whole.
 
 #include <algorithm>

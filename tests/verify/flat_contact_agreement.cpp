@@ -2,7 +2,7 @@
 // Holds the gaps by other definitions, the curvatures at a contact and the derivatives of the gap
 // against 100 digits, in the directions in which flat and long bodies are hard: face to face many
 // thicknesses apart, nearly concentric, rim to rim, crossing, nearly parallel, touched on a face.
-// Prints the largest errors over their bounds. The merge gate runs a part of it; docs/guide.md
+// Prints the largest errors over their bounds. The merge gate runs a part of it; docs/testing.md
 // names the whole.
 
 #include <algorithm>

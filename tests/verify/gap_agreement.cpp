@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the kernel's gap, its certificate and its bounds on normal and points against the 100-digit
-// oracle, family by family. The merge gate runs a part of it; docs/guide.md names the whole.
+// oracle, family by family. The merge gate runs a part of it; docs/testing.md names the whole.
 
 #include <algorithm>
 #include <cmath>

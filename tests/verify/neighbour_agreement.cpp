@@ -2,7 +2,8 @@
 // Holds neighbours() against all images of all pairs, each asked of the exact oracle (of exact
 // rational numbers where an image's centre is no triple of doubles): sizes to 1:1000, needles and
 // plates of 100:1, cells thinner than a body, bodies that just touch, bodies on the border, 0 to
-// 5000 bodies, any periodic axes. The merge gate runs a part of it; docs/guide.md names the whole.
+// 5000 bodies, any periodic axes. The merge gate runs a part of it; docs/testing.md names the
+// whole.
 #include <Eigen/LU>
 #include <gmpxx.h>
 

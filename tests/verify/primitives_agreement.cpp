@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the closest point, the ray, the wall and the sphere against the oracle's 120 digits on as
 // many inputs of each as asked for, and prints the largest errors. The merge gate runs a part of
-// it; docs/guide.md names the whole.
+// it; docs/testing.md names the whole.
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the real roots of quartics, of coefficients over the whole range of doubles, against
-// Sturm's count in exact integers. The merge gate runs a part of it; docs/guide.md names the whole.
+// Sturm's count in exact integers. The merge gate runs a part of it; docs/testing.md names the
+// whole.
 #include <gmpxx.h>
 
 #include <algorithm>

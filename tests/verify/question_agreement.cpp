@@ -2,7 +2,7 @@
 // Holds the questions of single bodies, in every form of a body, against exact rational numbers and
 // 120 digits: ellipses and points, walls, rays and points of bodies by matrices, and when spheres
 // by matrices meet; and bodies inside bodies (containment_questions.cpp). The merge gate runs a
-// part of it; docs/guide.md names the whole.
+// part of it; docs/testing.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 
@@ -17,6 +17,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <tangency/geometry/closest_point.hpp>
 #include <tangency/geometry/ellipse_closest_point.hpp>
@@ -396,14 +397,20 @@ constexpr std::array<Kind, 9> kKinds{{{"ellipses", check_ellipses},
                                       {"plane-margins", questions::check_plane_margins}}};
 
 bool agree(std::uint64_t seed, long count, const std::string& only) {
-  bool kept = true, any = false;
+  bool kept = true;
   for (const auto& [name, check] : kKinds) {
     if (!only.empty() && only != name) continue;
     Source source(seed);
-    kept = check(source, count) && kept, any = true;
+    kept = check(source, count) && kept;
     std::fflush(stdout);
   }
-  return kept && any;
+  return kept;
+}
+
+std::vector<std::string> kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  return names;
 }
 
 }  // namespace
@@ -416,8 +423,6 @@ int main(int argc, char** argv) {
   long count = 100'000;
   std::string only;
   program.option("--count", count, "inputs of each");
-  program.option("--only", only,
-                 "one kind: ellipses, walls, rays, points, times, clearances, margins, "
-                 "plane-clearances or plane-margins");
+  program.option("--only", only, "one kind; else all").one_of(kinds());
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, count, only); });
 }

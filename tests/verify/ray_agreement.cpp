@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds rays against exact rational numbers: which hits lie in the interval, and how far hit points
 // are from surface and line, of bodies as thin as doubles allow and of origins exactly on the
-// surface. The merge gate runs a part of it; docs/guide.md names the whole.
+// surface. The merge gate runs a part of it; docs/testing.md names the whole.
 #include <gmpxx.h>
 #include <mpfr.h>
 

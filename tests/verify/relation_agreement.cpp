@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the kernel's relation against the exact oracle on as many pairs as asked for, and tallies
-// by family and by tier. The merge gate runs a part of it; docs/guide.md names the whole.
+// by family and by tier. The merge gate runs a part of it; docs/testing.md names the whole.
 
 #include <algorithm>
 #include <cstdint>

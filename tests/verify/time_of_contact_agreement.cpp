@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holds the time of first contact, of the single call and of the batch, against the interval oracle
 // on as many motions as asked for, by family, and the tolerance of many more that spin, exactly.
-// The merge gate runs a part of it; docs/guide.md names the whole.
+// The merge gate runs a part of it; docs/testing.md names the whole.
 #include <gmpxx.h>
 
 #include <algorithm>

@@ -73,6 +73,24 @@ std::span<const ExtremeFamily> extreme_families() {
   return families;
 }
 
+std::span<const ExtremeFamily> slender_contacts() {
+  static const std::vector<ExtremeFamily> families = [] {
+    std::vector<ExtremeFamily> all;
+    for (const auto& [name, shape] :
+         {std::pair("needles", Form::needles), {"discs", Form::discs}}) {
+      for (const int aspect : {10, 30, 100}) {
+        ExtremeFamily family{
+            "contacts of " + std::string(name) + " of aspect " + std::to_string(aspect), shape,
+            static_cast<double>(aspect)};
+        family.least_gap = 1e-3, family.largest_gap = 1e-1;
+        all.push_back(family);
+      }
+    }
+    return all;
+  }();
+  return families;
+}
+
 EllipsoidPair drawn(Draw& draw, const ExtremeFamily& family) {
   EllipsoidPair pair{extreme_body(draw, family, Form::needles, family.scale), {}};
   const double ratio = draw.log_uniform(1 / family.size_ratio, family.size_ratio);
@@ -82,6 +100,12 @@ EllipsoidPair drawn(Draw& draw, const ExtremeFamily& family) {
     pair.a.centre[i] = rounded(place[i] * (family.scale * family.origin));
   }
   const double least = least_axis(pair);
+  if (family.least_gap > 0) {
+    const double gap = least * draw.log_uniform(family.least_gap, family.largest_gap);
+    const bool apart = draw.coin();
+    place_b(pair, drawn_direction(draw), apart ? gap : -gap);
+    return pair;
+  }
   const double most = std::max(most_axis(pair.a), most_axis(pair.b));
   double gap = least * draw.log_uniform(1e-16, 1e6 * (most / least));
   if (draw.integer(0, 2) == 0) {

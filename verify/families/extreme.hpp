@@ -29,9 +29,16 @@ struct ExtremeFamily {
   double scale = 1;       ///< of all lengths
   double origin = 0;      ///< distance of A's centre from the origin over `scale`
   double least_overlap = 1e-16;
+  /// > 0: ordinary contacts instead, of uniform normals and gaps of either sign that are
+  /// log-uniform from this to `largest_gap` of the smallest semi-axis
+  double least_gap = 0;
+  double largest_gap = 0;
 };
 
 std::span<const ExtremeFamily> extreme_families();
+
+/// Ordinary contacts of slender bodies: gaps of 1e-3 to 1e-1 of the smallest semi-axis.
+std::span<const ExtremeFamily> slender_contacts();
 
 EllipsoidPair drawn(Draw& draw, const ExtremeFamily& family);
 

@@ -58,7 +58,7 @@ ScaledIntegers to_integers(std::span<const double> values) {
   if (lowest != std::numeric_limits<int>::max()) result.exponent = lowest;
   result.m.reserve(parts.size());
   for (const auto& [mantissa, exponent] : parts) {
-    mpz_class integer(static_cast<long>(mantissa));
+    mpz_class integer(static_cast<double>(mantissa));  // below 2^53, so exact
     if (mantissa != 0) integer <<= static_cast<mp_bitcnt_t>(exponent - lowest);
     result.m.push_back(std::move(integer));
   }

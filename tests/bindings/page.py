@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the code blocks of a page, and compares what they print.
+
+Usage: page.py PAGE KIND SCRATCH COMMAND ...
+Every block of kind KIND is followed by a block of kind text, which is what it prints. python: the blocks of
+a page are parts of one program, run by COMMAND. Other kinds: each block is a program; COMMAND compiles it
+where it names {program}, or runs it, and {source} is its file. Ends with 1 where an output differs, or where
+there is no block.
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ENDINGS = {"c": "c", "fortran": "f90", "octave": "m", "python": "py"}
+SEPARATOR = "---- the next block"
+
+
+def blocks(page, kind):
+    """Code, what it prints, and the line where it stands."""
+    text = Path(page).read_text(encoding="utf-8")
+    found = []
+    for block in re.finditer(rf"^```{kind}\n(.*?)^```\n", text, re.M | re.S):
+        printed = re.match(r"\s*```text\n(.*?)^```", text[block.end():], re.M | re.S)
+        found.append((block[1], printed[1] if printed else "", text.count("\n", 0, block.start()) + 1))
+    return found
+
+
+def output(arguments, folder):
+    done = subprocess.run(arguments, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    return done.stdout if done.returncode == 0 else f"{done.stdout}(ended with {done.returncode})\n"
+
+
+def outputs(kind, code, folder, command):
+    """What each block prints."""
+    if kind == "python":
+        source = folder / "page.py"
+        source.write_text(f'\nprint("{SEPARATOR}")\n'.join(code), encoding="utf-8")
+        return output([*command, str(source)], folder).split(SEPARATOR + "\n")
+    printed = []
+    for number, block in enumerate(code):
+        source, program = folder / f"block{number}.{ENDINGS[kind]}", folder / f"block{number}"
+        source.write_text(block, encoding="utf-8")
+        words = [word.format(source=source, program=program) for word in command]
+        printed.append(output(words, folder))
+        if any("{program}" in word for word in command) and not printed[-1]:
+            printed[-1] = output([str(program)], folder)
+    return printed
+
+
+def main():
+    page, kind, folder, command = sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve(), sys.argv[4:]
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    all_blocks = blocks(page, kind)
+    printed = outputs(kind, [code for code, _, _ in all_blocks], folder, command)
+    differ = len(printed) != len(all_blocks)
+    for (_, expected, line), found in zip(all_blocks, printed):
+        if found != expected:
+            differ = True
+            print(f"{page}:{line}: the page says\n{expected}it prints\n{found}")
+    print(f"{page}: {len(all_blocks)} blocks of {kind}")
+    sys.exit(differ or not all_blocks)
+
+
+main()

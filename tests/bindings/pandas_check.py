@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Data frames of pandas in and out: tests/bindings/long.sh."""
+
+import numpy as np
+import pandas
+
+import tangency
+
+NAMES = ["x", "y", "z", "r1", "r2", "r3", "qw", "qx", "qy", "qz"]
+generator = np.random.default_rng(41)
+rows = generator.uniform(0.5, 3, (50, 20))
+table = pandas.DataFrame(rows, columns=["a." + n for n in NAMES] + ["b." + n for n in NAMES])[::-1]
+found = tangency.contacts(table, table)
+expected = tangency.contacts(rows[::-1, :10], rows[::-1, 10:])
+for name, column in found:
+    np.testing.assert_array_equal(column, getattr(expected, name))
+frame = pandas.DataFrame(found.flat())
+assert list(frame["normal_z"]) == list(expected.normal[:, 2]) and len(frame) == 50
+short = pandas.DataFrame(rows[:, :6], columns=NAMES[:6])
+assert len(tangency.Bodies(short)) == 50
+print(f"{len(frame.columns)} columns of {len(frame)} pairs")

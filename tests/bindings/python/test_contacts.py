@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contacts from NumPy: forms of input, answers, errors."""
+
+import dataclasses
+import subprocess
+import sys
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+import tangency
+from sample import BALL, NAMES, drawn, near
+
+
+def same(left, right):
+    return all(np.array_equal(one, other) for (_, one), (_, other) in zip(left, right, strict=True))
+
+
+class FormsOfInput(unittest.TestCase):
+    def setUp(self):
+        self.a, self.b = drawn(300, 1), drawn(300, 2)
+        self.expected = tangency.contacts(self.a, self.b)
+
+    def check(self, a, b, **options):
+        self.assertTrue(same(tangency.contacts(a, b, **options), self.expected))
+
+    def test_lists_arrays_and_any_stride_of_rows_have_the_same_answers(self):
+        self.check(self.a.tolist(), self.b.tolist())
+        wide = np.full((600, 13), np.nan)
+        wide[::2, 1:11] = self.a
+        self.check(wide[::2, 1:11], self.b)
+        self.check(self.a[::-1].copy()[::-1], self.b, threads=2)
+        self.check(np.asfortranarray(self.a), self.b)
+
+    def test_structured_arrays_and_data_frames_are_read_by_the_names_of_the_file_formats(self):
+        grains = np.zeros(300, [("id", "i4"), ("mass", "f4"), *((name, "f8") for name in NAMES)])
+        scattered = np.zeros(300, [("b." + name, "f8") for name in reversed(NAMES)])
+        for k, name in enumerate(NAMES):
+            grains[name] = self.a[:, k]
+            scattered["b." + name] = self.b[:, k]
+        self.check(grains, scattered)
+
+        class Frame:  # what of pandas.DataFrame is asked for; test_pandas.py has a true one
+            def __init__(self, columns):
+                self.columns = list(columns)
+                self.table = columns
+
+            def __len__(self):
+                return 300
+
+            def __getitem__(self, name):
+                return self.table[name]
+
+            def to_numpy(self):
+                raise AssertionError
+
+        self.check(Frame({"a." + name: self.a[:, k] for k, name in enumerate(NAMES)}), self.b)
+
+    def test_bodies_without_a_quaternion_are_not_turned(self):
+        rows = drawn(5, 3)
+        rows[:, 6:] = [1, 0, 0, 0]
+        short = np.zeros(5, [(name, "f8") for name in NAMES[:6]])
+        for k, name in enumerate(NAMES[:6]):
+            short[name] = rows[:, k]
+        self.assertTrue(same(tangency.contacts(short, self.b[:5]), tangency.contacts(rows, self.b[:5])))
+
+    def test_float32_rows_mean_their_values(self):
+        a, b = self.a.astype(np.float32), self.b.astype(np.float32)
+        self.assertTrue(same(tangency.contacts(a, b), tangency.contacts(a.astype(float), b.astype(float))))
+
+    def test_pairs_name_rows_of_both_arrays_or_of_one(self):
+        pairs = np.stack([np.arange(300)[::-1], np.arange(300)[::-1]], 1)
+        found = tangency.contacts(self.a, self.b, pairs)
+        np.testing.assert_array_equal(found.gap, self.expected.gap[::-1])
+        joined = np.vstack([self.a, self.b])
+        self.assertTrue(same(tangency.contacts(joined, pairs=pairs + [0, 300]), found))
+        bodies = tangency.Bodies(joined)
+        self.assertTrue(same(tangency.contacts(bodies, pairs=pairs + [0, 300]), found))
+        self.assertTrue(same(tangency.contacts(bodies), self.expected))
+
+    def test_one_row_stands_for_many(self):
+        many = tangency.contacts(self.a[:1].repeat(300, 0), self.b)
+        self.assertTrue(same(tangency.contacts(self.a[0], self.b), many))
+        self.assertTrue(same(tangency.contacts(self.a[:1], self.b, columns=[n for n, _ in many]), many))
+        np.testing.assert_array_equal(tangency.overlaps(self.a[0], self.b), many.gap < 0)
+
+    def test_separations_stand_for_those_of_the_centres(self):
+        found = tangency.contacts(self.a, self.b, separations=np.full((300, 3), [9.0, 0, 0]))
+        moved = self.b.copy()
+        moved[:, :3] = self.a[:, :3] + [9, 0, 0]
+        np.testing.assert_allclose(found.gap, tangency.contacts(self.a, moved).gap, rtol=0, atol=1e-13)
+
+
+class Answers(unittest.TestCase):
+    def test_a_single_pair_is_the_pair_of_many_to_the_bit(self):
+        a, b = drawn(50, 4), drawn(50, 5)
+        many = tangency.contacts(a, b)
+        for k in range(50):
+            one = tangency.contact(a[k], b[k].tolist())
+            for name in ("gap", "gap_error", "normal", "arm_a", "arm_b", "point", "status", "tier"):
+                np.testing.assert_array_equal(getattr(one, name), getattr(many, name)[k])
+            self.assertIsInstance(one.status, tangency.Status)
+
+    def test_answers_of_one_call_are_not_those_of_the_next(self):
+        first = tangency.contact(BALL, [3.0, *BALL[1:]])
+        normal = first.normal.copy()
+        tangency.contact(BALL, [0.0, 3, *BALL[2:]])
+        np.testing.assert_array_equal(first.normal, normal)
+
+    def test_columns_are_those_that_are_asked_for(self):
+        found = tangency.contacts(drawn(3, 6), drawn(3, 7), columns=["gap", "normal_bound"])
+        self.assertEqual([name for name, _ in found], ["gap", "normal_bound"])
+        with self.assertRaisesRegex(AttributeError, "normal was not asked for"):
+            found.normal
+        with self.assertRaisesRegex(tangency.TangencyError, "columns: 'depth': must be of gap"):
+            tangency.contacts(drawn(3, 6), drawn(3, 7), columns=["depth"])
+
+    def test_results_are_data_classes_and_flatten(self):
+        found = tangency.contacts(drawn(3, 6), drawn(3, 7))
+        self.assertIn("normal", [each.name for each in dataclasses.fields(found)])
+        flat = found.flat()
+        np.testing.assert_array_equal(flat["normal_y"], found.normal[:, 1])
+        self.assertTrue(all(column.shape == (3,) for column in flat.values()))
+        self.assertEqual(set(found.names("status")), {"ok"})
+
+    def test_out_is_written_over(self):
+        out = tangency.contacts(drawn(9, 8), drawn(9, 9))
+        again = tangency.contacts(drawn(9, 10), drawn(9, 11), out=out)
+        self.assertIs(again, out)
+        self.assertTrue(same(out, tangency.contacts(drawn(9, 10), drawn(9, 11))))
+
+    def test_previous_normals_are_followed(self):
+        a, b = drawn(40, 12), drawn(40, 13)
+        bodies = tangency.Bodies(np.vstack([a, b]))
+        found = tangency.contacts(bodies)
+        again = tangency.contacts(bodies, previous_normals=found.normal)
+        near = found.status == tangency.Status.ok
+        np.testing.assert_allclose(again.gap[near], found.gap[near], rtol=0, atol=1e-12)
+
+    @seed(21)
+    @settings(max_examples=60, deadline=None, database=None)
+    @given(arrays.arrays(np.float64, (4, 20), elements=st.floats(0.125, 8, width=32)))
+    def test_exchange_and_scaling_by_a_power_of_two(self, numbers):
+        a, b = numbers[:, :10], numbers[:, 10:]
+        found, exchanged = tangency.contacts(a, b), tangency.contacts(b, a)
+        scale = np.array([4.0] * 6 + [1.0] * 4)
+        scaled = tangency.contacts(a * scale, b * scale)
+        both = found.gap_error + exchanged.gap_error
+        proven = (found.status == 0) & (exchanged.status == 0)
+        self.assertTrue(np.all(np.abs(found.gap - exchanged.gap)[proven] <= both[proven]))
+        proven = (found.status == 0) & (scaled.status == 0)
+        self.assertTrue(np.all(np.abs(4 * found.gap - scaled.gap)[proven]
+                               <= (4 * found.gap_error + scaled.gap_error)[proven]))
+        np.testing.assert_array_equal(found.gap < 0, tangency.overlaps(a, b))
+
+
+class Errors(unittest.TestCase):
+    def refused(self, message, row, ask, *arguments, **options):
+        with self.assertRaises(tangency.TangencyError) as caught:
+            ask(*arguments, **options)
+        self.assertEqual(str(caught.exception), message)
+        self.assertEqual(caught.exception.row, row)
+
+    def test_of_rows_name_argument_row_field_value_and_rule(self):
+        good, bad = drawn(10, 14), drawn(10, 15)
+        bad[7, 4] = -1
+        rule = "row 7: r2 = -1: a semi-axis must be finite and > 0"
+        self.refused("a: " + rule, 7, tangency.contacts, bad, good)
+        self.refused("b: " + rule, 7, tangency.contacts, good, bad)
+        self.refused("b: " + rule, 7, tangency.contacts, good, bad, np.array([[0, 0]]))
+        self.refused("rows: " + rule, 7, tangency.Bodies, bad)
+        self.refused("bodies: " + rule, 7, tangency.neighbours, bad)
+        self.refused("b: row 0: r2 = -1: a semi-axis must be finite and > 0", 0, tangency.contact, good[0], bad[7])
+
+    def test_of_shapes_and_pairs(self):
+        rows = drawn(4, 16)
+        names = "x y z r1 r2 r3 qw qx qy qz"
+        self.refused(f"a: shape (4, 9): must be (N, 10), the columns {names}", None, tangency.contacts, rows[:, :9],
+                     rows)
+        self.refused("b: 3 rows: must be 4, as many as of a", None, tangency.contacts, rows, rows[:3])
+        self.refused("pairs: row 1: b = 4: must be below 4, the number of bodies", 1, tangency.contacts, rows,
+                     pairs=[[0, 1], [2, 4]])
+        self.refused("pairs: row 0: -1: must be an index from 0", 0, tangency.contacts, rows, pairs=[[-1, 1]])
+        self.refused("pairs: row 0: a = 5: must be below 4, the number of bodies", 0, tangency.contacts, rows, rows,
+                     [[5, 1]])
+        self.refused("pairs: numbers of type float64: must be integers", None, tangency.contacts, rows,
+                     pairs=[[0.5, 1]])
+        self.refused(f"a: 1 numbers: must be 10, {names}", None, tangency.contact, [1.0], rows[0])
+        self.refused("accuracy = 'best': must be standard, certified, fast, or a length", None, tangency.contacts,
+                     rows, rows, accuracy="best")
+        self.refused("separations: row 2: z = nan: must be finite", 2, tangency.contacts, rows, rows,
+                     separations=[[1, 1, 1], [1, 1, 1], [1, 1, np.nan], [1, 1, 1]])
+        broken = np.zeros(2, [(name, "f8") for name in NAMES if name != "r3"])
+        self.refused("a: there is no column r3", None, tangency.contacts, broken, rows[:2])
+
+
+class Memory(unittest.TestCase):
+    def test_rows_are_read_where_they_are(self):
+        from tangency._bodies import NAMES as FORMS
+        from tangency._bodies import rows_of
+        names = FORMS[tangency.Form.axes]
+        rows = drawn(100, 17)
+        structured = rows.view([(name, "f8") for name in NAMES])[:, 0]
+        for given_rows in (rows, rows[::3], rows[::-1], structured, rows.astype(np.float32)):
+            self.assertTrue(np.shares_memory(rows_of(given_rows, names, "a"), given_rows))
+
+    def test_a_call_takes_no_memory_but_that_of_its_answers(self):
+        # In a process of its own, whose largest size is not that of an earlier test. 200,000 rows are 16 MB.
+        code = """
+import resource
+import numpy as np
+import tangency
+from sample import near
+size = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # kB
+some_a, some_b = near(1000, 18)
+a, b = np.empty((200_000, 10)), np.empty((200_000, 10))
+for k in range(200):
+    a[1000 * k:1000 * k + 1000], b[1000 * k:1000 * k + 1000] = some_a, some_b
+out = tangency.contacts(some_a, some_b, columns=["gap"])
+before = size()
+out = tangency.contacts(a, b, columns=["gap"])  # 1.6 MB
+print(size() - before)
+"""
+        done = subprocess.run([sys.executable, "-c", code], cwd=Path(__file__).parent, stdout=subprocess.PIPE, text=True,
+                              check=True)
+        self.assertLess(int(done.stdout), 8_000)
+
+
+class Threads(unittest.TestCase):
+    def test_another_thread_runs_during_a_call(self):
+        # It sees a call that has begun to answer and has not ended: impossible where the lock is held. A
+        # machine that is busy may let a whole call pass before this thread's turn; then there is another.
+        a, b = (np.tile(rows, (100, 1)) for rows in near(1000, 19))
+        out = tangency.contacts(a, b, columns=["gap"])
+        seen, ended = threading.Event(), threading.Event()
+
+        def watch():
+            while not seen.is_set() and not ended.is_set():
+                if not np.isnan(out.gap[0]) and np.isnan(out.gap[-1]):
+                    seen.set()
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        for _ in range(30):
+            out.gap[:] = np.nan
+            tangency.contacts(a, b, out=out)
+            if seen.is_set():
+                break
+        ended.set()
+        watcher.join()
+        self.assertTrue(seen.is_set())
+
+
+if __name__ == "__main__":
+    unittest.main()
