@@ -21,11 +21,9 @@ BodyArray::BodyArray(Owned, std::vector<Ellipsoid> bodies)
 BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
     : bodies_(bodies), lanes_(bodies.size()), floats_(bodies.size()), rows_(bodies.size()) {
   in_default_environment([&] {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      detail::fill(lanes_[i], bodies[i]);
-      detail::fill(floats_[i], bodies[i]);
-    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill(lanes_[i], bodies[i]);
     detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
+    detail::fill(floats_.data(), rows_.data(), bodies.size());
   });
 }
 BodyArray::~BodyArray() = default;
@@ -50,8 +48,8 @@ void BodyArray::refresh(std::size_t i) noexcept {
   if (i >= size()) contract::no_body("BodyArray::refresh", i, size());
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
-    detail::fill(floats_[i], bodies_[i]);
     detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
+    detail::fill(&floats_[i], &rows_[i], 1);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <tangency/geometry/batch/float_lanes.hpp>
 #include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/batch/pair_task.hpp>
 #include <tangency/geometry/batch/parts.hpp>
@@ -154,8 +155,14 @@ class Run {
       if (task_.indexed()) task_.require_indices(first, count);
       gather(task_, first, count, work_);
       write_.aim(work_, first, count);
-      std::uint64_t settled = task_.polish ? 0 : detail::mixed_gap_lanes(work_.block);
-      const bool by_doubles = task_.polish || !work_.block.within_float;
+      bool by_doubles = task_.polish;
+      std::uint64_t settled = 0;
+      if (task_.in_floats()) {
+        settled = detail::float_gap_lanes(work_.block);
+      } else if (!by_doubles) {
+        settled = detail::mixed_gap_lanes(work_.block);
+        by_doubles = !work_.block.within_float;
+      }
       if (by_doubles) settled = detail::gap_lanes(work_.block);
       write_.lanes(task_, work_, first, count);
       std::uint64_t left = ~settled;

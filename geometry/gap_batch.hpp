@@ -42,10 +42,12 @@ struct Accuracy {
   double of_size = 0.0;  ///< tolerance in parts of L, at least 0
   double length = 0.0;   ///< tolerance in the unit of length of the bodies, at least 0
   /// Normal and points to rounding too? Else the normal is as good as the gap needs, within
-  /// 2 sqrt(gap_error / (gap - gap_error + rho)) of the true one.
+  /// 2 sqrt(gap_error / (gap - gap_error + rho)) rad of the true one.
   bool normals = false;
 
-  /// gap_error at most 2^-20 L: for neighbour lists, previews, stiff contacts that overlap by more.
+  /// gap_error at most 2^-20 L, some 2^-21 L of most pairs: for neighbour lists, previews, stiff
+  /// contacts that overlap by more. Answered in single precision where that proves it, as is any
+  /// `of_size` that is no smaller; gaps nearer to 0 than their error, and others, in double.
   static constexpr Accuracy fast() { return {0x1p-20, 0.0, false}; }
   /// The gap to rounding, its normal to some 1e-8 rad.
   static constexpr Accuracy standard() { return {}; }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/moving_lanes.hpp>
 #include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
@@ -64,6 +65,7 @@ MovingBodies::MovingBodies(const MovingBodies& other) {
   centres_ = other.centres_;
   lanes_ = other.lanes_;
   rows_ = other.rows_;
+  floats_ = other.floats_;
   look_at_own();
 }
 MovingBodies& MovingBodies::operator=(const MovingBodies& other) {
@@ -79,7 +81,8 @@ MovingBodies::MovingBodies(MovingBodies&& other) noexcept
       centres_(std::exchange(other.centres_, {})),
       own_turns_(std::exchange(other.own_turns_, {})),
       lanes_(std::exchange(other.lanes_, {})),
-      rows_(std::exchange(other.rows_, {})) {}
+      rows_(std::exchange(other.rows_, {})),
+      floats_(std::exchange(other.floats_, {})) {}
 
 MovingBodies& MovingBodies::operator=(MovingBodies&& other) noexcept {
   MovingBodies taken(std::move(other));
@@ -91,6 +94,7 @@ MovingBodies& MovingBodies::operator=(MovingBodies&& other) noexcept {
   std::swap(own_turns_, taken.own_turns_);
   std::swap(lanes_, taken.lanes_);
   std::swap(rows_, taken.rows_);
+  std::swap(floats_, taken.floats_);
   return *this;
 }
 
@@ -100,6 +104,7 @@ void MovingBodies::look_at(std::span<const Vec3> semi_axes,
     contract::wrong_column("MovingBodies", "orientations", orientations.size(), semi_axes.size());
   lanes_.resize(semi_axes.size());
   rows_.resize(semi_axes.size());
+  floats_.resize(semi_axes.size());
   semi_axes_ = semi_axes;
   orientations_ = orientations;
   owns_ = false;
@@ -122,6 +127,7 @@ void MovingBodies::fill(std::size_t first, std::size_t count) noexcept {
       for (std::size_t k = 0; k < some && !centres_.empty(); ++k)
         std::copy_n(centres_[i + k].data(), 3, to[k].centre);
       detail::fill_shape_rows(to, some, rows_.data() + i);
+      detail::fill(floats_.data() + i, rows_.data() + i, some);
     }
   });
 }
@@ -150,6 +156,7 @@ void MovingBodies::assign(const VectorColumn& semi_axes, const PoseColumns& pose
   centres_.resize(poses.centres.size());
   lanes_.resize(count);
   rows_.resize(count);
+  floats_.resize(count);
   copy(semi_axes, own_axes_.data());
   copy(poses.orientations, own_turns_.data());
   copy(poses.centres, centres_.data());
@@ -203,6 +210,7 @@ void MovingBodies::remove(std::size_t i) {
   if (has_centres()) centres_[i] = centres_[last];
   lanes_[i] = lanes_[last];
   rows_[i] = rows_[last];
+  floats_[i] = floats_[last];
   resize(last);
 }
 
@@ -214,6 +222,7 @@ void MovingBodies::resize(std::size_t count) {
   if (has_centres()) centres_.resize(count, Vec3::Zero());
   lanes_.resize(count);
   rows_.resize(count);
+  floats_.resize(count);
   look_at_own();
   if (count > before) fill(before, count - before);
 }

@@ -35,6 +35,7 @@
 namespace tangency::inline v0 {
 
 namespace detail {
+struct FloatRow;
 struct LaneBody;
 struct ShapeRow;
 }  // namespace detail
@@ -130,6 +131,8 @@ class MovingBodies {
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
   /// For the library's own use.
   const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
+  /// For the library's own use.
+  const detail::FloatRow* floats() const noexcept { return floats_.data(); }
 
  private:
   void own();
@@ -144,6 +147,7 @@ class MovingBodies {
   std::vector<Quaternion> own_turns_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
   std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
+  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
 };
 
 }  // namespace tangency::inline v0

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <tangency/geometry/batch/lane_block.hpp>
@@ -26,13 +28,22 @@ inline void fill(LaneBody& lane, const Ellipsoid& body) {
   lane.least_radius = (1.0 - 0x1p-40) * body.least_radius();
 }
 
-/// The row of a body for the lanes in float: with its numbers out of the range of floats where the
-/// body is not moderate().
-inline void fill(FloatRow& lane, const Ellipsoid& body) {
-  const Symmetric3& m = body.shape();
-  std::copy_n(body.centre().data(), 3, lane.centre);
-  const double entries[] = {m.xx, m.yy, m.zz, m.yz, m.zx, m.xy};
-  fill_floats(lane, largest_if_moderate(body), body.least_radius(), entries);
+// The stored radius is below and the stored reach above the true ones by this much at least, so
+// that sums and products of them are too. Chosen.
+inline constexpr double kBelowFloat = 1.0 - 0x1p-21, kAboveFloat = 1.0 + 0x1p-21;
+
+/// Rows for the lanes in float. In the default floating-point environment.
+inline void fill(FloatRow* to, const ShapeRow* from, std::size_t count) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const ShapeRow& row = from[i];
+    std::copy_n(row.centre, 3, to[i].centre);
+    to[i].largest = static_cast<float>(row.largest);
+    // Others are out of the range of float.
+    const double in_range = std::isnan(row.largest) ? 0.0 : 1.0;
+    to[i].least_radius = static_cast<float>(in_range * kBelowFloat * row.least_radius);
+    to[i].widest = static_cast<float>(in_range * kAboveFloat * row.reach);
+    for (int k = 0; k < 6; ++k) to[i].shape[k] = static_cast<float>(in_range * row.shape[k]);
+  }
 }
 
 }  // namespace tangency::inline v0::detail

@@ -9,6 +9,11 @@
 
 namespace tangency::inline v0::detail {
 
+/// As gap_lanes(), within the tolerance of the block or what single precision can do. Reads floats,
+/// pairs, count, separations and normals, and bodies where arms are wanted; of followed normals it
+/// proves the global gap alone. Assumes rounding to nearest.
+std::uint64_t float_gap_lanes(LaneBlock& block) noexcept;
+
 /// As overlap_lanes(). Reads floats, pairs, count and separations of the block. In any rounding
 /// mode.
 LaneOverlaps float_overlap_lanes(const LaneBlock& block) noexcept;

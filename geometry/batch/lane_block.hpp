@@ -30,6 +30,10 @@ struct alignas(32) ShapeRow {
 };
 static_assert(sizeof(ShapeRow) == 12 * sizeof(double));
 
+/// Of L: a gap_error that the lanes in float prove of ordinary pairs. Chosen: 16 roundings of
+/// float.
+inline constexpr double kFloatTolerance = 0x1p-20;
+
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 

@@ -81,6 +81,7 @@ PairTask::PairTask(const char* of_call, const BodyArray& of_bodies, const PairLi
       bodies(&of_bodies),
       lanes(of_bodies.lanes()),
       rows(of_bodies.rows()),
+      floats(of_bodies.floats()),
       body_count(of_bodies.size()),
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
@@ -94,6 +95,7 @@ PairTask::PairTask(const char* of_call, const MovingBodies& of_bodies,
       moving(&of_bodies),
       lanes(of_bodies.lanes()),
       rows(of_bodies.rows()),
+      floats(of_bodies.floats()),
       body_count(of_bodies.size()),
       pairs(list.pairs.data()),
       separations(data_or_null(list.separations)),
@@ -248,7 +250,7 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
   if (task.indexed()) {
     block.bodies_a = block.bodies_b = task.lanes;
     block.rows_a = block.rows_b = task.rows;
-    block.floats_a = block.floats_b = task.bodies != nullptr ? task.bodies->floats() : nullptr;
+    block.floats_a = block.floats_b = task.floats;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
     if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;
@@ -257,6 +259,8 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
     block.bodies_b = work.plain_b;
     block.rows_a = work.rows_a;
     block.rows_b = work.rows_b;
+    block.floats_a = work.floats_a;
+    block.floats_b = work.floats_b;
     block.pairs = work.pairs;
     for (std::uint32_t i = 0; i < kBlock; ++i) {
       work.pairs[i] = i < count ? IndexedPair{i, i} : IndexedPair{0, 0};
@@ -267,6 +271,10 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
     }
     fill_shape_rows(work.plain_a, count, work.rows_a);
     fill_shape_rows(work.plain_b, count, work.rows_b);
+    if (task.in_floats()) {
+      fill(work.floats_a, work.rows_a, count);
+      fill(work.floats_b, work.rows_b, count);
+    }
   }
   aim(task, block);
   block.separations = nullptr;

@@ -33,6 +33,7 @@ struct PairTask {
   const MovingBodies* moving = nullptr;  ///< null: the bodies above or plain pairs
   const LaneBody* lanes = nullptr;       ///< of the bodies
   const ShapeRow* rows = nullptr;        ///< of the bodies
+  const FloatRow* floats = nullptr;      ///< of the bodies
   std::size_t body_count = 0;
   const IndexedPair* pairs = nullptr;
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
@@ -43,6 +44,9 @@ struct PairTask {
   // As in LaneBlock.
   double tolerance_of_size = 0.0, tolerance = 0.0;
   bool polish = false;
+
+  /// Is the tolerance what float proves?
+  bool in_floats() const noexcept { return !polish && tolerance_of_size >= kFloatTolerance; }
 
   /// Ends the process where separations are not as many as pairs; of moving bodies without centres
   /// they have to be given.
@@ -89,6 +93,7 @@ struct Workspace {
   Vec3 separations[kBlock], normals[kBlock];
   LaneBody plain_a[kBlock], plain_b[kBlock];
   ShapeRow rows_a[kBlock], rows_b[kBlock];
+  FloatRow floats_a[kBlock], floats_b[kBlock];
   Vec3 nearer_normals[kBlock];
   double gap[kBlock], gap_error[kBlock];
   Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
