@@ -161,7 +161,7 @@ function(tangency_install_package)
   endif()
 
   if(TARGET tangency_c)
-    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}" -lstdc++)
+    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}" -lstdc++ -lm)
   endif()
 
   include(.ci/packaging/debian.cmake)

@@ -50,11 +50,11 @@ def lines_of_code(text):
 
 
 def sources(root, pattern):
-    """The C++ texts of geometry/ whose path matches, by path."""
+    """The C++ texts of geometry/ whose path matches, by path; without bindings/, a library of its own."""
     found = {}
     for path in sorted(pathlib.Path(root, "geometry").rglob("*.[ch]pp")):
         file = path.relative_to(root).as_posix()
-        if re.search(pattern, file):
+        if re.search(pattern, file) and not file.startswith("geometry/bindings/"):
             found[file] = path.read_text()
     return found
 
