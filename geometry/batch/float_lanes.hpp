@@ -4,6 +4,8 @@
 /// cannot. The instruction set is chosen when the program runs. Internal.
 #pragma once
 
+#include <cstdint>
+
 #include <tangency/geometry/batch/gap_lanes.hpp>
 #include <tangency/geometry/batch/lane_block.hpp>
 
