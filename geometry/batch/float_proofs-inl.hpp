@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a normal proves about the gap of a pair in float, one pair in each lane: "6. Single precision"
-/// in docs/derivations/gap-batch.md, whose names stand here. Lengths are scaled as FloatPairs.
-/// Compiled once for each instruction set.
+/// What a normal proves about the gap of a pair in float, one pair in each lane: "6. Single
+/// precision" in docs/derivations/gap-batch.md, whose names stand here. Lengths are scaled as
+/// FloatPairs. Compiled once for each instruction set.
 #if defined(TANGENCY_FLOAT_PROOFS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TANGENCY_FLOAT_PROOFS_INL
 #undef TANGENCY_FLOAT_PROOFS_INL
