@@ -130,7 +130,8 @@ HEADER_OF["size"] = HEADER_OF["begin"] = HEADER_OF["end"] = HEADER_OF["data"] = 
 
 INCLUDE = re.compile(r'#\s*include\s+([<"])([^>"]+)[>"](.*)$')
 CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*$")
-C_NAME = re.compile(r"tangency_[a-z_]+$")  # an opaque type of the C interface
+C_NAME = re.compile(r"tangency_[a-z_]+$")  # an opaque type of the C interface, in its folder
+C_FOLDER = "geometry/bindings/c/"
 SNAKE = re.compile(r"[a-z][a-z0-9_]*$")
 CONSTANT = re.compile(r"k[A-Z0-9][A-Za-z0-9]*$")
 MACRO = re.compile(r"[A-Z][A-Z0-9_]*$")
@@ -218,7 +219,7 @@ def departures_of_names(file):
         if token.kind != "name":
             continue
         if (before in ("class", "struct", "union", "enum") and after in ("{", ":", "final", ";") and
-                not CAMEL.match(token.text) and not C_NAME.match(token.text)):
+                not CAMEL.match(token.text) and not (file.path.startswith(C_FOLDER) and C_NAME.match(token.text))):
             yield token.line, f"type {token.text}: CamelCase"
         if (before == "using" and after == "=" and not CAMEL.match(token.text) and
                 token.text not in ALIASES and source.text_at(i - 2) != ">"):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: embedding.sh SOURCE WORK
 # A project that has Tangency in its own build and installs a library that links it: it can be generated,
-# its own files are compiled as it says, and the kernel's as the kernel needs, with and without a build type.
+# its own files are compiled as it says, and the kernel's as the kernel needs, with and without a build type;
+# and cpack makes its packages.
 set -euo pipefail
 source=$1 work=$2
 rm -rf "$work"
@@ -25,5 +26,9 @@ for type in "" Debug; do
   done
   for entry in "CMAKE_BUILD_TYPE:STRING=$type" CMAKE_CXX_FLAGS:STRING=; do
     grep -qxF "$entry" "$work/CMakeCache.txt" || { echo "type '$type': not $entry"; exit 1; }
+  done
+  for entry in 'CPACK_PACKAGE_NAME "embedding"' 'CPACK_GENERATOR "STGZ;TGZ;TZ"'; do
+    grep -qxF "set($entry)" "$work/CPackConfig.cmake" ||
+      { echo "type '$type': not $entry:"; grep -E 'PACKAGE_NAME|GENERATOR' "$work/CPackConfig.cmake"; exit 1; }
   done
 done
