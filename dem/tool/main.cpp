@@ -229,9 +229,11 @@ void add_run(tables::Program& program) {
   tables::Command& command = program.subcommand("run", "Run a scene");
   command.option("SCENE", words->scene, "Scene in TOML; its keys: tangency-dem schema").required();
   command.option("--out", words->out, "Directory for the results [SCENE's name + -out]")
+      .type_name("DIR")
       .not_empty();
   command.option("--threads", words->options.threads, "Number of threads [all]").between(1, 1024);
   command.option("--resume", words->resume, "Continue from a final.state or checkpoint.state")
+      .type_name("FILE")
       .not_empty();
   command.flag("--replace", words->options.replace,
                "Take away the results of another run in the directory");
@@ -304,7 +306,7 @@ void add_micro(tables::Program& program) {
   command
       .option("--since", words->options.since,
               "An older state of the same run: strain since then, too")
-      .type_name("OLDER")
+      .type_name("FILE")
       .not_empty();
   command.option("--json", words->options.json, "All numbers as JSON; - to standard output")
       .type_name("FILE")
@@ -330,7 +332,9 @@ tables::Command& add_table(tables::Program& program, const char* name, const cha
   const auto words = std::make_shared<Words>();
   tables::Command& command = program.subcommand(name, what);
   command.option("STATE", words->state, "State of a run").required();
-  command.option("--out", words->out, "File for the table [standard output]").not_empty();
+  command.option("--out", words->out, "File for the table [standard output]")
+      .type_name("FILE")
+      .not_empty();
   command.footer(help);
   command.runs([words, table = std::move(table)] {
     const std::string text = table(load_state(words->state));

@@ -273,7 +273,7 @@ JSON, average_strain: why_not (null; else why there is none, as with walls) and
                         sliding: velocities at contacts with spins, which is not the strain of the
                         cell); cells, centres, edges, edges_in_contact, contacts_left_out (that are
                         no edge)
-  displacements         with --since OLDER, an earlier state of the same run, else null (a run of
+  displacements         with --since FILE, an earlier state of the same run, else null (a run of
                         the same particles from other places cannot be told from it):
                         since_cycle, since_time, gradient and logarithmic strain of the cell, and
                         of each net of the older state sum, and its parts of edges in contact at

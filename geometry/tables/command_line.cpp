@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,9 @@
 
 namespace tangency::inline v0::tables {
 namespace {
+
+/// What --describe writes.
+constexpr std::array<std::string_view, 3> kForms{"man", "bash", "zsh"};
 
 int complain(const std::string& message) {
   std::cerr << message << std::endl;
@@ -157,11 +161,15 @@ Program::Program(const std::string& name, const std::string& description,
   own_->add_option_function<std::string>(
           "--describe",
           [this, version](const std::string& form) {
+            if (std::ranges::find(kForms, form) == kForms.end())
+              throw CLI::ValidationError("--describe",
+                                         form.empty() ? "man, bash or zsh is missing"
+                                                      : form + " is none of man, bash and zsh");
             std::string text = described(form, version);
             text.pop_back();  // the end of line that CLI11 prints behind it
             throw CLI::CallForVersion(text, 0);
           })
-      ->check(CLI::IsMember({"man", "bash", "zsh"}))
+      ->expected(0, 1)  // CLI11 does not name a hidden option whose value is missing
       ->group("");
 }
 
@@ -212,8 +220,9 @@ int Program::parse_and_run(int argc, const char* const* argv) {
       OutputFile("-").write(text.str());
       return 0;
     }
-    // A mistyped subcommand is named before all.
-    if (!subcommands_.empty() && own_->get_subcommands().empty()) {
+    // A mistyped subcommand is named before all; what follows an option of the program is none.
+    const bool of_an_option = dynamic_cast<const CLI::ValidationError*>(&stop) != nullptr;
+    if (!of_an_option && !subcommands_.empty() && own_->get_subcommands().empty()) {
       const auto is_word = [](const char* argument) { return argument[0] != '-'; };
       const auto* const word = std::find_if(argv + std::min(argc, 1), argv + argc, is_word);
       if (word != argv + argc) return refuse(no_subcommand(*word));

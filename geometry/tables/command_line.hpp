@@ -39,7 +39,7 @@ class UsageError : public std::runtime_error {
 /// describe the same.
 class Option {
  public:
-  /// What the help calls its value; nothing leaves the name out.
+  /// What the help calls its value; nothing leaves the name out. Shells complete FILE and DIR.
   Option type_name(const std::string& name) const;
   /// The help names the default, which is the value now.
   Option shows_default() const;

@@ -88,6 +88,9 @@ std::vector<std::string> words_of(const OptionText& option) {
   return words;
 }
 
+/// Is the value the name of a file or a folder?
+bool is_file(const OptionText& option) { return option.value == "FILE" || option.value == "DIR"; }
+
 std::vector<std::string> names_of(const std::vector<OptionText>& options) {
   std::vector<std::string> names;
   for (const OptionText& option : options) {
@@ -148,7 +151,9 @@ std::string zsh_arguments(const CommandText& command) {
       if (!option.value.empty()) {
         const std::vector<std::string> words = words_of(option);
         text += ':' + zsh_text(option.value) + ':' +
-                (words.empty() ? "_files" : '(' + joined(words, " ") + ')');
+                (is_file(option) ? "_files"
+                 : words.empty() ? " "  // zsh offers nothing
+                                 : '(' + joined(words, " ") + ')');
       }
       text += '\'';
     }

@@ -15,7 +15,8 @@ namespace tangency::inline v0::tables {
 /// An option, or an argument by its place.
 struct OptionText {
   std::vector<std::string> names;  ///< "-h", "--help"; "FILE" for an argument by its place
-  std::string value;               ///< what the help calls it: "N", "half|full"; empty for a flag
+  /// What the help calls its value: "N", its words "half|full", "FILE" or "DIR"; empty for a flag.
+  std::string value;
   std::string help;
 };
 
@@ -32,7 +33,7 @@ std::string manual_page(const CommandText& program, const std::string& version);
 /// For bash: names of subcommands, options, and the words of a value "half|full"; else files.
 std::string bash_completion(const CommandText& program);
 
-/// For zsh, the same with each option's help.
+/// For zsh, the same with each option's help; files for values FILE and DIR and arguments alone.
 std::string zsh_completion(const CommandText& program);
 
 }  // namespace tangency::inline v0::tables

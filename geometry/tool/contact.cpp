@@ -248,7 +248,7 @@ tables::BindRows one_by_one(OneAnswer answer, MixedTerms mixed_terms,
   });
 }
 
-/// @param name  one that check_method() accepts
+/// @param name  one of method_names()
 tables::BindRows bind_method(std::string_view name, MixedTerms mixed_terms,
                              const ContactColumns& further) {
   const Method& method = *std::ranges::find(kMethods, name, &Method::name);
@@ -260,10 +260,10 @@ tables::BindRows bind_method(std::string_view name, MixedTerms mixed_terms,
   };
 }
 
-std::string check_method(const std::string& name) {
-  if (std::ranges::find(kMethods, name, &Method::name) != kMethods.end()) return {};
-  return name +
-         " is not a method; common-normal, perram-wertheim, midpoint-potential and trace are";
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) names.emplace_back(method.name);
+  return names;
 }
 
 }  // namespace
@@ -274,12 +274,8 @@ void add_contact(tables::Program& program) {
     std::string columns;
   };
   const auto describe = [](tables::Command& command, Options& own) {
-    command
-        .option("--method", own.method,
-                "How contact is defined: common-normal (default), perram-wertheim, "
-                "midpoint-potential or trace")
-        .check(check_method)
-        .type_name("M");
+    command.option("--method", own.method, "How contact is defined (default: common-normal)")
+        .one_of(method_names());
     add_columns_option(command, own.columns, contact_column_groups());
   };
   const auto task = [](const Options& options) {

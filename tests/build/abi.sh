@@ -11,11 +11,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" >/dev/null
 status=0
-for name in geometry micromechanics dem; do
+for name in geometry micromechanics dem c; do
   library=$(find "$work/prefix" -name "libtangency_$name.so")
   [ -n "$library" ] || { echo "$name: not built as a shared library"; status=1; continue; }
   kept=$here/abi/$name.abi
-  headers=$work/prefix/include/tangency
+  headers=$work/prefix/include
   case $how in
     --write)
       mkdir -p "$here/abi"

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: public_symbols.sh --check|--write LIST HEADERS LIBRARY.a ...
 # The functions and data that the libraries' users link: of the static libraries, what geometry/exported.map
-# shows of the shared ones and what one of the public headers, the lines of the file HEADERS, names.
+# shows of the shared ones and what one of the public headers, the lines of the file HEADERS, names; of
+# libtangency_c its C functions.
 # --check fails where one of the LIST is gone, since programs that were linked with it no longer start;
 # --write makes the list again, at a release.
 set -euo pipefail
@@ -16,14 +17,16 @@ xargs grep -hoE '[A-Za-z_][A-Za-z_0-9]*' <"$headers" | sort -u >"$words"
 
 symbols() {
   for library in "$@"; do
+    local of_library='^_ZN?K?8tangency2v0'
+    [ "$(basename "$library")" != libtangency_c.a ] || of_library='^tangency_'
     # Functions and data that have one definition; inline functions come with their users.
     nm --defined-only --extern-only "$library" 2>/dev/null |
-      awk '$2 ~ /^[TDBR]$/ && $3 ~ /^_ZN?K?8tangency2v0/ { print $3 }' |
+      awk -v of_library="$of_library" '$2 ~ /^[TDBR]$/ && $3 ~ of_library { print $3 }' |
       grep -vE '^_ZNK?8tangency2v0(5exact|6detail)' | c++filt |
       awk -v words="$words" -v library="$(basename "$library" .a)" '
         BEGIN { while ((getline word < words) > 0) public[word] = 1 }
         { gsub(/tangency::v0::/, "tangency::"); name = $0; sub(/[(<\[].*/, "", name); sub(/.*[ :~]/, "", name) }
-        name ~ /operator/ || name in public { print library ": " $0 }'
+        name ~ /operator|^tangency_/ || name in public { print library ": " $0 }'
   done | sort -u
 }
 

@@ -51,6 +51,11 @@ def main():
     changes = subprocess.run(["git", "-C", str(root), "diff", "HEAD", "--binary"], check=True, stdout=subprocess.PIPE).stdout
     if changes:
         subprocess.run(["git", "-C", str(clone), "apply"], input=changes, check=True)
+    new = subprocess.run(["git", "-C", str(root), "ls-files", "--others", "--exclude-standard", "-z"], check=True,
+                         stdout=subprocess.PIPE).stdout.decode()
+    for file in filter(None, new.split("\0")):
+        (clone / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(root / file, clone / file, follow_symlinks=False)
     environment = dict(os.environ, HOME=str(home))
     failed, count = [], 0
     blocks = [block for page in user_pages(root) for block in blocks_of(root, page)]

@@ -154,9 +154,11 @@ TEST(CommandLine, WhatTheBodyThrowsIsARefusalWithTheNameOfTheProgram) {
 
 std::string described_as(const char* form) {
   Program program("prog-a", "prog-a: does a thing.\nMore of it.", "1.2");
-  std::string word, hidden, file;
+  std::string word, hidden, file, out, number;
   Command& make = program.subcommand("make", "Makes: it");
   make.option("--level", word, "How [much]").one_of({"half", "full"});
+  make.option("--out", out, "Output").type_name("FILE");
+  make.option("--most", number, "How many").type_name("N");
   make.option("--secret", hidden, "Nobody's").hidden();
   make.option("FILE", file, "Input");
   make.footer(".a line\n'that a request'\nbegins \\ like");
@@ -182,16 +184,32 @@ TEST(CommandText, ManualPageNamesWhatTheHelpNames) {
 // geometry/tables/command_text.hpp (1)
 TEST(CommandText, CompletionsNameWhatTheHelpNames) {
   const std::string bash = described_as("bash"), zsh = described_as("zsh");
-  for (const char* line :
-       {"'make --level') words='half full' ;;\n", "'make') words='-h --help --level' ;;\n",
-        "words='make mend' ;;\n", "complete -o default -F _prog_a prog-a\n"}) {
+  for (const char* line : {"'make --level') words='half full' ;;\n",
+                           "'make') words='-h --help --level --out --most' ;;\n",
+                           "words='make mend' ;;\n", "complete -o default -F _prog_a prog-a\n"}) {
     EXPECT_NE(bash.find(line), std::string::npos) << line << bash;
   }
-  for (const char* line : {"#compdef prog-a\n", "'make:Makes\\: it'\n",
-                           "'--level[How \\[much\\]]:half|full:(half full)'", "'*:FILE:_files'"}) {
+  for (const char* line :
+       {"#compdef prog-a\n", "'make:Makes\\: it'\n",
+        "'--level[How \\[much\\]]:half|full:(half full)'", "'--out[Output]:FILE:_files'",
+        "'--most[How many]:N: '", "'*:FILE:_files'"}) {
     EXPECT_NE(zsh.find(line), std::string::npos) << line << zsh;
   }
   EXPECT_EQ((bash + zsh).find("secret"), std::string::npos);
+}
+
+TEST(CommandText, AFormThatIsNoneIsNamedWithThoseThatAre) {
+  const std::string see = " (`prog --help` says what is allowed)\n";
+  for (const auto& [arguments, message] :
+       std::vector<std::pair<std::vector<const char*>, std::string>>{
+           {{"--describe"}, "prog: --describe: man, bash or zsh is missing" + see},
+           {{"--describe", "x"}, "prog: --describe: x is none of man, bash and zsh" + see}}) {
+    Program program("prog", "A program", "1.2");
+    program.subcommand("make", "Makes");
+    const Ended ended = run(program, arguments);
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err, message + "\n");
+  }
 }
 
 /// A program that prints through stdio and std::cout, and lets neither know of an error.

@@ -304,10 +304,11 @@ TEST(ContactCommand, GapErrorBeyondTheRangeOfADoubleIsNotApplicable) {
 
 TEST(ContactCommand, RefusesABadCommandLineWithOneLine) {
   const std::string see = " (`tangency contact --help` says what is allowed)\n";
-  const std::string which = "; common-normal, perram-wertheim, midpoint-potential and trace are";
   const std::vector<std::pair<Names, std::string>> cases{
       {{"contact", "--method", "guess"},
-       "tangency contact: --method: guess is not a method" + which + see},
+       "tangency contact: --method: guess not in "
+       "{common-normal,perram-wertheim,midpoint-potential,trace}" +
+           see},
       {{"contact", "--threads", "0"},
        "tangency contact: --threads: Value 0 not in range 1 to 1024" + see},
       {{"contact", "--threads", "two"},
