@@ -20,6 +20,8 @@
 /// (6) bounded_gaps() enclose the true gap in [gap - gap_error, gap + above], and what no lane
 ///     settles is to the bit that of bounded_gap().
 /// (7) point is the midpoint of the two witness points, from A's centre.
+/// (8) Float columns have the answers of the double ones, rounded, and what is proven of the gap
+///     stays proven: FloatGapColumns.
 #pragma once
 
 #include <span>
@@ -71,7 +73,33 @@ struct GapColumns {
   std::span<Vec3> point = {};
 };
 
-/// The same with how much more than `gap` the true gap may be.
+/// A vector in space, of floats. Like Vec3 it needs no more alignment than a number.
+using Vec3f = Eigen::Vector3f;
+
+/// Answers by columns of floats, for callers who keep their numbers in float: to the bit those of
+/// GapColumns, each rounded to the nearest float but for what is said here. Poses in float go with
+/// them, as strided columns of MovingBodies; bodies so given mean the numbers that they have.
+///
+/// The sign of gap is that of the double one, and so of the exact relation: where the nearest float
+/// would be 0 and the gap is not, the smallest float of its sign stands there, 2^-149, a subnormal
+/// (which is 0 to a caller whose processor flushes those). 0 is an external touch.
+struct FloatGapColumns {
+  /// Gap::gap. Infinite, of its sign, beyond the range of floats.
+  std::span<float> gap = {};
+  /// Gap::gap_error of this gap: that of the double one and what its rounding lost, together
+  /// rounded up. Beyond what it is in double, and what an Accuracy asks for, by no more than
+  /// 2^-24 |gap| + 2^-148, but for 2^-22 of the sum. Infinite where the gap is, and beyond the
+  /// range of floats.
+  std::span<float> gap_error = {};
+  std::span<Vec3f> normal = {};      ///< Gap::normal, within 2^-24 rad of the double one
+  std::span<Vec3f> arm_a = {};       ///< Gap::arm_a
+  std::span<Vec3f> arm_b = {};       ///< Gap::arm_b
+  std::span<GapStatus> status = {};  ///< Gap::status
+  std::span<GapTier> tier = {};      ///< Gap::tier
+  std::span<Vec3f> point = {};       ///< GapColumns::point
+};
+
+/// GapColumns with how much more than `gap` the true gap may be.
 struct BoundedColumns {
   GapColumns answers;  ///< gap, error, normal, points, status and tier, as BoundedGap has them
   std::span<double> above = {};  ///< BoundedGap::above
@@ -99,7 +127,13 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> a
 /// and below.
 void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
-/// The same for a[i] and b[i], at the cost of reading whole bodies.
+/// The same by float columns, at the cost of the rounding.
+void signed_gaps(const BodyArray& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
+void signed_gaps(const MovingBodies& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// signed_gap() for a[i] and b[i], at the cost of reading whole bodies.
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// @param a,b  the bodies, in this order
@@ -131,6 +165,14 @@ void follow_gaps(const MovingBodies& bodies, const PairList& list,
 /// @overload
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// The same by float columns: of the previous normals as the numbers that they are.
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
+void follow_gaps(const MovingBodies& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 
 /// bounded_gap() of every pair: in lanes where those settle it, and nowhere by a search or by the
