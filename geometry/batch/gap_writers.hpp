@@ -12,7 +12,7 @@
 
 #include <tangency/geometry/batch/float_answers.hpp>
 #include <tangency/geometry/batch/pair_task.hpp>
-#include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/gap_columns.hpp>
 
 namespace tangency::inline v0::detail {
 
