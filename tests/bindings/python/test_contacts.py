@@ -169,6 +169,9 @@ class Answers(unittest.TestCase):
             def __init__(self, row):
                 self.row = row
 
+            def __len__(self):
+                return 10
+
             def __array__(self, dtype=None, copy=None):
                 tangency.contact([50.0, *BALL[1:]], [99.0, *BALL[1:]])
                 return np.array(self.row)
@@ -301,6 +304,25 @@ print(size() - before)
 
 
 class Threads(unittest.TestCase):
+    def test_single_pairs_of_threads_are_their_own(self):
+        wrong, interval = [], sys.getswitchinterval()
+
+        def ask(x):
+            for _ in range(1000):
+                if tangency.contact(BALL, [x, *BALL[1:]]).gap != x - 2:
+                    wrong.append(x)
+
+        sys.setswitchinterval(1e-6)  # s: threads change places within calls
+        try:
+            threads = [threading.Thread(target=ask, args=(x,)) for x in (3.0, 4.0, 5.0, 6.0)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+        finally:
+            sys.setswitchinterval(interval)
+        self.assertEqual(wrong, [])
+
     def test_another_thread_runs_during_a_call(self):
         # It sees a call that has begun to answer and has not ended: impossible where the lock is held. A
         # machine that is busy may let a whole call pass before this thread's turn; then there is another.

@@ -95,8 +95,8 @@ class Meetings(unittest.TestCase):
             for count in (3, 9, 0):
                 with self.assertRaises(tangency.TangencyError) as caught:
                     ask(bodies, np.ones((count, width)))
-                self.assertEqual(str(caught.exception), f"{ask.__name__}: {count} rows: must be 4, as many as of bodies, "
-                                                        "or one, where no pairs are given")
+                self.assertEqual(str(caught.exception), f"{ask.__name__}: {count} rows: must be 4, as many as of "
+                                                        "bodies, or one, where no pairs are given")
             others = np.random.default_rng(42).normal(size=(4, width)) ** 2 + 0.5
             each, first = ask(bodies, others), ask(bodies, others[0])
             self.assertEqual((len(each), len(first), len(ask(bodies[0], others))), (4, 4, 4))

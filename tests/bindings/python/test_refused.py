@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is refused before the library is called, which would write past an array, or take other numbers than were given."""
+"""What is refused before the library is called: it would write past an array, or take other numbers than were given."""
 
 import copy
 import pickle
@@ -146,7 +146,8 @@ class Numbers(Refusals):
     def test_of_places(self):
         bodies = tangency.Bodies(drawn(2, 58))
         for value in (-1, None, 0.5):
-            with self.assertRaisesRegex(tangency.TangencyError, rf"^first = {value}: must be an integer from 0 to \d+$"):
+            message = rf"^first = {value}: must be an integer from 0 to \d+$"
+            with self.assertRaisesRegex(tangency.TangencyError, message):
                 bodies.set([BALL], value)
 
     def test_of_enumerations(self):
