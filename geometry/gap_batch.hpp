@@ -67,7 +67,8 @@ struct GapColumns {
   std::span<GapStatus> status = {};  ///< Gap::status
   std::span<GapTier> tier = {};      ///< Gap::tier
   /// The contact point less A's centre: arm_a + half of what leads from there to B's witness point.
-  /// Off by no more than half of both arms' contact_bounds() and 8 u L.
+  /// Off by no more than half of both arms' contact_bounds() and 8 u L; of MovingBodies, whose arms
+  /// (for a body of largest semi-axis a) may err by 8 u a^2/h + 6 u a more, by half of that too.
   std::span<Vec3> point = {};
 };
 
