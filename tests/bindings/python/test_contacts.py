@@ -116,6 +116,8 @@ class Answers(unittest.TestCase):
     def test_columns_are_those_that_are_asked_for(self):
         found = tangency.contacts(drawn(3, 6), drawn(3, 7), columns=["gap", "normal_bound"])
         self.assertEqual([name for name, _ in found], ["gap", "normal_bound"])
+        once = tangency.contacts(drawn(3, 6).astype(np.float32), drawn(3, 7), columns=iter(["gap"]))
+        self.assertEqual([name for name, _ in once], ["gap"])
         with self.assertRaisesRegex(AttributeError, "normal was not asked for"):
             found.normal
         with self.assertRaisesRegex(tangency.TangencyError, "columns: 'depth': must be of gap"):

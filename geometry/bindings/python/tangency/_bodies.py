@@ -176,7 +176,8 @@ class Bodies(_Rows):
 
     Notes
     -----
-    The numbers are copied, and Bodies themselves cannot be. Any number of threads may ask about the same bodies while none changes them.
+    The numbers are copied, and Bodies themselves cannot be. Any number of threads may ask about the same bodies
+    while none changes them.
     """
 
     _kind = "bodies"

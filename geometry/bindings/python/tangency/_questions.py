@@ -70,6 +70,7 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     >>> found.gap
     array([1.])
     """
+    columns = None if columns is None else tuple(columns)  # read more than once
     fast = _contacts_of_rows(a, b, accuracy, columns, threads, out) if (
         pairs is None and separations is None and previous_normals is None and b is not None
         and not isinstance(a, Bodies)) else None
@@ -82,11 +83,10 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     return ask("contacts", *asked.arguments(), data_of(previous), address, answers=answers, threads=threads)
 
 
-def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: Iterable[str] | None, threads: int,
+def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: tuple[str, ...] | None, threads: int,
                       out: Contacts | None) -> Contacts | None:
     """Of rows of float64, read where they are; None where they are not such."""
-    wanted = None if columns is None else tuple(columns)
-    if ON_DEMAND.intersection(wanted or ()) or type(out) is Contacts and ON_DEMAND.intersection(vars(out)):
+    if ON_DEMAND.intersection(columns or ()) or type(out) is Contacts and ON_DEMAND.intersection(vars(out)):
         return None
     rows_a, rows_b = rows_of(a, NAMES[Form.axes], "a"), rows_of(b, NAMES[Form.axes], "b")
     if rows_a.dtype != np.float64 or rows_b.dtype != np.float64:
@@ -94,7 +94,7 @@ def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: Iterable[s
     count = max(len(rows_a), len(rows_b)) if len(rows_a) and len(rows_b) else 0
     if len(rows_a) not in (1, count) or len(rows_b) not in (1, count):
         raise TangencyError(f"b: {len(rows_b)} rows: must be {len(rows_a)}, as many as of a")
-    answers = columns_for(Contacts, count, wanted, out)
+    answers = columns_for(Contacts, count, columns, out)
     address, _kept = accuracy_pointer(accuracy)
     return ask("contacts_of_rows", rows_a.ctypes.data, rows_a.strides[0] if len(rows_a) > 1 else 0,
                rows_b.ctypes.data, rows_b.strides[0] if len(rows_b) > 1 else 0, count, address,

@@ -63,8 +63,8 @@ def grade(function: Callable[[Rows, Rows], Answers], corpora: Sequence[str] = CO
     ----------
     function : callable
         ``function(a, b)`` of two arrays (N, 10) returns columns of N rows by name, any of `GRADED`: ``relation``
-        (names, or numbers of `tangency.Relation`), ``overlaps``, ``gap``, ``gap_error``, ``normal`` (N, 3) or ``nx ny nz``,
-        ``status``.
+        (names, or numbers of `tangency.Relation`), ``overlaps``, ``gap``, ``gap_error``, ``normal`` (N, 3) or
+        ``nx ny nz``, ``status``.
     corpora : sequence of str
         Of `CORPORA`.
     max_gap_error, max_normal_error : float, optional
