@@ -56,7 +56,7 @@ struct LaneBlock {
   const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
   int count;
   const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
-  /// Where to start, |n| in [2^-60, 2^60] or 0, which is anywhere; null: all are.
+  /// Where to start, of any length, or 0, which is anywhere; null: all are.
   const double* normals;
   /// Is the true separation that of the centres, not their rounded difference?
   bool centres_are_exact;
