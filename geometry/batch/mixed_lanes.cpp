@@ -99,9 +99,9 @@ HWY_INLINE bool scale(const LaneBlock& block, MixedColumns& work, std::size_t i)
   const Pack part = size * all(kSmallestOfSize);
   const PackMask in_range = (size <= all(kLargestModerate)) & (a >= part) & (b >= part);
   const Pack no_number = {hn::NaN(D()), hn::NaN(D())};
-  store(to_float(chosen(in_range, size * unit.inverse, no_number)), work.size, i);
-  store(to_float(multiply_add(all(block.tolerance_of_size), size * unit.inverse,
-                              all(block.tolerance) * unit.inverse)),
+  store(to_float(chosen(in_range, size * inverse, no_number)), work.size, i);
+  store(to_float(multiply_add(all(block.tolerance_of_size), size * inverse,
+                              all(block.tolerance) * inverse)),
         work.tolerance, i);
   return !none(in_range);
 }
