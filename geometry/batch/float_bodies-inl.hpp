@@ -21,16 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
-/// 2^-floor(log2 x), for x in [2^-126, 2^127].
-HWY_INLINE FloatPack inverse_power(const FloatPack& x) {
-  const auto of = [](const hn::Vec<F>& y) HWY_ATTR {
-    const hn::RebindToUnsigned<F> words;
-    const auto exponent = hn::And(hn::BitCast(words, y), hn::Set(words, 0x7f800000u));
-    return hn::BitCast(F(), hn::Sub(hn::Set(words, 254u << 23), exponent));
-  };
-  return {TANGENCY_FLOAT_PARTS(of(x.low), of(x.high))};
-}
-
 /// A body of each pair: FloatRow by columns.
 struct FloatRowColumns {
   ColumnsOf<double, 3> centre;
@@ -164,13 +154,6 @@ struct FloatPairs {
   FloatPack roundings;  ///< (v): of the value at any normal, over u
   FloatMask in_range;
 };
-
-HWY_INLINE FloatVec3 to_float(const PackVec3& v) {
-  return {to_float(v.x), to_float(v.y), to_float(v.z)};
-}
-HWY_INLINE PackVec3 to_double(const FloatVec3& v) {
-  return {to_double(v.x), to_double(v.y), to_double(v.z)};
-}
 
 // (v) of docs/derivations/gap-batch.md, over u.
 constexpr double kOfDistance = 4.01, kOfAxes = 4.11;

@@ -84,7 +84,7 @@ HWY_INLINE FloatVec3 first_normal(const LaneBlock& block, std::size_t i, const F
     return start.normal();
   };
   if (block.normals == nullptr) return fresh_normal();
-  const FloatVec3 previous = to_float(load_vectors(block.normals + 3 * i));
+  const FloatVec3 previous = to_float(load_normals(block.normals + 3 * i));
   const FloatMask fresh = is_nothing(previous);
   const FloatVec3 given = normalised(previous);
   return none(fresh) ? given : chosen(fresh, fresh_normal(), given);

@@ -17,9 +17,18 @@ namespace {
 
 /// A body of each pair: ShapeRow by columns, in its order.
 struct BodyColumns {
-  ColumnsOf<double, 3> centre;
-  Column<double> largest, least_radius, reach;
-  ColumnsOf<double, 6> shape;
+  Column<double> column[sizeof(ShapeRow) / sizeof(double)];
+
+  HWY_INLINE PackVec3 centre(std::size_t i) const {
+    return {number(0, i), number(1, i), number(2, i)};
+  }
+  HWY_INLINE Pack largest(std::size_t i) const { return number(3, i); }
+  HWY_INLINE Pack least_radius(std::size_t i) const { return number(4, i); }
+  HWY_INLINE Pack reach(std::size_t i) const { return number(5, i); }
+  HWY_INLINE PackSymmetric3 shape(std::size_t i) const {
+    return {number(6, i), number(7, i), number(8, i), number(9, i), number(10, i), number(11, i)};
+  }
+  HWY_INLINE Pack number(std::size_t c, std::size_t i) const { return load(column[c], i); }
 };
 static_assert(sizeof(BodyColumns) == sizeof(ShapeRow) * kPairs);
 
