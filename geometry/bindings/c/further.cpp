@@ -10,6 +10,7 @@
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/time_batch.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 #include <tangency/geometry/trace_contact.hpp>
@@ -19,6 +20,12 @@ namespace {
 
 constexpr std::array<const char*, 3> kNormal{"x", "y", "z"};
 constexpr std::array<const char*, 9> kMotion{"vx", "vy", "vz", "wx", "wy", "wz", "rx", "ry", "rz"};
+
+/// Length, angle or speed: sums and differences of two motions do not overflow below it. Chosen.
+constexpr double kMostMotion = 0x1p1000;
+
+/// What contact_curvature() is for: geometry/curvature.hpp.
+constexpr double kMostAspect = 1e70;
 
 /// As a normal of an answer: finite, and unit but for rounding.
 void require_unit(const double* normals, std::size_t count) {
@@ -69,11 +76,16 @@ std::vector<Motion> motions_of(const double* rows, std::size_t bodies, double ho
   motions.reserve(bodies);
   for (std::size_t i = 0; i < bodies; ++i) {
     const Vec3* const row = vectors(rows + 9 * i);
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (!std::isfinite(rows[9 * i + k] * horizon)) {
-        refuse_row("motions", i, kMotion[k], rows[9 * i + k],
-                   "what it covers within the horizon must be finite");
-      }
+    for (std::size_t vector = 0; vector < 3; ++vector) {
+      Eigen::Index largest = 0;
+      row[vector].cwiseAbs().maxCoeff(&largest);
+      const double length = row[vector].stableNorm();
+      const double covered = vector < 2 ? length * horizon : length;
+      if (length <= kMostMotion && covered <= kMostMotion) continue;
+      refuse_row("motions", i, kMotion[3 * vector + static_cast<std::size_t>(largest)],
+                 row[vector][largest],
+                 vector < 2 ? "its vector, and that times the horizon, must be at most 2^1000 long"
+                            : "its vector must be at most 2^1000 long");
     }
     motions.push_back({row[0], row[1], row[2]});
   }
@@ -85,6 +97,16 @@ void require_frame(double horizon, double tolerance) {
     refuse_value("horizon", horizon, "must be finite and >= 0");
   }
   if (!(tolerance > 0.0)) refuse_value("tolerance", tolerance, "must be > 0");
+}
+
+void require_aspects(const std::vector<Ellipsoid>& all, const Pairs& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Vec3 &a = all[pairs[k].a].semi_axes(), &b = all[pairs[k].b].semi_axes();
+    const double longest = a.cwiseMax(b).maxCoeff(), shortest = a.cwiseMin(b).minCoeff();
+    if (longest <= kMostAspect * shortest) continue;
+    refuse_row("pairs", k, "longest semi-axis", longest,
+               "must be at most 1e70 times the shortest, " + tables::to_text(shortest));
+  }
 }
 
 void put_curvature(double* curvature, double* directions, std::size_t k,
@@ -168,6 +190,7 @@ int tangency_contact_curvatures(const tangency_bodies* bodies, const unsigned* p
     const Pairs list(required(bodies), pairs, count);
     require_unit(normals, count);
     const std::vector<Ellipsoid>& all = bodies->prepared().ellipsoids;
+    require_aspects(all, list);
     each(count, threads, [&](std::size_t k) {
       const ContactCurvature found =
           contact_curvature(all[list[k].a], all[list[k].b], vectors(normals)[k]);
