@@ -440,8 +440,9 @@ FUNCTIONS = (
              (_BODIES,) + _PAIRS + (_answers("containment_columns"), _THREADS)),
     Function("times_of_contact", "First contact of moving bodies in 0 <= t <= horizon.", (_BODIES,) + _PAIRS + (
         Argument("motions", "double[9]", "of each body: velocity of the pivot, angular velocity in space (rad per "
-                                         "time), centre less pivot. The length of each, and what the first "
-                                         "two cover within the horizon, is at most 2^1000"),
+                                         "time), centre less pivot. Each of them, and what the "
+                                         "first two cover within the horizon, is at most 2^500 long, and lengths "
+                                         "at most 2^900 of the shortest semi-axis of all bodies"),
         Argument("horizon", "double", "finite, >= 0", "time"),
         Argument("tolerance", "double", "> 0", "time"),
         _answers("time_columns"), _THREADS)),

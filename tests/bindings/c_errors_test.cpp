@@ -135,11 +135,12 @@ TEST(CErrors, OfOtherThings) {
                  TANGENCY_BAD_ARGUMENT, kNoRow,
                  "count = 2: without pairs must be at most 1, the number of walls");
   const double motions[18] = {1e308};
-  expect_refused(tangency_times_of_contact(two.bodies, two.pairs, 1, nullptr, motions, 100, 1e-6,
-                                           &two.times, 1),
-                 TANGENCY_BAD_ROW, 0,
-                 "motions: row 0: vx = 1e+308: its vector, and that times the horizon, must be at "
-                 "most 2^1000 long");
+  expect_refused(
+      tangency_times_of_contact(two.bodies, two.pairs, 1, nullptr, motions, 100, 1e-6, &two.times,
+                                1),
+      TANGENCY_BAD_ROW, 0,
+      "motions: row 0: vx = 1e+308: velocity, and that times the horizon, must be at most "
+      "3.273390607896142e+150 long");
   const double coefficients[10] = {1, kNan};
   expect_refused(tangency_classify(coefficients, 1, 80, &two.quadrics, 1), TANGENCY_BAD_ROW, 0,
                  "coefficients: row 0: B = nan: a coefficient must be finite");

@@ -99,17 +99,32 @@ TEST(CMotions, OfAnyLengthAreAnsweredOrRefused) {
   turning[12] = turning[13] = turning[14] = most;
   expect_refused(
       ask(turning, 1), TANGENCY_BAD_ROW,
-      "motions: row 1: wx = 1.7e+308: its vector, and that times the horizon, must be at "
-      "most 2^1000 long");
-  // What is just allowed is answered, whatever is added to what.
-  for (const double horizon : {1.0, 0x1p-1000}) {
+      "motions: row 1: wx = 1.7e+308: angular velocity, and that times the horizon, must "
+      "be at most 3.273390607896142e+150 long");
+  // What is just allowed is answered, whatever is added to what and however it turns.
+  for (const double horizon : {1.0, 0x1p-1000, 0.0}) {
     double motions[18] = {};
-    for (std::size_t k = 0; k < 18; ++k) motions[k] = k % 3 == 0 ? 0x1p1000 : 0.0;
-    motions[9] = -motions[9];
+    for (std::size_t k = 0; k < 18; ++k) motions[k] = (k % 2 == 0 ? 0x1p499 : -0x1p498);
     EXPECT_EQ(ask(motions, horizon), TANGENCY_OK) << tangency_error_message();
     EXPECT_GE(status, TANGENCY_TIME_STATUS_NONE);
     EXPECT_LE(status, TANGENCY_TIME_STATUS_NOT_CONVERGED);
   }
+}
+
+TEST(CMotions, OfBodiesThatAreLostInThemAreRefused) {
+  const double least = 0x1p-1000;
+  const CBodies bodies({{0, 0, 0, 1, 1, least, 1, 0, 0, 0}, {3, 0, 0, 1, 1, 1, 1, 0, 0, 0}});
+  auto columns = empty_columns<tangency_time_columns>();
+  const auto ask = [&](double speed, double horizon) {
+    const double motions[18] = {speed};
+    return tangency_times_of_contact(bodies, nullptr, 1, nullptr, motions, horizon, 1e-6, &columns,
+                                     1);
+  };
+  expect_refused(ask(1, 1), TANGENCY_BAD_ROW,
+                 "motions: row 0: vx = 1: velocity, and that times the horizon, must be at most "
+                 "7.888609052210118e-31 long");
+  EXPECT_EQ(ask(0x1p-101, 4), TANGENCY_BAD_ROW);
+  EXPECT_EQ(ask(0x1p-101, 1), TANGENCY_OK) << tangency_error_message();
 }
 
 TEST(CStructs, OfSizesThatEndWithinAFieldAreRefused) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +23,11 @@ namespace {
 constexpr std::array<const char*, 3> kNormal{"x", "y", "z"};
 constexpr std::array<const char*, 9> kMotion{"vx", "vy", "vz", "wx", "wy", "wz", "rx", "ry", "rz"};
 
-/// Length, angle or speed: sums and differences of two motions do not overflow below it. Chosen.
-constexpr double kMostMotion = 0x1p1000;
+/// Squares of lengths, angles and speeds below it do not overflow. Chosen.
+constexpr double kMostMotion = 0x1p500;
+/// Of lengths over the shortest semi-axis, since the kernel computes in the bodies' size. Chosen:
+/// of random motions none below 2^1000 ended the process.
+constexpr double kMostOfSize = 0x1p900;
 
 /// What contact_curvature() is for: geometry/curvature.hpp.
 constexpr double kMostAspect = 1e70;
@@ -70,23 +75,33 @@ void ask_other_gaps(int definition, const tangency_bodies& bodies, const Pairs& 
   }
 }
 
-std::vector<Motion> motions_of(const double* rows, std::size_t bodies, double horizon) {
-  require_finite_rows("motions", rows, 9, bodies, kMotion.data());
+double shortest_semi_axis(const tangency_bodies& bodies) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    shortest = std::min(shortest, bodies.moving()[i].smallest_semi_axis());
+  }
+  return shortest;
+}
+
+std::vector<Motion> motions_of(const double* rows, const tangency_bodies& bodies, double horizon) {
+  require_finite_rows("motions", rows, 9, bodies.size(), kMotion.data());
+  const double most_length = std::min(kMostMotion, kMostOfSize * shortest_semi_axis(bodies));
   std::vector<Motion> motions;
-  motions.reserve(bodies);
-  for (std::size_t i = 0; i < bodies; ++i) {
+  motions.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Vec3* const row = vectors(rows + 9 * i);
-    for (std::size_t vector = 0; vector < 3; ++vector) {
+    const auto require = [&](std::size_t vector, double times, double most, const char* rule) {
       Eigen::Index largest = 0;
       row[vector].cwiseAbs().maxCoeff(&largest);
-      const double length = row[vector].stableNorm();
-      const double covered = vector < 2 ? length * horizon : length;
-      if (length <= kMostMotion && covered <= kMostMotion) continue;
+      if (row[vector].stableNorm() * times <= most) return;
       refuse_row("motions", i, kMotion[3 * vector + static_cast<std::size_t>(largest)],
-                 row[vector][largest],
-                 vector < 2 ? "its vector, and that times the horizon, must be at most 2^1000 long"
-                            : "its vector must be at most 2^1000 long");
-    }
+                 row[vector][largest], rule + tables::to_text(most) + " long");
+    };
+    const double times = std::max(1.0, horizon);
+    require(0, times, most_length, "velocity, and that times the horizon, must be at most ");
+    require(1, times, kMostMotion,
+            "angular velocity, and that times the horizon, must be at most ");
+    require(2, 1.0, most_length, "centre less pivot must be at most ");
     motions.push_back({row[0], row[1], row[2]});
   }
   return motions;
@@ -257,7 +272,7 @@ int tangency_times_of_contact(const tangency_bodies* bodies, const unsigned* pai
     const tangency_time_columns to = known(answers, "answers");
     const Pairs list(required(bodies), pairs, count, separations);
     require_frame(horizon, tolerance);
-    const std::vector<Motion> moving = motions_of(motions, bodies->size(), horizon);
+    const std::vector<Motion> moving = motions_of(motions, *bodies, horizon);
     if (!bodies->by_matrices()) {
       return times_of_contact(bodies->moving(), moving, list.list(), horizon, tolerance,
                               {.status = values<ContactTimeStatus>(to.status, count),

@@ -941,8 +941,8 @@ TANGENCY_API int tangency_containments(const tangency_bodies* bodies, const unsi
  * @param separations  c_B - c_A in place of that of the centres, as for periodic images; NULL: of
  * the centres (3 a row, unit: length)
  * @param motions  of each body: velocity of the pivot, angular velocity in space (rad per time),
- * centre less pivot. The length of each, and what the first two cover within the horizon, is at
- * most 2^1000 (9 a row)
+ * centre less pivot. Each of them, and what the first two cover within the horizon, is at most
+ * 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a row)
  * @param horizon  finite, >= 0 (unit: time)
  * @param tolerance  > 0 (unit: time)
  * @param answers  each column count rows, or NULL: not asked for
