@@ -113,8 +113,8 @@ function(tangency_install_descriptions target)
 endfunction()
 
 # tangency_pkg_config(COMPONENT DESCRIPTION REQUIRES PRIVATE [LIBRARY ...]): the file tangency-COMPONENT.pc.
-# Who links a static library needs what is private to it, packages and libraries, and is not to know of
-# which kind it is.
+# Who links a static library needs what is private to it, packages and libraries (from C and Fortran those
+# of C++ too, behind the objects that ask for them), and is not to know of which kind it is.
 function(tangency_pkg_config component description requires private)
   get_target_property(type tangency_${component} TYPE)
   set(libraries "-L\${libdir} -ltangency_${component}")
@@ -153,7 +153,7 @@ function(tangency_install_package)
                 "${PROJECT_BINARY_DIR}/tangencyConfigVersion.cmake" .ci/packaging/dependencies.cmake
           DESTINATION "${package_dir}" COMPONENT geometry)
 
-  tangency_pkg_config(geometry "How two ellipsoids touch, exactly (C++20)" "eigen3 >= 3.4" "gmpxx;libhwy")
+  tangency_pkg_config(geometry "How two ellipsoids touch, exactly (C++20)" "eigen3 >= 3.4" "gmpxx;libhwy" -lstdc++ -lm)
   if(TARGET tangency_dem)
     tangency_pkg_config(micromechanics "Fabric and stress of any contacts (C++20)" "eigen3 >= 3.4" qhull_r)
     tangency_pkg_config(dem "Assemblies of ellipsoids in a periodic cell (C++20)"
@@ -161,10 +161,12 @@ function(tangency_install_package)
   endif()
 
   if(TARGET tangency_c)
-    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}" -lstdc++ -lm)
+    tangency_pkg_config(c "How two ellipsoids touch, exactly (C89)" "" "tangency-geometry = ${PROJECT_VERSION}")
   endif()
 
-  include(.ci/packaging/debian.cmake)
+  if(PROJECT_IS_TOP_LEVEL)  # CPack has one project: elsewhere it is that of the user
+    include(.ci/packaging/debian.cmake)
+  endif()
   set(documents "${CMAKE_INSTALL_DATAROOTDIR}/doc/tangency")  # also within another project
   install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${documents}" COMPONENT geometry)
   install(DIRECTORY LICENSES docs/example DESTINATION "${documents}" COMPONENT geometry)

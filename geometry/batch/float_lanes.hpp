@@ -17,7 +17,7 @@ namespace tangency::inline v0::detail {
 std::uint64_t float_gap_lanes(LaneBlock& block) noexcept;
 
 /// As overlap_lanes(). Reads floats, pairs, count and separations of the block. In any rounding
-/// mode.
+/// mode, subnormal numbers kept.
 LaneOverlaps float_overlap_lanes(const LaneBlock& block) noexcept;
 
 }  // namespace tangency::inline v0::detail

@@ -37,9 +37,10 @@ all_is_there() {
               include/tangency/verify/oracles/gap.hpp share/tangency/scenes/growth-1000.toml \
               share/tangency/corpora/touching.csv share/man/man1/tangency{,-dem,-verify}.1 \
               share/bash-completion/completions/tangency{,-dem,-verify} \
-              share/doc/tangency/LICENSE share/doc/tangency/LICENSES/{MIT,GPL-3.0-or-later}.txt; do
+              include/tangency.{h,f90} share/doc/tangency/LICENSE share/doc/tangency/LICENSES/{MIT,GPL-3.0-or-later}.txt; do
     [ -s "$prefix/$file" ] || { echo "$file is not installed"; exit 1; }
   done
+  [ -s "$prefix/lib/python3/dist-packages/tangency/__init__.py" ] || { echo "the Python package is not installed"; exit 1; }
   for program in tangency{,-dem,-verify}; do
     [ -s "$prefix/share/zsh/site-functions/_$program" ] || [ -s "$prefix/share/zsh/vendor-completions/_$program" ] ||
       { echo "zsh's completion of $program is not installed"; exit 1; }
@@ -166,12 +167,8 @@ consumer "find_package() of each component, and of none" components
 consumer "plug-in by dlopen(), hidden names, exceptions" plugin
 consumer "pkg-config" by_pkg_config
 consumer "C++17 is told what it lacks" old_dialect
-[ ! -e "$prefix/include/tangency.h" ] || consumer "C89 by find_package() and pkg-config" c89
-if [ -e "$prefix/include/tangency.f90" ] && command -v gfortran >/dev/null; then
-  consumer "Fortran" fortran
-fi
-if [ -d "$prefix/lib/python3/dist-packages/tangency" ] && [ $kind = shared ]; then
-  consumer "Python" python
-fi
+consumer "C89 by find_package() and pkg-config" c89
+consumer "Fortran" fortran
+[ $kind = static ] || consumer "Python" python
 [ $kind = static ] || consumer "soname, and public names alone" shows
 exit $failed

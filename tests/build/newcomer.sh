@@ -19,6 +19,7 @@ path() {
     inside' "$source/README.md" >"$work/commands"
   if [ ! -s "$work/commands" ]; then
     echo "$heading: README has no commands"
+    status=1
     return
   fi
   "$source/tests/build/fresh_root.sh" "$(dpkg --print-architecture)" "$root" git ca-certificates

@@ -100,7 +100,7 @@ Counts count_float(const Family& family) {
   return count(in, array, exactly(in), detail::float_overlap_lanes);
 }
 
-TEST(FloatOverlapLanes, AreNeverWrongInAnyEnvironment) {
+TEST(FloatOverlapLanes, OfOrdinarySizesAreNeverWrongInAnyEnvironment) {
   std::vector<Family> families = testing::drawn_families();
   for (Family& family : families) {
     family.a.erase(family.a.begin() + std::min<std::ptrdiff_t>(300, std::ssize(family.a)),
