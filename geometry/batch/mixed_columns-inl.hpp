@@ -9,6 +9,8 @@
 #define TANGENCY_MIXED_COLUMNS_INL
 #endif
 
+#include <cstddef>
+
 #include <tangency/geometry/batch/columns-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
