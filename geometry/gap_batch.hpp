@@ -72,7 +72,8 @@ struct Accuracy {
 /// @param answers  where the answers go
 /// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the list, the calling one among them; each is started for the
-///                 call, which some thousands of pairs are worth
+///                 call, which some thousands of pairs are worth. Each needs 256 kB of stack, the
+///                 calling one too.
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// @overload
@@ -109,7 +110,8 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
 /// @param answers  where the answers go
 /// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the call
-/// @param previous_normals  may be the same memory as answers.normal
+/// @param previous_normals  each 0, or of a largest component in [2^-100, 2^100]; may be the same
+///                          memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;

@@ -272,8 +272,8 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
     fill_shape_rows(work.plain_a, count, work.rows_a);
     fill_shape_rows(work.plain_b, count, work.rows_b);
     if (task.in_floats()) {
-      fill(work.floats_a, work.rows_a, count);
-      fill(work.floats_b, work.rows_b, count);
+      fill(work.floats_a, work.plain_a, work.rows_a, count);
+      fill(work.floats_b, work.plain_b, work.rows_b, count);
     }
   }
   aim(task, block);
