@@ -191,6 +191,9 @@ HWY_INLINE std::uint64_t bits(const PackMask& m) {
 #endif
 }
 HWY_INLINE std::uint64_t bits(const FloatMask& m) {
+#if HWY_TARGET == HWY_AVX3
+  return m.low.raw;
+#else
   std::uint8_t low[8] = {};
   hn::StoreMaskBits(F(), m.low, low);
 #if TANGENCY_FLOAT_REGISTERS == 2
@@ -199,6 +202,7 @@ HWY_INLINE std::uint64_t bits(const FloatMask& m) {
   return std::uint64_t{low[0]} | std::uint64_t{high[0]} << hn::Lanes(F());
 #else
   return std::uint64_t{low[0]} | std::uint64_t{low[1]} << 8;
+#endif
 #endif
 }
 
