@@ -244,6 +244,7 @@ void add_float_batch(std::vector<Method>& all, const Pairs& pairs, bool followin
     for (std::size_t i = 0; i < columns->gap.size(); ++i) answers.push_back(columns->answer(i));
     return answers;
   };
+  method.left = [&p, following] { return left_by_lanes(p, Accuracy::standard(), following); };
   all.push_back(std::move(method));
 }
 
