@@ -9,6 +9,7 @@
 
 #include <tangency/geometry/batch/float_lanes.hpp>
 #include <tangency/geometry/batch/gap_lanes.hpp>
+#include <tangency/geometry/batch/gap_writers.hpp>
 #include <tangency/geometry/batch/pair_task.hpp>
 #include <tangency/geometry/batch/parts.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
@@ -20,6 +21,10 @@ namespace {
 using detail::kBlock;
 using detail::OpenPairs;
 using detail::PairTask;
+using detail::ToBounded;
+using detail::ToColumns;
+using detail::ToFloats;
+using detail::ToGaps;
 using detail::Workspace;
 
 /// Is any answer written where a previous normal stands?
@@ -33,114 +38,6 @@ bool meet(const GapColumns& columns, std::span<const Vec3> normals) {
   return meets(columns.gap) || meets(columns.gap_error) || meets(columns.normal) ||
          meets(columns.arm_a) || meets(columns.arm_b) || meets(columns.point);
 }
-
-/// Writes the answers of one block to columns: a full block directly.
-struct ToColumns {
-  const GapColumns& to;
-
-  void aim(Workspace& work, std::size_t first, std::size_t count) const {
-    if (count < kBlock) return work.take_answers();
-    const auto numbers = [&](std::span<double> c) { return c.empty() ? nullptr : &c[first]; };
-    const auto vectors = [&](std::span<Vec3> c, Vec3* else_here) {
-      if (!c.empty()) return c[first].data();
-      return to.point.empty() ? nullptr : else_here->data();
-    };
-    work.block.gap = numbers(to.gap);
-    work.block.gap_error = numbers(to.gap_error);
-    work.block.normal = to.normal.empty() ? nullptr : to.normal[first].data();
-    work.block.arm_a = vectors(to.arm_a, work.arm_a);
-    work.block.arm_b = vectors(to.arm_b, work.arm_b);
-  }
-
-  void lanes(const PairTask& task, const Workspace& work, std::size_t first,
-             std::size_t count) const {
-    if (!to.tier.empty()) std::fill_n(&to.tier[first], count, GapTier::fast);
-    if (!to.status.empty()) {
-      std::fill_n(&to.status[first], count, GapStatus::ok);
-      for (std::uint64_t local = work.block.local; local != 0; local &= local - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(local));
-        if (i < count) to.status[first + i] = GapStatus::local;
-      }
-    }
-    if (!to.point.empty()) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto arm = [&](const double* arms) { return Eigen::Map<const Vec3>(arms + 3 * i); };
-        to.point[first + i] =
-            point(task.separation(first + i), arm(work.block.arm_a), arm(work.block.arm_b));
-      }
-    }
-    if (count == kBlock) return;
-    const auto copy = [&](const auto* from, const auto& column) {
-      if (!column.empty()) std::copy_n(from, count, &column[first]);
-    };
-    copy(work.gap, to.gap);
-    copy(work.gap_error, to.gap_error);
-    copy(work.normal, to.normal);
-    copy(work.arm_a, to.arm_a);
-    copy(work.arm_b, to.arm_b);
-  }
-
-  void lane(const PairTask& task, std::size_t i, const Gap& gap) const { write(task, i, gap); }
-  void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    write(task, i, task.single(i, previous_normal));
-  }
-
-  void write(const PairTask& task, std::size_t i, const Gap& gap) const {
-    if (!to.gap.empty()) to.gap[i] = gap.gap;
-    if (!to.gap_error.empty()) to.gap_error[i] = gap.gap_error;
-    if (!to.normal.empty()) to.normal[i] = gap.normal;
-    if (!to.arm_a.empty()) to.arm_a[i] = gap.arm_a;
-    if (!to.arm_b.empty()) to.arm_b[i] = gap.arm_b;
-    if (!to.status.empty()) to.status[i] = gap.status;
-    if (!to.tier.empty()) to.tier[i] = gap.tier;
-    if (!to.point.empty()) to.point[i] = point(task.separation(i), gap.arm_a, gap.arm_b);
-  }
-
-  static Vec3 point(const Vec3& d, const Vec3& arm_a, const Vec3& arm_b) {
-    return arm_a + 0.5 * ((d + arm_b) - arm_a);
-  }
-};
-
-/// The same of enclosures.
-struct ToBounded {
-  ToColumns columns;
-  std::span<double> above;
-
-  void aim(Workspace& work, std::size_t first, std::size_t count) const {
-    columns.aim(work, first, count);
-    if (work.block.gap_error == nullptr) work.block.gap_error = work.gap_error;
-  }
-  void lanes(const PairTask& task, const Workspace& work, std::size_t first,
-             std::size_t count) const {
-    columns.lanes(task, work, first, count);
-    if (!above.empty()) std::copy_n(work.block.gap_error, count, &above[first]);
-  }
-  void lane(const PairTask& task, std::size_t i, const Gap& gap) const {
-    columns.write(task, i, gap);
-    if (!above.empty()) above[i] = gap.gap_error;
-  }
-  void single(const PairTask& task, std::size_t i, const Vec3*) const {
-    const BoundedGap gap = task.bounded(i);
-    columns.write(task, i, gap);
-    if (!above.empty()) above[i] = gap.above;
-  }
-};
-
-struct ToGaps {
-  std::span<Gap> to;
-
-  void aim(Workspace& work, std::size_t, std::size_t) const { work.take_answers(); }
-  void lanes(const PairTask&, const Workspace& work, std::size_t first, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      to[first + i] = {work.gap[i],       work.normal[i], work.arm_a[i], work.arm_b[i],
-                       work.gap_error[i], GapStatus::ok,  GapTier::fast};
-    }
-  }
-  void lane(const PairTask&, std::size_t i, const Gap& gap) const { to[i] = gap; }
-  void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    to[i] = task.single(i, previous_normal);
-  }
-};
 
 /// Pairs first to last. What the first tier leaves open it may settle from the normal that it came
 /// to; else the next tier may, and else the single call does.
@@ -181,7 +78,7 @@ class Run {
 
  private:
   void single(std::size_t i, const Vec3& previous) const {
-    write_.single(task_, i, task_.previous_normals != nullptr ? &previous : nullptr);
+    write_.single(task_, i, task_.follows() ? &previous : nullptr);
   }
 
   /// A pair that the first tier left open: to itself where that may help, else to the next.
@@ -248,7 +145,8 @@ void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noex
   });
 }
 
-void require_columns(const char* call, const GapColumns& columns, std::size_t count) {
+template <class Columns>
+void require_columns(const char* call, const Columns& columns, std::size_t count) {
   const auto require = [&](const char* name, const auto& column) {
     if (!column.empty()) contract::require_length(call, name, column.size(), count);
   };
@@ -277,6 +175,17 @@ void follow(const Bodies& bodies, const PairList& list, std::span<const Vec3> pr
   PairTask task = followed(bodies, list, previous_normals);
   task.answers_over_normals = meet(answers, previous_normals);
   run(task, accuracy, threads, ToColumns{answers});
+}
+
+template <class Bodies>
+void follow(const Bodies& bodies, const PairList& list, std::span<const Vec3f> previous_normals,
+            const FloatGapColumns& answers, Accuracy accuracy, int threads) noexcept {
+  require_columns("follow_gaps", answers, list.pairs.size());
+  contract::require_length("follow_gaps", "previous_normals", previous_normals.size(),
+                           list.pairs.size());
+  PairTask task("follow_gaps", bodies, list);
+  task.previous_floats = previous_normals.data();
+  run(task, accuracy, threads, ToFloats{answers});
 }
 
 template <class Bodies>
@@ -309,6 +218,18 @@ void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColu
   run(PairTask("signed_gaps", bodies, list), accuracy, threads, ToColumns{answers});
 }
 
+void signed_gaps(const BodyArray& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy, int threads) noexcept {
+  require_columns("signed_gaps", answers, list.pairs.size());
+  run(PairTask("signed_gaps", bodies, list), accuracy, threads, ToFloats{answers});
+}
+
+void signed_gaps(const MovingBodies& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy, int threads) noexcept {
+  require_columns("signed_gaps", answers, list.pairs.size());
+  run(PairTask("signed_gaps", bodies, list), accuracy, threads, ToFloats{answers});
+}
+
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy, int threads) noexcept {
   signed_gaps(a, b, std::span<const Vec3>(), answers, accuracy, threads);
@@ -330,6 +251,18 @@ void follow_gaps(const BodyArray& bodies, const PairList& list,
 
 void follow_gaps(const MovingBodies& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
+                 Accuracy accuracy, int threads) noexcept {
+  follow(bodies, list, previous_normals, answers, accuracy, threads);
+}
+
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
+                 Accuracy accuracy, int threads) noexcept {
+  follow(bodies, list, previous_normals, answers, accuracy, threads);
+}
+
+void follow_gaps(const MovingBodies& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
                  Accuracy accuracy, int threads) noexcept {
   follow(bodies, list, previous_normals, answers, accuracy, threads);
 }

@@ -20,6 +20,8 @@
 /// (6) bounded_gaps() enclose the true gap in [gap - gap_error, gap + above], and what no lane
 ///     settles is to the bit that of bounded_gap().
 /// (7) point is the midpoint of the two witness points, from A's centre.
+/// (8) Float columns have the answers of the double ones, rounded, and what is proven of the gap
+///     stays proven: FloatGapColumns.
 #pragma once
 
 #include <span>
@@ -27,6 +29,7 @@
 #include <tangency/geometry/body_array.hpp>
 #include <tangency/geometry/bounded_gap.hpp>
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/gap_columns.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
@@ -57,27 +60,6 @@ struct Accuracy {
   static constexpr Accuracy within(double length) { return {0.0, length, false}; }
 };
 
-/// Answers by columns. Each span is as long as the list of pairs, or empty: not asked for.
-struct GapColumns {
-  std::span<double> gap = {};        ///< Gap::gap
-  std::span<double> gap_error = {};  ///< Gap::gap_error
-  std::span<Vec3> normal = {};       ///< Gap::normal
-  std::span<Vec3> arm_a = {};        ///< Gap::arm_a
-  std::span<Vec3> arm_b = {};        ///< Gap::arm_b
-  std::span<GapStatus> status = {};  ///< Gap::status
-  std::span<GapTier> tier = {};      ///< Gap::tier
-  /// The contact point less A's centre: arm_a + half of what leads from there to B's witness point.
-  /// Off by no more than half of both arms' contact_bounds() and 8 u L; of MovingBodies, whose arms
-  /// (for a body of largest semi-axis a) may err by 8 u a^2/h + 6 u a more, by half of that too.
-  std::span<Vec3> point = {};
-};
-
-/// The same with how much more than `gap` the true gap may be.
-struct BoundedColumns {
-  GapColumns answers;  ///< gap, error, normal, points, status and tier, as BoundedGap has them
-  std::span<double> above = {};  ///< BoundedGap::above
-};
-
 /// signed_gap() of every pair.
 ///
 /// Here and below a length that does not match, an index that is none and a separation that is not
@@ -90,7 +72,8 @@ struct BoundedColumns {
 /// @param answers  where the answers go
 /// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the list, the calling one among them; each is started for the
-///                 call, which some thousands of pairs are worth
+///                 call, which some thousands of pairs are worth. Each needs 256 kB of stack, the
+///                 calling one too.
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// @overload
@@ -100,7 +83,13 @@ void signed_gaps(const BodyArray& bodies, const PairList& list, std::span<Gap> a
 /// and below.
 void signed_gaps(const MovingBodies& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
-/// The same for a[i] and b[i], at the cost of reading whole bodies.
+/// The same by float columns, at the cost of the rounding.
+void signed_gaps(const BodyArray& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
+void signed_gaps(const MovingBodies& bodies, const PairList& list, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// signed_gap() for a[i] and b[i], at the cost of reading whole bodies.
 void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b, std::span<Gap> answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// @param a,b  the bodies, in this order
@@ -121,7 +110,8 @@ void signed_gaps(std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
 /// @param answers  where the answers go
 /// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the call
-/// @param previous_normals  may be the same memory as answers.normal
+/// @param previous_normals  each 0, or of a largest component in [2^-100, 2^100]; may be the same
+///                          memory as answers.normal
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
@@ -132,6 +122,14 @@ void follow_gaps(const MovingBodies& bodies, const PairList& list,
 /// @overload
 void follow_gaps(const BodyArray& bodies, const PairList& list,
                  std::span<const Vec3> previous_normals, std::span<Gap> answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// The same by float columns: of the previous normals as the numbers that they are.
+void follow_gaps(const BodyArray& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
+                 Accuracy accuracy = {}, int threads = 1) noexcept;
+/// @overload
+void follow_gaps(const MovingBodies& bodies, const PairList& list,
+                 std::span<const Vec3f> previous_normals, const FloatGapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 
 /// bounded_gap() of every pair: in lanes where those settle it, and nowhere by a search or by the

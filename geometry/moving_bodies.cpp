@@ -127,7 +127,7 @@ void MovingBodies::fill(std::size_t first, std::size_t count) noexcept {
       for (std::size_t k = 0; k < some && !centres_.empty(); ++k)
         std::copy_n(centres_[i + k].data(), 3, to[k].centre);
       detail::fill_shape_rows(to, some, rows_.data() + i);
-      detail::fill(floats_.data() + i, rows_.data() + i, some);
+      detail::fill(floats_.data() + i, to, rows_.data() + i, some);
     }
   });
 }

@@ -49,7 +49,7 @@ struct PoseColumns {
 /// The bodies Ellipsoid(centre, semi_axes[i], orientations[i]).
 ///
 /// What the batch reads of them is what they were at the last refresh(), or when they were last
-/// set: 224 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
+/// set: 288 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
 /// different threads, but for the calls that change their number, the first call that owns numbers
 /// and the first that gives bodies centres. One that was moved from is empty; so is the copy of one
 /// that looks at columns, whose owner has columns of his own to look_at().

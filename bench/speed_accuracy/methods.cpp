@@ -4,6 +4,7 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -204,6 +205,49 @@ void add_batch(std::vector<Method>& all, const Pairs& pairs, const NamedAccuracy
   all.push_back(std::move(method));
 }
 
+/// Answers by float columns.
+struct FloatColumns {
+  explicit FloatColumns(std::size_t pairs)
+      : gap(pairs), gap_error(pairs), normal(pairs), arm_a(pairs), arm_b(pairs), status(pairs) {}
+  /// What is timed of double columns too.
+  FloatGapColumns usual() { return {gap, gap_error, normal, {}, {}, status}; }
+  /// Where the gap is beyond the range of floats: none.
+  Answer answer(std::size_t i) const {
+    if (!std::isfinite(gap[i])) return {};
+    return to_answer(Gap{gap[i], normal[i].cast<double>(), arm_a[i].cast<double>(),
+                         arm_b[i].cast<double>(), gap_error[i], status[i], GapTier::fast});
+  }
+
+  std::vector<float> gap, gap_error;
+  std::vector<Vec3f> normal, arm_a, arm_b;
+  std::vector<GapStatus> status;
+};
+
+/// Batch calls by float columns, `standard`.
+void add_float_batch(std::vector<Method>& all, const Pairs& pairs, bool following,
+                     std::int64_t level) {
+  const Pairs& p = pairs;
+  const auto columns = std::make_shared<FloatColumns>(p.size());
+  const auto previous = std::make_shared<std::vector<Vec3f>>();
+  for (const Vec3& normal : p.previous_normal) previous->push_back(normal.cast<float>());
+  const auto call = [&p, following, previous](const FloatGapColumns& to) {
+    if (following)
+      follow_gaps(*p.array, {p.list, {}}, *previous, to);
+    else
+      signed_gaps(*p.array, {p.list, {}}, to);
+  };
+  Method method{following ? "follow_gaps" : "signed_gaps", "float", {}, level, {}, true, {}, {}};
+  method.run = [columns, call] { call(columns->usual()); };
+  method.answers = [columns, call] {
+    call({.arm_a = columns->arm_a, .arm_b = columns->arm_b});
+    std::vector<Answer> answers;
+    for (std::size_t i = 0; i < columns->gap.size(); ++i) answers.push_back(columns->answer(i));
+    return answers;
+  };
+  method.left = [&p, following] { return left_by_lanes(p, Accuracy::standard(), following); };
+  all.push_back(std::move(method));
+}
+
 /// What gap_lanes() settles after so many steps of Newton's method, then more where the sign or
 /// that the answer is global is not proven by then: however wide the error. Pairs that the lanes
 /// leave to the single call have no answer.
@@ -273,6 +317,7 @@ std::vector<Method> methods_on(const Pairs& pairs, std::span<const std::int64_t>
     for (const bool following : {false, true}) {
       for (const NamedAccuracy& named : accuracies(std::ranges::min(pairs.smallest)))
         add_batch(all, pairs, named, following, level);
+      add_float_batch(all, pairs, following, level);
       for (int steps = 0; steps <= 4; ++steps) add_lanes(all, pairs, steps, following, level);
     }
     add_batch_overlaps(all, pairs, level);

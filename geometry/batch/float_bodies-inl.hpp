@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <tangency/geometry/batch/columns-inl.hpp>
 #include <tangency/geometry/batch/float_rows.hpp>
 #include <tangency/geometry/batch/pack_bodies-inl.hpp>
 #include <tangency/geometry/power_of_two.hpp>
@@ -20,133 +21,125 @@ HWY_BEFORE_NAMESPACE();
 namespace tangency::inline v0::detail::HWY_NAMESPACE {
 namespace {
 
-/// 2^-floor(log2 x), for x in [2^-126, 2^127].
-HWY_INLINE FloatPack inverse_power(const FloatPack& x) {
-  const auto of = [](const hn::Vec<F>& y) HWY_ATTR {
-    const hn::RebindToUnsigned<F> words;
-    const auto exponent = hn::And(hn::BitCast(words, y), hn::Set(words, 0x7f800000u));
-    return hn::BitCast(F(), hn::Sub(hn::Set(words, 254u << 23), exponent));
-  };
-  return {TANGENCY_FLOAT_PARTS(of(x.low), of(x.high))};
+/// A body of each pair: FloatRow by columns.
+struct FloatRowColumns {
+  ColumnsOf<double, 3> centre;
+  Column<float> largest, least_radius;
+  ColumnsOf<float, 6> shape;
+  Column<float> widest;
+};
+struct FloatPairColumns {
+  FloatRowColumns a, b;
+};
+
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+// Straight-line code for eight rows: of loops over them g++ makes vectors of addresses. Halves of
+// registers of AVX-512 are stored as they are: to insert them would cost more than to store them.
+constexpr std::size_t kRowsAtOnce = 8;
+
+/// Four floats of each of two rows.
+HWY_INLINE __m256 load_two(const float* low, const float* high) {
+  const __m256 first = _mm256_castps128_ps256(_mm_load_ps(low));
+  return _mm256_insertf128_ps(first, _mm_load_ps(high), 1);
+}
+/// Two columns of doubles of four rows.
+struct TwoColumns {
+  __m256d first, second;
+};
+HWY_INLINE TwoColumns load_doubles(const float* r0, const float* r1, const float* r2,
+                                   const float* r3) {
+  const __m256d even = _mm256_castps_pd(load_two(r0, r2));
+  const __m256d odd = _mm256_castps_pd(load_two(r1, r3));
+  return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
+}
+/// Four columns of floats of eight rows, of which each register holds rows k and k + 4.
+struct FourColumns {
+  __m256 first, second, third, fourth;
+};
+HWY_INLINE FourColumns transposed(__m256 r0, __m256 r1, __m256 r2, __m256 r3) {
+  const auto pairs = [](__m256 v) HWY_ATTR { return _mm256_castps_pd(v); };
+  const auto floats = [](__m256d v) HWY_ATTR { return _mm256_castpd_ps(v); };
+  const __m256d low01 = pairs(_mm256_unpacklo_ps(r0, r1)),
+                low23 = pairs(_mm256_unpacklo_ps(r2, r3));
+  const __m256d high01 = pairs(_mm256_unpackhi_ps(r0, r1)),
+                high23 = pairs(_mm256_unpackhi_ps(r2, r3));
+  return {floats(_mm256_unpacklo_pd(low01, low23)), floats(_mm256_unpackhi_pd(low01, low23)),
+          floats(_mm256_unpacklo_pd(high01, high23)), floats(_mm256_unpackhi_pd(high01, high23))};
 }
 
-struct FloatBodies {
-  PackVec3 centre;
-  FloatPack largest, least_radius, widest;
-  FloatSymmetric3 shape;
-};
-
-/// Where the rows of the bodies of a pack start, as floats.
-struct FloatRows {
-  const float* row[TANGENCY_FLOAT_REGISTERS * hn::MaxLanes(F())];
-};
-
-#if HWY_TARGET != HWY_SCALAR
-/// A block of four floats from each of some rows: those at `first`, `first` + step and so on, from
-/// float c on. So that what is left of a transposition stays within blocks.
-HWY_INLINE hn::Vec<F> load_blocks(const FloatRows& rows, std::size_t first, std::size_t step,
-                                  std::size_t c) {
-  const float* const* row = rows.row + first;
-#if HWY_TARGET == HWY_AVX3
-  __m512 blocks = _mm512_castps128_ps512(_mm_load_ps(row[0] + c));
-  blocks = _mm512_mask_broadcast_f32x4(blocks, 0x00f0, _mm_load_ps(row[step] + c));
-  blocks = _mm512_mask_broadcast_f32x4(blocks, 0x0f00, _mm_load_ps(row[2 * step] + c));
-  return hn::Vec<F>{_mm512_mask_broadcast_f32x4(blocks, 0xf000, _mm_load_ps(row[3 * step] + c))};
-#elif HWY_TARGET == HWY_AVX2
-  const __m256 low = _mm256_castps128_ps256(_mm_load_ps(row[0] + c));
-  return hn::Vec<F>{_mm256_insertf128_ps(low, _mm_load_ps(row[step] + c), 1)};
+HWY_INLINE void load_rows(const float* r0, const float* r1, const float* r2, const float* r3,
+                          const float* r4, const float* r5, const float* r6, const float* r7,
+                          FloatRowColumns& to, std::size_t i) {
+  const auto put = [&](__m256 v, Column<float>& column)
+                       HWY_ATTR { _mm256_store_ps(column.entry + i, v); };
+  const auto put_doubles = [&](__m256d low, __m256d high, Column<double>& column) HWY_ATTR {
+    _mm256_store_pd(column.entry + i, low);
+    _mm256_store_pd(column.entry + i + 4, high);
+  };
+  Column<double>* const centre = to.centre.column;
+  const TwoColumns xy = load_doubles(r0, r1, r2, r3), more_xy = load_doubles(r4, r5, r6, r7);
+  put_doubles(xy.first, more_xy.first, centre[0]);
+  put_doubles(xy.second, more_xy.second, centre[1]);
+  const TwoColumns z = load_doubles(r0 + 4, r1 + 4, r2 + 4, r3 + 4);
+  const TwoColumns more_z = load_doubles(r4 + 4, r5 + 4, r6 + 4, r7 + 4);
+  put_doubles(z.first, more_z.first, centre[2]);
+  // Two floats of each row: of rows 0 1 2 3 and 4 5 6 7.
+  const __m256 low = _mm256_castpd_ps(_mm256_permute2f128_pd(z.second, more_z.second, 0x20));
+  const __m256 high = _mm256_castpd_ps(_mm256_permute2f128_pd(z.second, more_z.second, 0x31));
+  put(_mm256_shuffle_ps(low, high, 0x88), to.largest);
+  put(_mm256_shuffle_ps(low, high, 0xdd), to.least_radius);
+  Column<float>* const shape = to.shape.column;
+  const FourColumns m = transposed(load_two(r0 + 8, r4 + 8), load_two(r1 + 8, r5 + 8),
+                                   load_two(r2 + 8, r6 + 8), load_two(r3 + 8, r7 + 8));
+  put(m.first, shape[0]);
+  put(m.second, shape[1]);
+  put(m.third, shape[2]);
+  put(m.fourth, shape[3]);
+  const FourColumns rest = transposed(load_two(r0 + 12, r4 + 12), load_two(r1 + 12, r5 + 12),
+                                      load_two(r2 + 12, r6 + 12), load_two(r3 + 12, r7 + 12));
+  put(rest.first, shape[4]);
+  put(rest.second, shape[5]);
+  put(rest.third, to.widest);
+}
+HWY_INLINE void load_rows(const FloatRow* rows, const IndexedPair* pairs,
+                          std::uint32_t IndexedPair::*which, FloatRowColumns& to, std::size_t i) {
+  const auto row = [&](std::size_t k) HWY_ATTR {
+    return reinterpret_cast<const float*>(rows + pairs[i + k].*which);
+  };
+  load_rows(row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), to, i);
+}
 #else
-  HWY_ALIGN float blocks[hn::MaxLanes(F())];
-  for (std::size_t k = 0; 4 * k < float_lanes(); ++k)
-    __builtin_memcpy(blocks + 4 * k, row[k * step] + c, 4 * sizeof(float));
-  return hn::Load(F(), blocks);
-#endif
-}
+constexpr std::size_t kRowsAtOnce = 1;
 
-/// Four columns of floats, from float c on.
-HWY_INLINE void load_floats(const FloatRows& rows, std::size_t c, FloatPack* column) {
-  const auto r0 = load_blocks(rows, 0, 4, c), r1 = load_blocks(rows, 1, 4, c);
-  const auto r2 = load_blocks(rows, 2, 4, c), r3 = load_blocks(rows, 3, 4, c);
-  const auto pairs = [](const hn::Vec<F>& v) HWY_ATTR { return hn::BitCast(D(), v); };
-  const auto low01 = pairs(hn::InterleaveLower(F(), r0, r1));
-  const auto low23 = pairs(hn::InterleaveLower(F(), r2, r3));
-  const auto high01 = pairs(hn::InterleaveUpper(F(), r0, r1));
-  const auto high23 = pairs(hn::InterleaveUpper(F(), r2, r3));
-  column[0].low = hn::BitCast(F(), hn::InterleaveLower(D(), low01, low23));
-  column[1].low = hn::BitCast(F(), hn::InterleaveUpper(D(), low01, low23));
-  column[2].low = hn::BitCast(F(), hn::InterleaveLower(D(), high01, high23));
-  column[3].low = hn::BitCast(F(), hn::InterleaveUpper(D(), high01, high23));
-}
-
-/// Two columns of doubles, from float c on.
-HWY_INLINE void load_doubles(const FloatRows& rows, std::size_t c, Pack* column) {
-  const auto half = [&](std::size_t first, Register& even, Register& odd) HWY_ATTR {
-    const auto r0 = hn::BitCast(D(), load_blocks(rows, first, 2, c));
-    const auto r1 = hn::BitCast(D(), load_blocks(rows, first + 1, 2, c));
-    even = hn::InterleaveLower(D(), r0, r1);
-    odd = hn::InterleaveUpper(D(), r0, r1);
-  };
-  half(0, column[0].low, column[1].low);
-  half(register_lanes(), column[0].high, column[1].high);
+HWY_INLINE void load_rows(const FloatRow* rows, const IndexedPair* pairs,
+                          std::uint32_t IndexedPair::*which, FloatRowColumns& to, std::size_t i) {
+  const FloatRow& row = rows[pairs[i].*which];
+  for (std::size_t c = 0; c < 3; ++c) to.centre.column[c].entry[i] = row.centre[c];
+  for (std::size_t c = 0; c < 6; ++c) to.shape.column[c].entry[i] = row.shape[c];
+  to.largest.entry[i] = row.largest;
+  to.least_radius.entry[i] = row.least_radius;
+  to.widest.entry[i] = row.widest;
 }
 #endif
 
-/// FloatRow by columns.
-HWY_INLINE FloatBodies load_bodies(const FloatRows& rows) {
-#if HWY_TARGET == HWY_SCALAR
-  const auto number = [&](std::size_t c) HWY_ATTR {
-    double low, high;
-    __builtin_memcpy(&low, rows.row[0] + c, sizeof low);
-    __builtin_memcpy(&high, rows.row[1] + c, sizeof high);
-    return Pack{hn::Set(D(), low), hn::Set(D(), high)};
-  };
-  const auto floats = [&](std::size_t c) HWY_ATTR {
-    return FloatPack{hn::Set(F(), rows.row[0][c]), hn::Set(F(), rows.row[1][c])};
-  };
-  return {{number(0), number(2), number(4)},
-          floats(6),
-          floats(7),
-          floats(14),
-          {floats(8), floats(9), floats(10), floats(11), floats(12), floats(13)}};
-#else
-  Pack number[4];  // of which the last is two floats in each
-  FloatPack shape[8];
-  load_doubles(rows, 0, number);
-  load_doubles(rows, 4, number + 2);
-  load_floats(rows, 8, shape);
-  load_floats(rows, 12, shape + 4);
-  const auto low = hn::BitCast(F(), number[3].low), high = hn::BitCast(F(), number[3].high);
-  return {{number[0], number[1], number[2]},
-          {hn::ConcatEven(F(), high, low)},
-          {hn::ConcatOdd(F(), high, low)},
-          shape[6],
-          {shape[0], shape[1], shape[2], shape[3], shape[4], shape[5]}};
-#endif
-}
-
-/// Of the pairs from i on.
-struct FloatPairRows {
-  FloatRows a, b;
-};
-
-HWY_INLINE FloatPairRows find_float_rows(const LaneBlock& block, std::size_t i) {
-  FloatPairRows rows;
-  const auto row = [](const FloatRow* from, std::uint32_t index)
-                       HWY_ATTR { return reinterpret_cast<const float*>(from + index); };
-  const IndexedPair* const pairs = block.pairs + i;
-  for (std::size_t k = 0; k < float_lanes(); ++k) {
-    rows.a.row[k] = row(block.floats_a, pairs[k].a);
-    rows.b.row[k] = row(block.floats_b, pairs[k].b);
-  }
-  if (block.next_pairs != nullptr) {
+/// One of the bodies of each of the first `count` pairs; those of the next block are asked for
+/// meanwhile.
+HWY_INLINE void load_rows_of(const LaneBlock& block, const FloatRow* rows,
+                             std::uint32_t IndexedPair::*which, std::size_t count,
+                             FloatRowColumns& to) {
+  for (std::size_t i = 0; i < count; i += kRowsAtOnce) {
+    load_rows(rows, block.pairs, which, to, i);
+    if (block.next_pairs == nullptr) continue;
     // Spread over the block: there are few slots for lines that are under way.
-    const IndexedPair* const next = block.next_pairs + i;
-    for (std::size_t k = 0; k < float_lanes(); ++k) {
-      __builtin_prefetch(block.floats_a + next[k].a);
-      __builtin_prefetch(block.floats_b + next[k].b);
-    }
+    for (std::size_t k = i; k < i + kRowsAtOnce; ++k)
+      __builtin_prefetch(rows + block.next_pairs[k].*which);
   }
-  return rows;
+}
+
+/// Of the first `count` pairs of the block, a multiple of pack_lanes().
+HWY_INLINE void load_rows(const LaneBlock& block, std::size_t count, FloatPairColumns& to) {
+  load_rows_of(block, block.floats_a, &IndexedPair::a, count, to.a);
+  load_rows_of(block, block.floats_b, &IndexedPair::b, count, to.b);
 }
 
 /// Pairs times a power of two of each, which is exact: L (gap.hpp), with max|d_i| for |d|, is then
@@ -162,45 +155,40 @@ struct FloatPairs {
   FloatMask in_range;
 };
 
-HWY_INLINE FloatVec3 to_float(const PackVec3& v) {
-  return {to_float(v.x), to_float(v.y), to_float(v.z)};
-}
-HWY_INLINE PackVec3 to_double(const FloatVec3& v) {
-  return {to_double(v.x), to_double(v.y), to_double(v.z)};
-}
-
 // (v) of docs/derivations/gap-batch.md, over u.
 constexpr double kOfDistance = 4.01, kOfAxes = 4.11;
 // Of the scaled body: no rounding of M is an underflow.
 constexpr double kLeastWidest = 0x1p-100;
 
-/// Pairs i to i + pack_lanes() of the block.
-HWY_INLINE FloatPairs load_pairs(const LaneBlock& block, std::size_t i) {
+/// Pairs i to i + pack_lanes() of the block. Written in place: g++ would copy a result of this size
+/// number by number.
+HWY_INLINE void scale(const LaneBlock& block, const FloatPairColumns& rows, std::size_t i,
+                      FloatPairs& to) {
   const auto c = [](double x) HWY_ATTR { return all<FloatPack>(x); };
-  const FloatPairRows rows = find_float_rows(block, i);
-  const FloatBodies a = load_bodies(rows.a), b = load_bodies(rows.b);
-  const FloatVec3 d = to_float(separation(block, i, a.centre, b.centre));
-  const FloatPack size = largest_component(d) + (a.largest + b.largest);
+  const FloatVec3 d =
+      to_float(separation(block, i, load(rows.a.centre, i), load(rows.b.centre, i)));
+  const FloatPack a = load(rows.a.largest, i), b = load(rows.b.largest, i);
+  const FloatPack size = largest_component(d) + (a + b);
   const FloatPack scale = inverse_power(size), square = scale * scale;
   const FloatVec3 scaled = d * scale;
   const FloatPack d2 = dot(scaled, scaled), distance = d2 * inverse_root(d2);
-  const FloatPack largest_a = a.largest * scale, largest_b = b.largest * scale;
-  const FloatPack widest_a = a.widest * square, widest_b = b.widest * square;
+  const FloatPack largest_a = a * scale, largest_b = b * scale;
+  const FloatPack widest_a = load(rows.a.widest, i) * square;
+  const FloatPack widest_b = load(rows.b.widest, i) * square;
+  to.d = scaled;
+  to.shape_a = load(rows.a.shape, i) * square;
+  to.shape_b = load(rows.b.shape, i) * square;
+  to.scale = scale;
+  to.size = size * scale;
+  to.largest_a = largest_a;
+  to.largest_b = largest_b;
+  to.widest_a = widest_a;
+  to.widest_b = widest_b;
+  to.radii = (load(rows.a.least_radius, i) + load(rows.b.least_radius, i)) * scale;
+  to.roundings = multiply_add(c(kOfDistance), distance, c(kOfAxes) * (largest_a + largest_b));
   // False for NaN, which is how bodies that are not moderate() stay out.
-  const FloatMask in_range = (size >= c(kSmallestModerate)) & (size <= c(kLargestModerate)) &
-                             (smaller(widest_a, widest_b) >= c(kLeastWidest));
-  return {scaled,
-          a.shape * square,
-          b.shape * square,
-          scale,
-          size * scale,
-          largest_a,
-          largest_b,
-          widest_a,
-          widest_b,
-          (a.least_radius + b.least_radius) * scale,
-          multiply_add(c(kOfDistance), distance, c(kOfAxes) * (largest_a + largest_b)),
-          in_range};
+  to.in_range = (size >= c(kSmallestModerate)) & (size <= c(kLargestModerate)) &
+                (smaller(widest_a, widest_b) >= c(kLeastWidest));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ HWY_INLINE FloatVec3 first_normal(const LaneBlock& block, std::size_t i, const F
     return start.normal();
   };
   if (block.normals == nullptr) return fresh_normal();
-  const FloatVec3 previous = to_float(load_vectors(block.normals + 3 * i));
+  const FloatVec3 previous = to_float(load_normals(block.normals + 3 * i));
   const FloatMask fresh = is_nothing(previous);
   const FloatVec3 given = normalised(previous);
   return none(fresh) ? given : chosen(fresh, fresh_normal(), given);
@@ -109,9 +109,11 @@ HWY_INLINE void write(const LaneBlock& to, std::size_t i, const FloatPairs& pair
 HWY_ATTR std::uint64_t float_gap_lanes(LaneBlock& block) {
   const std::size_t lanes = float_lanes();
   const std::size_t packs = (static_cast<std::size_t>(block.count) + lanes - 1) / lanes;
+  FloatPairColumns rows;
+  load_rows(block, packs * lanes, rows);
   FloatPairs pairs[kPacks];
   FloatVec3 normals[kPacks];
-  for (std::size_t k = 0; k < packs; ++k) pairs[k] = load_pairs(block, k * lanes);
+  for (std::size_t k = 0; k < packs; ++k) scale(block, rows, k * lanes, pairs[k]);
   for (std::size_t k = 0; k < packs; ++k) normals[k] = first_normal(block, k * lanes, pairs[k]);
   std::uint64_t settled = 0;
   for (std::size_t k = 0; k < packs; ++k) {

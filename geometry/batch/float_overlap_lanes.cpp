@@ -32,28 +32,38 @@ HWY_INLINE FloatAnswer proven(const FloatPairs& pairs, const FloatVec3& n) {
           off.sound & (at.gap + off.above < -off.value_error)};
 }
 
-/// By short loops over all packs, of which the machine works at several at a time.
+/// By short loops over all packs, of which the machine works at several at a time; then over those
+/// that have undecided lanes.
 HWY_ATTR LaneOverlaps float_overlap_lanes(const LaneBlock& block) {
   const std::size_t lanes = float_lanes();
   const std::size_t packs = (static_cast<std::size_t>(block.count) + lanes - 1) / lanes;
+  FloatPairColumns rows;
   FloatPairs pairs[kPacks];
   FloatStart starts[kPacks];
-  for (std::size_t k = 0; k < packs; ++k) pairs[k] = load_pairs(block, k * lanes);
+  FloatVec3 normals[kPacks];
+  load_rows(block, packs * lanes, rows);
+  for (std::size_t k = 0; k < packs; ++k) scale(block, rows, k * lanes, pairs[k]);
   for (std::size_t k = 0; k < packs; ++k) starts[k] = FloatStart(pairs[k]);
+  std::size_t open[kPacks], count = packs;
+  for (std::size_t k = 0; k < packs; ++k) open[k] = k;
   LaneOverlaps answers{0, 0};
-  for (std::size_t k = 0; k < packs; ++k) {
-    FloatMask apart = none_of_them<FloatPack>(), meet = apart;
-    for (int step = 0;; ++step) {
-      const FloatAnswer now = proven(pairs[k], starts[k].normal());
-      apart = apart | now.apart;
-      meet = meet | now.meet;
-      if (none(without(pairs[k].in_range, apart | meet)) || step == kSteps) break;
-      starts[k].step();
+  for (int step = 0;; ++step) {
+    for (std::size_t j = 0; j < count; ++j) normals[open[j]] = starts[open[j]].normal();
+    std::size_t left = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::size_t k = open[j], first = k * lanes;
+      const FloatAnswer now = proven(pairs[k], normals[k]);
+      const std::uint64_t meet = bits(now.meet);
+      answers.meet |= meet << first;
+      answers.decided |= (bits(now.apart) | meet) << first;
+      const bool is_open = (bits(pairs[k].in_range) & ~(answers.decided >> first)) != 0;
+      open[left] = k;
+      left += static_cast<std::size_t>(is_open);
     }
-    answers.decided |= bits(apart | meet) << (k * lanes);
-    answers.meet |= bits(meet) << (k * lanes);
+    count = left;
+    if (count == 0 || step == kSteps) return answers;
+    for (std::size_t j = 0; j < count; ++j) starts[open[j]].step();
   }
-  return answers;
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ struct PackStart {
 HWY_INLINE PackStart first_normal(const LaneBlock& block, std::size_t i, const PackPair& pair,
                                   const PackSymmetric3& shape_a, const PackSymmetric3& shape_b) {
   PackVec3 previous{all(0.0), all(0.0), all(0.0)};
-  if (block.normals != nullptr) previous = load_vectors(block.normals + 3 * i);
+  if (block.normals != nullptr) previous = load_normals(block.normals + 3 * i);
   PackStart start{normalised(previous), is_nothing(previous)};
   if (!none(start.fresh)) {
     const PackVec3 normal = perram_wertheim_normal(pair, shape_a, shape_b);
@@ -142,7 +142,7 @@ HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const Pa
     if (none(going) || k == kSteps) break;
     move(step, going, answer.n);
   }
-  const PackVec3 previous = normalised(load_vectors(block.normals + 3 * i));
+  const PackVec3 previous = normalised(load_normals(block.normals + 3 * i));
   const PackMask stayed = dot(answer.n, previous) >= all(kSameBranch);
   PackMask settled = asked & answer.proof.settled & stayed;
   if (none(settled)) return 0;

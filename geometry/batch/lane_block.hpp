@@ -26,7 +26,7 @@ struct alignas(32) ShapeRow {
   double largest;  ///< as LaneBody's, or NaN
   double least_radius;
   double reach;     ///< of the matrix of |M_ij|: its largest sum of a row, rounded up
-  double shape[6];  ///< xx yy zz yz zx xy of M, each rounded once: (N)
+  double shape[6];  ///< xx yy zz yz zx xy of M, each rounded as (N) says
 };
 static_assert(sizeof(ShapeRow) == 12 * sizeof(double));
 
@@ -46,47 +46,48 @@ inline constexpr double kOfRotation = 10.0;
 struct LaneBlock {
   static constexpr int kPairs = 64;
 
-  const LaneBody* bodies_a;  ///< first of the array that index a counts in
-  const LaneBody* bodies_b;
-  const ShapeRow* rows_a;  ///< the same bodies; read by mixed_gap_lanes() alone
-  const ShapeRow* rows_b;
-  const FloatRow* floats_a;  ///< the same bodies, for float_lanes.hpp; null where none are kept
-  const FloatRow* floats_b;
-  const IndexedPair* pairs;
-  const IndexedPair* next_pairs;  ///< of the next block, to be fetched meanwhile; or null
-  int count;
-  const double* separations;  ///< x y z of each pair; null: the rounded difference of the centres
-  /// Where to start, |n| in [2^-60, 2^60] or 0, which is anywhere; null: all are.
-  const double* normals;
+  const LaneBody* bodies_a = nullptr;  ///< first of the array that index a counts in
+  const LaneBody* bodies_b = nullptr;
+  const ShapeRow* rows_a = nullptr;  ///< the same bodies; read by mixed_gap_lanes() alone
+  const ShapeRow* rows_b = nullptr;
+  const FloatRow* floats_a = nullptr;  ///< the same bodies, for float_lanes.hpp alone
+  const FloatRow* floats_b = nullptr;
+  const IndexedPair* pairs = nullptr;
+  const IndexedPair* next_pairs = nullptr;  ///< of the next block, to be fetched meanwhile; or null
+  int count = 0;
+  /// x y z of each pair; null: the rounded difference of the centres.
+  const double* separations = nullptr;
+  /// Where to start, of any length, or 0, which is anywhere; null: all are.
+  const double* normals = nullptr;
   /// Is the true separation that of the centres, not their rounded difference?
-  bool centres_are_exact;
+  bool centres_are_exact = false;
   /// What gap_error may be beyond rounding: a part of L, and a length.
-  double tolerance_of_size, tolerance;
+  double tolerance_of_size = 0.0, tolerance = 0.0;
   /// 0 where each entry of `factor` is one of Ellipsoid::rotation() times a semi-axis, rounded
   /// once; kOfRotation where it is what moving_lanes.hpp makes.
-  double factor_error;
+  double factor_error = 0.0;
   /// Of Newton's method before anything is proven; and of lanes that have a normal, no more. A
   /// moment ago a normal was good to some 1e-4; the start of a cold search is to 1e-2.
   int first_steps = 2, followed_steps = 1;
   /// Of L: pairs of a tolerance from here on take one step less at first, which is mostly enough.
   /// Measured.
   double coarse = 0x1p-24;
-  bool polish;  ///< one step more than the gap needs, for the normal's sake
+  bool polish = false;  ///< one step more than the gap needs, for the normal's sake
   /// May a normal of a moment ago be followed to where more than one of them may be best? Asked
   /// afresh a lane settles nothing there.
-  bool branches;
+  bool branches = false;
 
-  std::uint64_t local;  ///< answer: bit i, pair i is settled as the value of its branch alone
+  std::uint64_t local = 0;  ///< answer: bit i, pair i is settled as the value of its branch alone
   // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and
   // may this tier itself settle the pair from there?
-  std::uint64_t nearer, promising;
-  bool within_float;       ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
-  double* nearer_normals;  ///< x y z of each; read by no lane
-  double* gap;             ///< null, here and below: not wanted
-  double* gap_error;
-  double* normal;  ///< x y z of each
-  double* arm_a;
-  double* arm_b;
+  std::uint64_t nearer = 0, promising = 0;
+  bool within_float = false;  ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
+  double* nearer_normals = nullptr;  ///< x y z of each; read by no lane
+  double* gap = nullptr;             ///< null, here and below: not wanted
+  double* gap_error = nullptr;
+  double* normal = nullptr;  ///< x y z of each
+  double* arm_a = nullptr;
+  double* arm_b = nullptr;
 };
 
 }  // namespace tangency::inline v0::detail

@@ -44,7 +44,7 @@ HWY_INLINE void transpose(const double* r0, const double* r1, const double* r2, 
 }
 HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, const double* r3,
                           BodyColumns& to, std::size_t i) {
-  Column<double>* columns = to.centre.column;
+  Column<double>* const columns = to.column;
   transpose(r0, r1, r2, r3, 0, columns, i);
   transpose(r0, r1, r2, r3, 4, columns, i);
   transpose(r0, r1, r2, r3, 8, columns, i);
@@ -52,7 +52,7 @@ HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, 
 #else
 HWY_INLINE void load_four(const double* r0, const double* r1, const double* r2, const double* r3,
                           BodyColumns& to, std::size_t i) {
-  Column<double>* columns = to.centre.column;
+  Column<double>* const columns = to.column;
   for (std::size_t c = 0; c < 12; ++c) {
     double* column = columns[c].entry + i;
     column[0] = r0[c], column[1] = r1[c], column[2] = r2[c], column[3] = r3[c];
@@ -77,57 +77,31 @@ HWY_INLINE void load_rows_of(const LaneBlock& block, const ShapeRow* rows,
   }
 }
 
-/// The power of two at or below x > 0, and its inverse, by the bits of its exponent.
-struct PackUnit {
-  Pack unit, inverse;
-};
-HWY_INLINE PackUnit unit_of(const Pack& x) {
-  const hn::RebindToUnsigned<D> bits;
-  const auto mask = hn::Set(bits, 0x7FF0000000000000u),
-             twice_one = hn::Set(bits, 0x7FE0000000000000u);
-  const auto power = [&](const Register& v)
-                         HWY_ATTR { return hn::And(hn::BitCast(bits, v), mask); };
-  const auto low = power(x.low), high = power(x.high);
-  return {{hn::BitCast(D(), low), hn::BitCast(D(), high)},
-          {hn::BitCast(D(), twice_one - low), hn::BitCast(D(), twice_one - high)}};
-}
-
-HWY_INLINE FloatVec3 to_float(const PackVec3& v) {
-  return {to_float(v.x), to_float(v.y), to_float(v.z)};
-}
-HWY_INLINE PackVec3 to_double(const FloatVec3& v) {
-  return {to_double(v.x), to_double(v.y), to_double(v.z)};
-}
-HWY_INLINE FloatSymmetric3 to_float(const PackSymmetric3& s) {
-  return {to_float(s.xx), to_float(s.yy), to_float(s.zz),
-          to_float(s.yz), to_float(s.zx), to_float(s.xy)};
-}
-
 /// The bodies in float, in the unit of the pair.
 /// @return  is any of them one that this tier may settle?
 HWY_INLINE bool scale(const LaneBlock& block, MixedColumns& work, std::size_t i) {
   const PackVec3 d = block.separations != nullptr ? load_vectors(block.separations + 3 * i)
-                                                  : load(work.b.centre, i) - load(work.a.centre, i);
+                                                  : work.b.centre(i) - work.a.centre(i);
   store(d, work.d, i);
-  const Pack a = load(work.a.largest, i), b = load(work.b.largest, i);
+  const Pack a = work.a.largest(i), b = work.b.largest(i);
   const Pack size = largest_component(d) + (a + b);
-  const PackUnit unit = unit_of(size);
-  store(unit.unit, work.unit, i);
-  const FloatPack by = to_float(unit.inverse), by2 = by * by;
+  const Pack inverse = inverse_power(size);
+  store(inverse_power(inverse), work.unit, i);
+  const FloatPack by = to_float(inverse), by2 = by * by;
   store(to_float(d) * by, work.float_d, i);
-  store(to_float(load(work.a.shape, i)) * by2, work.float_a.shape, i);
-  store(to_float(load(work.b.shape, i)) * by2, work.float_b.shape, i);
-  store(to_float(load(work.a.reach, i)) * by2, work.float_a.reach, i);
-  store(to_float(load(work.b.reach, i)) * by2, work.float_b.reach, i);
+  store(to_float(work.a.shape(i)) * by2, work.float_a.shape, i);
+  store(to_float(work.b.shape(i)) * by2, work.float_b.shape, i);
+  store(to_float(work.a.reach(i)) * by2, work.float_a.reach, i);
+  store(to_float(work.b.reach(i)) * by2, work.float_b.reach, i);
   store(to_float(a) * by, work.float_a.largest, i);
   store(to_float(b) * by, work.float_b.largest, i);
-  store(to_float(load(work.a.least_radius, i) + load(work.b.least_radius, i)) * by, work.radii, i);
+  store(to_float(work.a.least_radius(i) + work.b.least_radius(i)) * by, work.radii, i);
   const Pack part = size * all(kSmallestOfSize);
   const PackMask in_range = (size <= all(kLargestModerate)) & (a >= part) & (b >= part);
   const Pack no_number = {hn::NaN(D()), hn::NaN(D())};
-  store(to_float(chosen(in_range, size * unit.inverse, no_number)), work.size, i);
-  store(to_float(multiply_add(all(block.tolerance_of_size), size * unit.inverse,
-                              all(block.tolerance) * unit.inverse)),
+  store(to_float(chosen(in_range, size * inverse, no_number)), work.size, i);
+  store(to_float(multiply_add(all(block.tolerance_of_size), size * inverse,
+                              all(block.tolerance) * inverse)),
         work.tolerance, i);
   return !none(in_range);
 }
@@ -153,7 +127,7 @@ HWY_INLINE FloatMask first_normal(const LaneBlock& block, MixedColumns& work, st
     store(perram_wertheim_normal(work, i), work.start, i);
     return every_lane();
   }
-  const FloatVec3 previous = to_float(load_vectors(block.normals + 3 * i));
+  const FloatVec3 previous = to_float(load_normals(block.normals + 3 * i));
   FloatVec3 start = normalised(previous);
   const FloatMask fresh = is_nothing(previous);
   if (!none(fresh)) start = chosen(fresh, perram_wertheim_normal(work, i), start);
@@ -198,9 +172,7 @@ HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) 
 /// f and its gradient at the normal, in double.
 HWY_INLINE void evaluate(MixedColumns& work, std::size_t i) {
   const PackVec3 m = to_double(load(work.start, i));
-  const auto side = [&](const ColumnsOf<double, 6>& shape)
-                        HWY_ATTR { return glance(load(shape, i), m); };
-  const PackSupport a = side(work.a.shape), b = side(work.b.shape);
+  const PackSupport a = glance(work.a.shape(i), m), b = glance(work.b.shape(i), m);
   const PackVec3 rest = (load(work.d, i) - a.point) - b.point;
   // 1 / |m| by its series: |m|^2 - 1 is below 2^-20.
   const Pack w = dot(m, m) - all(1.0);

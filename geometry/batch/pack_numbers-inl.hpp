@@ -191,6 +191,9 @@ HWY_INLINE std::uint64_t bits(const PackMask& m) {
 #endif
 }
 HWY_INLINE std::uint64_t bits(const FloatMask& m) {
+#if HWY_TARGET == HWY_AVX3
+  return m.low.raw;
+#else
   std::uint8_t low[8] = {};
   hn::StoreMaskBits(F(), m.low, low);
 #if TANGENCY_FLOAT_REGISTERS == 2
@@ -199,6 +202,7 @@ HWY_INLINE std::uint64_t bits(const FloatMask& m) {
   return std::uint64_t{low[0]} | std::uint64_t{high[0]} << hn::Lanes(F());
 #else
   return std::uint64_t{low[0]} | std::uint64_t{low[1]} << 8;
+#endif
 #endif
 }
 
@@ -250,6 +254,26 @@ HWY_INLINE PackMask to_double(const FloatMask& m) {
 #endif
 }
 #endif
+
+/// The inverse of the power of two at or below x, by the bits of its exponent: of x in [2^-1022,
+/// 2^1023), or of 0 and subnormal numbers 2^1023.
+HWY_INLINE Pack inverse_power(const Pack& x) {
+  const auto of = [](const Register& y) HWY_ATTR {
+    const hn::RebindToUnsigned<D> words;
+    const auto exponent = hn::And(hn::BitCast(words, y), hn::Set(words, 0x7ff0000000000000u));
+    return hn::BitCast(D(), hn::Sub(hn::Set(words, 0x7fe0000000000000u), exponent));
+  };
+  return {TANGENCY_PARTS(of(x.low), of(x.high))};
+}
+/// As above, of x in [2^-126, 2^127).
+HWY_INLINE FloatPack inverse_power(const FloatPack& x) {
+  const auto of = [](const hn::Vec<F>& y) HWY_ATTR {
+    const hn::RebindToUnsigned<F> words;
+    const auto exponent = hn::And(hn::BitCast(words, y), hn::Set(words, 0x7f800000u));
+    return hn::BitCast(F(), hn::Sub(hn::Set(words, 254u << 23), exponent));
+  };
+  return {TANGENCY_FLOAT_PARTS(of(x.low), of(x.high))};
+}
 
 // The approximations of float on x86 are within 1.5 * 2^-12 of themselves, those of AVX-512 within
 // 2^-14. Sets without fused multiply-adds do without them, so that they have the same bits, on

@@ -155,6 +155,27 @@ HWY_INLINE void store(const PackVec3& v, double* to) {
 #endif
 }
 
+/// Normals of the caller's, of any length: times a power of two each, which is exact and brings the
+/// largest component into [1, 2), so that no square under- or overflows, in float either. 0 stays
+/// 0.
+HWY_INLINE PackVec3 load_normals(const double* from) {
+  const PackVec3 v = load_vectors(from);
+  return v * inverse_power(largest_component(v));
+}
+
+#if TANGENCY_PACK_REGISTERS == 2
+HWY_INLINE FloatVec3 to_float(const PackVec3& v) {
+  return {to_float(v.x), to_float(v.y), to_float(v.z)};
+}
+HWY_INLINE PackVec3 to_double(const FloatVec3& v) {
+  return {to_double(v.x), to_double(v.y), to_double(v.z)};
+}
+HWY_INLINE FloatSymmetric3 to_float(const PackSymmetric3& s) {
+  return {to_float(s.xx), to_float(s.yy), to_float(s.zz),
+          to_float(s.yz), to_float(s.zx), to_float(s.xy)};
+}
+#endif
+
 #if TANGENCY_PACK_REGISTERS == 1
 /// (x, y, z) is a vector, as Eigen stores it.
 struct PackQuaternion {

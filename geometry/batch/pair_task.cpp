@@ -56,7 +56,7 @@ void aim(const PairTask& task, LaneBlock& block) {
   block.tolerance = task.tolerance;
   block.polish = task.polish;
   block.branches = task.moving != nullptr;
-  block.centres_are_exact = task.separations == nullptr && task.previous_normals == nullptr;
+  block.centres_are_exact = task.separations == nullptr && !task.follows();
   block.factor_error = task.moving != nullptr ? kOfRotation : 0.0;
 }
 
@@ -272,8 +272,8 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
     fill_shape_rows(work.plain_a, count, work.rows_a);
     fill_shape_rows(work.plain_b, count, work.rows_b);
     if (task.in_floats()) {
-      fill(work.floats_a, work.rows_a, count);
-      fill(work.floats_b, work.rows_b, count);
+      fill(work.floats_a, work.plain_a, work.rows_a, count);
+      fill(work.floats_b, work.plain_b, work.rows_b, count);
     }
   }
   aim(task, block);
@@ -288,6 +288,12 @@ void gather(const PairTask& task, std::size_t first, std::size_t count, Workspac
                                     ? copied(from, first, count, work.normals)
                                     : block_of(from, first, count, work.normals);
     block.normals = normals->data();
+  }
+  if (task.previous_floats != nullptr) {
+    for (std::size_t i = 0; i < count; ++i)
+      work.normals[i] = task.previous_floats[first + i].cast<double>();
+    std::fill(work.normals + count, work.normals + kBlock, work.normals[0]);
+    block.normals = work.normals[0].data();
   }
 }
 

@@ -39,6 +39,7 @@ struct PairTask {
   const Ellipsoid *plain_a = nullptr, *plain_b = nullptr;
   const Vec3* separations = nullptr;
   const Vec3* previous_normals = nullptr;
+  const Eigen::Vector3f* previous_floats = nullptr;  ///< in place of those
   bool answers_over_normals = false;  ///< else what a lane leaves open is still there
   std::size_t count = 0;
   // As in LaneBlock.
@@ -56,6 +57,10 @@ struct PairTask {
   PairTask(const char* of_call, std::span<const Ellipsoid> a, std::span<const Ellipsoid> b,
            std::span<const Vec3> given_separations) noexcept;
 
+  /// Are previous normals given?
+  bool follows() const noexcept {
+    return previous_normals != nullptr || previous_floats != nullptr;
+  }
   bool indexed() const noexcept { return bodies != nullptr || moving != nullptr; }
   const Ellipsoid& a(std::size_t i) const noexcept {
     return bodies != nullptr ? (*bodies)[pairs[i].a] : plain_a[i];

@@ -15,7 +15,7 @@ namespace {
 // Three roundings of a sum of absolute values; an upper bound.
 constexpr double kAbove = 1.0 + 0x1p-50;
 // (a_min / a_max)^2, below which the first tier would mostly be in vain: measured.
-constexpr double kThinnest = 0x1p-11;
+constexpr double kFlattest = 0x1p-11;
 
 struct Twofold {
   double high, low;
@@ -62,7 +62,7 @@ HWY_ATTR void fill_shape_rows(const LaneBody* bodies, std::size_t count, ShapeRo
     const double xx = entry(s, 0, 0), yy = entry(s, 1, 1), zz = entry(s, 2, 2), yz = entry(s, 1, 2),
                  zx = entry(s, 2, 0), xy = entry(s, 0, 1);
     const double ayz = magnitude(yz), azx = magnitude(zx), axy = magnitude(xy);
-    const bool flat = body.least_radius < kThinnest * body.largest;
+    const bool flat = body.least_radius < kFlattest * body.largest;
     to[i] = {{body.centre[0], body.centre[1], body.centre[2]},
              flat ? __builtin_nan("") : body.largest,
              body.least_radius,

@@ -189,13 +189,13 @@ def fortran_argument(item):
     return f"type(c_ptr), value :: {item.name}"
 
 
-def fortran_size(struct):
-    """Bytes where pointers and size_t have eight, as Fortran counts them."""
+def size_of(struct):
+    """Bytes where pointers and size_t have eight."""
     sizes = [{"double": 8, "int": 4}.get(i.type, 8) for i in struct.fields]
     at = 8
     for size in sizes:
         at = (at + size - 1) // size * size + size
-    return (at + 7) // 8 * 8
+    return at
 
 
 def fortran_module():
@@ -213,7 +213,7 @@ def fortran_module():
     for struct in table.STRUCTS:
         out += wrapped(struct.doc, "  ! ", 96)
         out += [f"  type, bind(c) :: tangency_{struct.name}",
-                f"    integer(c_size_t) :: size = {fortran_size(struct)}_c_size_t"]
+                f"    integer(c_size_t) :: size = {size_of(struct)}_c_size_t"]
         for item in struct.fields:
             out += wrapped(described(item), "    ! ", 96)
             kind = Type(item.type)
@@ -355,6 +355,27 @@ def python_stub():
     return "\n".join(out) + "\n"
 
 
+def require_rules():
+    """What holds for the table as a whole.
+
+    Raises
+    ------
+    ValueError
+        A struct that ends with padding, where a field of a later version would lie within sizeof.
+        Pairs of bodies that are described as of a body and another thing, or the other way round.
+    """
+    for struct in table.STRUCTS:
+        if size_of(struct) % 8 != 0:
+            raise ValueError(f"{struct.name}: ends with 4 bytes of padding: add _RESERVED")
+    for function in table.FUNCTIONS:
+        names = [a.name for a in function.arguments]
+        has_others = any(name.endswith("_count") for name in names)
+        for argument in function.arguments:
+            if argument.name == "pairs" and (argument in table._MEETINGS) != has_others:
+                raise ValueError(f"{function.name}: pairs: are of {'others' if has_others else 'bodies'}, "
+                                 f"which \"{argument.doc}\" does not say")
+
+
 FILES = {
     "c/tangency.h": c_header,
     "c/same_values.hpp": same_values,
@@ -365,6 +386,7 @@ FILES = {
 
 
 def main():
+    require_rules()
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
     for name, write in FILES.items():
         path = folder / name

@@ -175,6 +175,9 @@ _POINT = Field("point", "double*[3]", "length",
 _RELATION = Field("relation", "int*", "", "tangency_relation", "relation")
 _INNER = Field("inner", "int*", "", "tangency_inner", "inner")
 _TIER = Field("tier", "int*", "", "tangency_tier", "tier")
+# Behind an odd number of ints: a struct ends with a field and not with padding, so that one that a
+# later version adds begins at the old sizeof.
+_RESERVED = Field("reserved", "int", "", "0")
 
 STRUCTS = (
     Struct("accuracy", "How good a gap has to be. Sign, status and gap_error are proven at any; 0 "
@@ -182,6 +185,7 @@ STRUCTS = (
         Field("of_size", "double", "1", "tolerance in parts of the size of the pair, >= 0"),
         Field("length", "double", "length", "tolerance, >= 0"),
         Field("normals", "int", "", "not 0: normals and points to rounding too"),
+        _RESERVED,
     )),
     Struct("contact_columns", "Answers of tangency_contacts().", _GAP + (
         _POINT,
@@ -275,9 +279,10 @@ STRUCTS = (
                                                "NULL: nothing repeats"),
         Field("periodic", "int[3]?", "", "along which of them; NULL: along all"),
         Field("answers", "int", "", "tangency_neighbour_answers", "neighbour_answers"),
+        _RESERVED,
     )),
-    Struct("neighbour_columns", "What tangency_neighbours_columns() shows, NULL where it was not asked for. Valid "
-                                "until the list is destroyed.", (
+    Struct("neighbour_columns", "What tangency_neighbours_columns() shows, NULL where it was not asked for, as "
+                                "is what this version does not know. Valid until the list is destroyed.", (
         Field("pairs", "unsigned[2]", "", "body a <= body b"),
         Field("images", "int[3]", "", "b is moved by so many of each edge"),
         Field("overlaps", "unsigned char[]", "", "1 where the interiors meet"),
@@ -332,16 +337,18 @@ _ROWS = (
     Argument("stride", "ptrdiff_t", "from one row to the next; may be negative", "bytes"),
 )
 _BODIES = Argument("bodies", "const tangency_bodies*", "as they were made")
-_PAIRS = (
+_PAIRS_OF_BODIES = (
     Argument("pairs", "unsigned[2]?", "places of A and B among the bodies, from 0. NULL: of pair k those of "
                                       "bodies k and count + k"),
     Argument("count", "size_t", "pairs"),
+)
+_PAIRS = _PAIRS_OF_BODIES + (
     Argument("separations", "double[3]?", "c_B - c_A in place of that of the centres, as for periodic images; "
                                           "NULL: of the centres", "length"),
 )
 _MEETINGS = (
     Argument("pairs", "unsigned[2]?", "places of a body and of another thing, from 0. NULL: of pair k both are k"),
-    Argument("count", "size_t", "pairs"),
+    Argument("count", "size_t", "pairs; without places at most the number of bodies and that of the others"),
 )
 _THREADS = Argument("threads", "int", "that may work on it; below 1 counts as 1")
 
@@ -421,7 +428,8 @@ FUNCTIONS = (
         Argument("normals", "double[3]", "of tangency_contacts() for the same pairs", "1"),
         Argument("statuses", "int[]", "of tangency_contacts() for the same pairs"),
         _answers("derivative_columns"), _THREADS)),
-    Function("contact_curvatures", "Curvatures where two bodies touch.", (_BODIES,) + _MEETINGS + (
+    Function("contact_curvatures", "Curvatures where two bodies touch, of pairs whose longest semi-axis is "
+                                    "at most 1e70 times the shortest.", (_BODIES,) + _PAIRS_OF_BODIES + (
         Argument("normals", "double[3]", "of tangency_contacts() for the same pairs, unit", "1"),
         _answers("curvature_columns"), _THREADS)),
     Function("common_volumes", "The volume that two bodies have in common, and its gradient.",
@@ -432,7 +440,9 @@ FUNCTIONS = (
              (_BODIES,) + _PAIRS + (_answers("containment_columns"), _THREADS)),
     Function("times_of_contact", "First contact of moving bodies in 0 <= t <= horizon.", (_BODIES,) + _PAIRS + (
         Argument("motions", "double[9]", "of each body: velocity of the pivot, angular velocity in space (rad per "
-                                         "time), centre less pivot"),
+                                         "time), centre less pivot. Each of them, and what the "
+                                         "first two cover within the horizon, is at most 2^500 long, and lengths "
+                                         "at most 2^900 of the shortest semi-axis of all bodies"),
         Argument("horizon", "double", "finite, >= 0", "time"),
         Argument("tolerance", "double", "> 0", "time"),
         _answers("time_columns"), _THREADS)),

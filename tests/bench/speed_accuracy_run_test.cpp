@@ -83,7 +83,7 @@ TEST(SpeedAccuracyRun, AQuickRunFillsEveryColumnWhereItIsPromised) {
 
   const std::vector<TableRow> rows = read_table(csv);
   const std::size_t levels = bench::best_levels().size();
-  EXPECT_EQ(rows.size(), 2 * (12 + 23 * levels));
+  EXPECT_EQ(rows.size(), 2 * (12 + 25 * levels));
   for (const TableRow& row : rows) {
     for (const auto& [column, cell] : row) {
       if (column == "instructions" && !counts()) continue;

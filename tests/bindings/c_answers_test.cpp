@@ -123,7 +123,8 @@ void expect_same(const Contacts& found, const Contacts& expected) {
 
 TEST(CContacts, AreThoseOfTheBatchAtEveryAccuracyAndNumberOfThreads) {
   const Sample sample;
-  const tangency_accuracy fast{sizeof fast, 0x1p-20, 0.0, 0}, certified{sizeof certified, 0, 0, 1};
+  const tangency_accuracy fast{sizeof fast, 0x1p-20, 0.0, 0, 0},
+      certified{sizeof certified, 0, 0, 1, 0};
   for (const int threads : {-1, 1, 3}) {
     Contacts found(sample.size());
     const auto ask = [&](const tangency_accuracy* accuracy) {

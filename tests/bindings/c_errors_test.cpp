@@ -132,12 +132,15 @@ TEST(CErrors, OfOtherThings) {
   expect_refused(tangency_balls(two.bodies, ball, 1, nullptr, 1, &two.contacts, 1),
                  TANGENCY_BAD_ROW, 0, "balls: row 0: r = -1: a radius must be >= 0");
   expect_refused(tangency_walls(two.bodies, wall, 1, 0, nullptr, 2, &two.walls, 1),
-                 TANGENCY_BAD_ROW, 1, "pairs: row 1: b = 1: must be below 1, the number of walls");
+                 TANGENCY_BAD_ARGUMENT, kNoRow,
+                 "count = 2: without pairs must be at most 1, the number of walls");
   const double motions[18] = {1e308};
-  expect_refused(tangency_times_of_contact(two.bodies, two.pairs, 1, nullptr, motions, 100, 1e-6,
-                                           &two.times, 1),
-                 TANGENCY_BAD_ROW, 0,
-                 "motions: row 0: vx = 1e+308: what it covers within the horizon must be finite");
+  expect_refused(
+      tangency_times_of_contact(two.bodies, two.pairs, 1, nullptr, motions, 100, 1e-6, &two.times,
+                                1),
+      TANGENCY_BAD_ROW, 0,
+      "motions: row 0: vx = 1e+308: velocity, and that times the horizon, must be at most "
+      "3.273390607896142e+150 long");
   const double coefficients[10] = {1, kNan};
   expect_refused(tangency_classify(coefficients, 1, 80, &two.quadrics, 1), TANGENCY_BAD_ROW, 0,
                  "coefficients: row 0: B = nan: a coefficient must be finite");
@@ -163,11 +166,14 @@ TEST(CErrors, OfSingleValues) {
                  kNoRow, "number = 2: must be a tangency_number");
   expect_refused(create(two.rows.data(), 2, TANGENCY_FORM_AXES, -1.0), TANGENCY_BAD_ARGUMENT,
                  kNoRow, "level = -1: must be finite and > 0");
-  const tangency_accuracy accuracy{sizeof accuracy, -1, 0, 0};
+  const tangency_accuracy accuracy{sizeof accuracy, -1, 0, 0, 0};
   expect_refused(two.contact(nullptr, nullptr, &accuracy), TANGENCY_BAD_ARGUMENT, kNoRow,
                  "accuracy.of_size = -1: must be >= 0");
   double level = 0;
-  EXPECT_EQ(tangency_level_of_confidence(1.5, 3, &level), TANGENCY_BAD_ARGUMENT);
+  expect_refused(tangency_level_of_confidence(1.5, 3, &level), TANGENCY_BAD_ARGUMENT, kNoRow,
+                 "confidence = 1.5: must be > 0 and < 1");
+  expect_refused(tangency_level_of_confidence(0.5, 7, &level), TANGENCY_BAD_ARGUMENT, kNoRow,
+                 "dimensions = 7: must be 2 or 3");
   tangency_neighbour_question question{};
   question.size = sizeof question;
   question.reach = -1;

@@ -18,4 +18,18 @@ frame = pandas.DataFrame(found.flat())
 assert list(frame["normal_z"]) == list(expected.normal[:, 2]) and len(frame) == 50
 short = pandas.DataFrame(rows[:, :6], columns=NAMES[:6])
 assert len(tangency.Bodies(short)) == 50
+# Types of pandas that know of missing numbers, and columns that hold no numbers.
+whole = pandas.DataFrame(rows[:, :6], columns=NAMES[:6]).convert_dtypes()
+assert str(whole.dtypes["x"]) == "Float64" and len(tangency.Bodies(whole)) == 50
+for value in (pandas.NA, "1.5"):
+    broken = whole.astype({"y": object})
+    broken.loc[3, "y"] = value
+    broken = broken.convert_dtypes() if value is pandas.NA else broken
+    try:
+        tangency.Bodies(broken)
+    except tangency.TangencyError as error:
+        assert "y" in str(error), error
+    else:
+        raise AssertionError(f"{value!r} is taken for a number")
+assert list(pandas.DataFrame(tangency.contacts(rows[:0, :10], rows[:0, 10:]).flat())) == list(frame)
 print(f"{len(frame.columns)} columns of {len(frame)} pairs")

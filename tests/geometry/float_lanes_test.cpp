@@ -94,6 +94,23 @@ Family scaled(const Family& from, double by) {
   return to;
 }
 
+/// Needles whose directions and separations are drawn, of aspect ratios between two.
+Family thin_pairs(double least, double most) {
+  Family thin{"needles", {}, {}};
+  std::mt19937_64 random(testing::kSeed);
+  std::uniform_real_distribution<double> one(-1.0, 1.0), aspect(least, most);
+  const auto body = [&](const Vec3& centre) {
+    const double x = one(random), y = one(random), z = one(random), w = one(random);
+    const double width = 1.0 / aspect(random);
+    return Ellipsoid(centre, Vec3(1.0, width, width), Quaternion(w, x, y, z));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    thin.a.push_back(body(Vec3::Zero()));
+    thin.b.push_back(body(Vec3(one(random), one(random), one(random))));
+  }
+  return thin;
+}
+
 Counts count_float(const Family& family) {
   const Indexed in(family);
   const BodyArray array(in.bodies);
@@ -194,6 +211,17 @@ TEST(FloatOverlapLanes, SayNothingOfSeparationsThatAreNoNumbers) {
         EXPECT_EQ(detail::float_overlap_lanes(block).decided, ~(std::uint64_t{1} << 5));
       }
     }
+  });
+}
+
+// Rows of float are not those of the first tier of the gap, which has no bodies of an aspect ratio
+// above 45.
+TEST(FloatOverlapLanes, DecideThinBodies) {
+  const Family thin = thin_pairs(45.0, 120.0);
+  testing::at_every_level([&] {
+    const Counts counts = count_float(thin);
+    EXPECT_EQ(counts.wrong, 0);
+    EXPECT_GT(counts.decided, 1000);
   });
 }
 
@@ -363,6 +391,33 @@ TEST(FloatGapLanes, AreTheSameAtEveryModerateScale) {
       ASSERT_EQ(there.settled, one.settled) << by;
       for (std::size_t i = 0; i < one.settled.size(); ++i)
         ASSERT_TRUE(!one.settled[i] || testing::same_bits(there.gap[i], by * one.gap[i])) << i;
+    }
+  });
+}
+
+// In float the square of a short normal is a subnormal number or 0, and a normal is proven at only
+// where it is of unit length.
+TEST(FloatGaps, FromPreviousNormalsOfAnyLengthAreProven) {
+  const Family f =
+      moved_near_touch(testing::contacts(verify::contact_classes()[0], 200), -1.0, 0.0);
+  const std::vector<Gap> truth = single_gaps(f);
+  const Indexed in(f);
+  const BodyArray array(in.bodies);
+  const Accuracy asked[] = {Accuracy::fast(), {0x1p-20, 0.0, true}, {0x1p-21, 0.0, false}, {}};
+  const double powers[] = {-100, -80, -76, -74, -73, -71, -70, -69, -67, -64, -60, 60, 80, 100};
+  testing::at_every_level([&] {
+    for (const Accuracy& accuracy : asked) {
+      for (const double power : powers) {
+        std::vector<Vec3> previous;
+        for (const Gap& gap : truth) previous.push_back(std::exp2(power) * gap.normal);
+        std::vector<Gap> gaps(truth.size());
+        follow_gaps(array, {in.pairs, {}}, previous, gaps, accuracy);
+        for (std::size_t i = 0; i < gaps.size(); ++i) {
+          ASSERT_EQ(gaps[i].status, GapStatus::ok) << power << " " << i;
+          ASSERT_LE(std::abs(gaps[i].gap - truth[i].gap), gaps[i].gap_error + truth[i].gap_error)
+              << "2^" << power << ", of_size " << accuracy.of_size << ", pair " << i;
+        }
+      }
     }
   });
 }

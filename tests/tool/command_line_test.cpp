@@ -208,7 +208,7 @@ TEST(CommandText, AFormThatIsNoneIsNamedWithThoseThatAre) {
     program.subcommand("make", "Makes");
     const Ended ended = run(program, arguments);
     EXPECT_EQ(ended.status, 2);
-    EXPECT_EQ(ended.err, message + "\n");
+    EXPECT_EQ(ended.err, message);
   }
 }
 

@@ -42,6 +42,21 @@ void require_indices(std::span<const IndexedPair> pairs, const Limit& a, const L
 
 }  // namespace
 
+void require_size(const char* argument, std::size_t size) {
+  const bool ends_with_a_field = size >= 2 * kFieldBytes && size % kFieldBytes == 0;
+  if (!ends_with_a_field || size > kMostBytes) {
+    refuse_value(std::string(argument) + ".size", static_cast<double>(size),
+                 "must be sizeof of the struct");
+  }
+}
+
+void require_half(std::size_t count, std::size_t things, const char* what) {
+  if (things % 2 == 0 && count == things / 2) return;
+  refuse_value(
+      "count", static_cast<double>(count),
+      "without pairs must be half of " + tables::to_text(things) + ", the number of " + what);
+}
+
 void require_finite_rows(const char* argument, const double* rows, std::size_t width,
                          std::size_t count, const char* const* names) {
   if (rows == nullptr && count > 0) refuse(argument, "must not be NULL");
@@ -67,11 +82,7 @@ const tangency_bodies& by_axes(const tangency_bodies* bodies) {
 
 Pairs::Pairs(const tangency_bodies& bodies, const unsigned* pairs, std::size_t count,
              const double* separations) {
-  if (pairs == nullptr && bodies.size() != 2 * count) {
-    refuse_value("count", static_cast<double>(count),
-                 "without pairs must be half of " + tables::to_text(bodies.size()) +
-                     ", the number of bodies");
-  }
+  if (pairs == nullptr) require_half(count, bodies.size(), "bodies");
   take(pairs, count, count);
   require_indices(list_, {bodies.size(), "bodies"}, {bodies.size(), "bodies"});
   if (separations != nullptr) {
@@ -82,6 +93,12 @@ Pairs::Pairs(const tangency_bodies& bodies, const unsigned* pairs, std::size_t c
 
 Pairs::Pairs(std::size_t bodies, std::size_t others, const char* what, const unsigned* pairs,
              std::size_t count) {
+  if (pairs == nullptr && count > std::min(bodies, others)) {
+    const Limit limit = bodies < others ? Limit{bodies, "bodies"} : Limit{others, what};
+    refuse_value("count", static_cast<double>(count),
+                 "without pairs must be at most " + tables::to_text(limit.count) +
+                     ", the number of " + limit.what);
+  }
   take(pairs, count, 0);
   require_indices(list_, {bodies, "bodies"}, {others, what});
 }
@@ -101,6 +118,7 @@ Accuracy accuracy_of(const tangency_accuracy* accuracy) {
   const tangency_accuracy given = known(accuracy, "accuracy");
   if (!(given.of_size >= 0.0)) refuse_value("accuracy.of_size", given.of_size, "must be >= 0");
   if (!(given.length >= 0.0)) refuse_value("accuracy.length", given.length, "must be >= 0");
+  if (given.reserved != 0) refuse_value("accuracy.reserved", given.reserved, "must be 0");
   return {given.of_size, given.length, given.normals != 0};
 }
 

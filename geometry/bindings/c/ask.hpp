@@ -20,17 +20,24 @@
 
 namespace tangency::inline v0::c {
 
+/// Every field of the structs is a pointer, a double or a pair of ints.
+inline constexpr std::size_t kFieldBytes = 8;
+/// What is longer is no struct of any version. Chosen: 511 fields, 20 times the most there are.
+inline constexpr std::size_t kMostBytes = 4096;
+
+/// The size of a caller's struct, which ends with a field.
+/// @throws Refused  where no version has such a struct
+void require_size(const char* argument, std::size_t size);
+
 /// The caller's struct as this version knows it. A shorter one asks for nothing of what it lacks;
 /// of a longer one nothing may be set that is not known here.
 template <class Struct>
 Struct known(const Struct* given, const char* argument) {
   if (given == nullptr) refuse(argument, "must not be NULL");
+  static_assert(sizeof(Struct) % kFieldBytes == 0 && sizeof(Struct) <= kMostBytes);
   Struct copy{};
   const std::size_t size = given->size;
-  if (size < sizeof(std::size_t)) {
-    refuse_value(std::string(argument) + ".size", static_cast<double>(size),
-                 "must be sizeof of the struct");
-  }
+  require_size(argument, size);
   std::memcpy(&copy, given, std::min(size, sizeof copy));
   const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
   for (std::size_t i = sizeof copy; i < size; ++i) {
@@ -91,6 +98,10 @@ void put_gap(const Columns& to, std::size_t k, const AnyGap& gap) {
 void require_finite_rows(const char* argument, const double* rows, std::size_t width,
                          std::size_t count, const char* const* names);
 
+/// Of pairs k and count + k, which are not listed before their number is known to be right.
+/// @throws Refused  where count is not half of `things`
+void require_half(std::size_t count, std::size_t things, const char* what);
+
 const tangency_bodies& required(const tangency_bodies* bodies);
 /// @throws Refused  where they are by matrices, which the call does not answer
 const tangency_bodies& by_axes(const tangency_bodies* bodies);
@@ -98,10 +109,10 @@ const tangency_bodies& by_axes(const tangency_bodies* bodies);
 /// The pairs of a call, checked.
 class Pairs {
  public:
-  /// Of bodies among each other.
+  /// Of bodies among each other; without pairs those of k and count + k.
   Pairs(const tangency_bodies& bodies, const unsigned* pairs, std::size_t count,
         const double* separations = nullptr);
-  /// Of a body and something else, of which there are `others`.
+  /// Of a body and something else, of which there are `others`; without pairs both are k.
   Pairs(std::size_t bodies, std::size_t others, const char* what, const unsigned* pairs,
         std::size_t count);
 
@@ -158,7 +169,7 @@ void each_pair(const tangency_bodies& bodies, const Pairs& pairs, int threads, c
   });
 }
 
-/// @throws Refused  a tolerance below 0
+/// @throws Refused  a tolerance below 0, or a reserved field that is not
 Accuracy accuracy_of(const tangency_accuracy* accuracy);
 
 GapColumns gap_columns(const tangency_contact_columns& columns, std::size_t count);

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <tangency/geometry/tables/number_text.hpp>
+
 namespace tangency::inline v0::c {
 namespace {
 
@@ -137,6 +139,7 @@ using tangency::c::guarded;
 using tangency::c::refuse;
 using tangency::c::required;
 using tangency::c::Rows;
+using tangency::tables::to_text;
 
 const tangency::c::Prepared& tangency_bodies::prepared() const {
   const std::scoped_lock lock(preparing_);
@@ -175,19 +178,21 @@ void tangency_bodies::append_axes(const Rows& rows) {
 }
 
 void tangency_bodies::append_matrices(int form, const Rows& rows, double level) {
+  std::vector<tangency::MatrixEllipsoid> more;
+  if (form == TANGENCY_FORM_AXES) {
+    tangency_bodies by_axes;
+    by_axes.append_axes(rows);
+    for (std::size_t i = 0; i < rows.count; ++i) more.emplace_back(by_axes.moving_[i]);
+  } else {
+    more = tangency::c::matrices_of(form, rows, level);
+  }
+  if (more.empty()) return;  // bodies by axes stay so
   std::vector<tangency::MatrixEllipsoid> all;
-  all.reserve(size() + rows.count);
+  all.reserve(size() + more.size());
   for (std::size_t i = 0; i < size(); ++i) {
     all.push_back(by_matrices() ? matrices_[i] : tangency::MatrixEllipsoid(moving_[i]));
   }
-  if (form == TANGENCY_FORM_AXES) {
-    require_axes(rows);
-    tangency_bodies more;
-    more.append_axes(rows);
-    for (std::size_t i = 0; i < rows.count; ++i) all.emplace_back(more.moving_[i]);
-  } else {
-    std::ranges::move(tangency::c::matrices_of(form, rows, level), std::back_inserter(all));
-  }
+  std::ranges::move(more, std::back_inserter(all));
   tangency::MovingBodies moving = moving_;
   for (std::size_t i = size(); i < all.size(); ++i) {
     const tangency::Ellipsoid& body = all[i].ellipsoid();
@@ -199,9 +204,14 @@ void tangency_bodies::append_matrices(int form, const Rows& rows, double level) 
 
 void tangency_bodies::set(std::size_t first, const Rows& rows) {
   if (by_matrices()) refuse("bodies", "must not be by matrices");
-  if (first > size() || rows.count > size() - first) {
+  if (rows.count > size()) {
+    tangency::c::refuse_value("count", static_cast<double>(rows.count),
+                              "must be at most " + to_text(size()) + ", the number of bodies");
+  }
+  if (first > size() - rows.count) {
     tangency::c::refuse_value("first", static_cast<double>(first),
-                              "must leave as many bodies from there on as there are rows");
+                              "must be at most " + to_text(size() - rows.count) + ", of " +
+                                  to_text(size()) + " bodies for " + to_text(rows.count) + " rows");
   }
   require_axes(rows);
   moving_.set_semi_axes(first, rows.column<tangency::VectorColumn>(3));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/gap_derivatives.hpp>
 #include <tangency/geometry/other_gaps.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/time_batch.hpp>
 #include <tangency/geometry/time_of_contact.hpp>
 #include <tangency/geometry/trace_contact.hpp>
@@ -19,6 +22,15 @@ namespace {
 
 constexpr std::array<const char*, 3> kNormal{"x", "y", "z"};
 constexpr std::array<const char*, 9> kMotion{"vx", "vy", "vz", "wx", "wy", "wz", "rx", "ry", "rz"};
+
+/// Squares of lengths, angles and speeds below it do not overflow. Chosen.
+constexpr double kMostMotion = 0x1p500;
+/// Of lengths over the shortest semi-axis, since the kernel computes in the bodies' size. Chosen:
+/// of random motions none below 2^1000 ended the process.
+constexpr double kMostOfSize = 0x1p900;
+
+/// What contact_curvature() is for: geometry/curvature.hpp.
+constexpr double kMostAspect = 1e70;
 
 /// As a normal of an answer: finite, and unit but for rounding.
 void require_unit(const double* normals, std::size_t count) {
@@ -63,18 +75,33 @@ void ask_other_gaps(int definition, const tangency_bodies& bodies, const Pairs& 
   }
 }
 
-std::vector<Motion> motions_of(const double* rows, std::size_t bodies, double horizon) {
-  require_finite_rows("motions", rows, 9, bodies, kMotion.data());
+double shortest_semi_axis(const tangency_bodies& bodies) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    shortest = std::min(shortest, bodies.moving()[i].smallest_semi_axis());
+  }
+  return shortest;
+}
+
+std::vector<Motion> motions_of(const double* rows, const tangency_bodies& bodies, double horizon) {
+  require_finite_rows("motions", rows, 9, bodies.size(), kMotion.data());
+  const double most_length = std::min(kMostMotion, kMostOfSize * shortest_semi_axis(bodies));
   std::vector<Motion> motions;
-  motions.reserve(bodies);
-  for (std::size_t i = 0; i < bodies; ++i) {
+  motions.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Vec3* const row = vectors(rows + 9 * i);
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (!std::isfinite(rows[9 * i + k] * horizon)) {
-        refuse_row("motions", i, kMotion[k], rows[9 * i + k],
-                   "what it covers within the horizon must be finite");
-      }
-    }
+    const auto require = [&](std::size_t vector, double times, double most, const char* rule) {
+      Eigen::Index largest = 0;
+      row[vector].cwiseAbs().maxCoeff(&largest);
+      if (row[vector].stableNorm() * times <= most) return;
+      refuse_row("motions", i, kMotion[3 * vector + static_cast<std::size_t>(largest)],
+                 row[vector][largest], rule + tables::to_text(most) + " long");
+    };
+    const double times = std::max(1.0, horizon);
+    require(0, times, most_length, "velocity, and that times the horizon, must be at most ");
+    require(1, times, kMostMotion,
+            "angular velocity, and that times the horizon, must be at most ");
+    require(2, 1.0, most_length, "centre less pivot must be at most ");
     motions.push_back({row[0], row[1], row[2]});
   }
   return motions;
@@ -85,6 +112,16 @@ void require_frame(double horizon, double tolerance) {
     refuse_value("horizon", horizon, "must be finite and >= 0");
   }
   if (!(tolerance > 0.0)) refuse_value("tolerance", tolerance, "must be > 0");
+}
+
+void require_aspects(const std::vector<Ellipsoid>& all, const Pairs& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Vec3 &a = all[pairs[k].a].semi_axes(), &b = all[pairs[k].b].semi_axes();
+    const double longest = a.cwiseMax(b).maxCoeff(), shortest = a.cwiseMin(b).minCoeff();
+    if (longest <= kMostAspect * shortest) continue;
+    refuse_row("pairs", k, "longest semi-axis", longest,
+               "must be at most 1e70 times the shortest, " + tables::to_text(shortest));
+  }
 }
 
 void put_curvature(double* curvature, double* directions, std::size_t k,
@@ -168,6 +205,7 @@ int tangency_contact_curvatures(const tangency_bodies* bodies, const unsigned* p
     const Pairs list(required(bodies), pairs, count);
     require_unit(normals, count);
     const std::vector<Ellipsoid>& all = bodies->prepared().ellipsoids;
+    require_aspects(all, list);
     each(count, threads, [&](std::size_t k) {
       const ContactCurvature found =
           contact_curvature(all[list[k].a], all[list[k].b], vectors(normals)[k]);
@@ -234,7 +272,7 @@ int tangency_times_of_contact(const tangency_bodies* bodies, const unsigned* pai
     const tangency_time_columns to = known(answers, "answers");
     const Pairs list(required(bodies), pairs, count, separations);
     require_frame(horizon, tolerance);
-    const std::vector<Motion> moving = motions_of(motions, bodies->size(), horizon);
+    const std::vector<Motion> moving = motions_of(motions, *bodies, horizon);
     if (!bodies->by_matrices()) {
       return times_of_contact(bodies->moving(), moving, list.list(), horizon, tolerance,
                               {.status = values<ContactTimeStatus>(to.status, count),

@@ -40,6 +40,12 @@ const char* tangency_name_of(const char* enumeration, int value) {
 int tangency_level_of_confidence(double confidence, int dimensions, double* level) {
   return guarded([&] {
     if (level == nullptr) refuse("level", "must not be NULL");
+    if (!(confidence > 0.0 && confidence < 1.0)) {
+      refuse_value("confidence", confidence, "must be > 0 and < 1");
+    }
+    if (dimensions != 2 && dimensions != 3) {
+      refuse_value("dimensions", dimensions, "must be 2 or 3");
+    }
     *level = level_of_confidence(confidence, dimensions);
   });
 }

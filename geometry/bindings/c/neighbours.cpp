@@ -4,10 +4,14 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <tangency/geometry/bindings/c/ask.hpp>
 #include <tangency/geometry/neighbours.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 
 struct tangency_neighbours {
   tangency::Neighbours list;
@@ -32,6 +36,20 @@ Lattice lattice_of(const tangency_neighbour_question& question) {
   return lattice;
 }
 
+/// The list; where the kernel refuses edges their numbers are told.
+Neighbours neighbours_of(const MovingBodies& bodies, const NeighbourQuestion& asked) {
+  try {
+    return neighbours(bodies, asked);
+  } catch (const std::invalid_argument& refused) {
+    constexpr std::string_view kEdges = "edges: ";
+    const std::string_view text = refused.what();
+    if (!text.starts_with(kEdges)) throw;
+    std::string edges = "question.edges =";
+    for (const double x : asked.lattice.edges.reshaped()) edges += " " + tables::to_text(x);
+    refuse(edges, text.substr(kEdges.size()));
+  }
+}
+
 NeighbourQuestion question_of(const tangency_neighbour_question* given,
                               const tangency_accuracy* accuracy, int threads) {
   const tangency_neighbour_question question = known(given, "question");
@@ -39,6 +57,7 @@ NeighbourQuestion question_of(const tangency_neighbour_question* given,
       question.answers > TANGENCY_NEIGHBOUR_ANSWERS_CONTACTS) {
     refuse_value("question.answers", question.answers, "must be a tangency_neighbour_answers");
   }
+  if (question.reserved != 0) refuse_value("question.reserved", question.reserved, "must be 0");
   return {question.reach, lattice_of(question), static_cast<NeighbourAnswers>(question.answers),
           accuracy_of(accuracy), threads};
 }
@@ -79,7 +98,7 @@ int tangency_neighbours_create(tangency_neighbours** neighbours, const tangency_
     *neighbours = nullptr;
     const NeighbourQuestion asked = question_of(question, accuracy, threads);
     auto made = std::make_unique<tangency_neighbours>();
-    if (by_axes(bodies).size() > 0) made->list = tangency::neighbours(bodies->moving(), asked);
+    if (by_axes(bodies).size() > 0) made->list = neighbours_of(bodies->moving(), asked);
     made->pairs.reserve(2 * made->list.size());
     made->images.reserve(3 * made->list.size());
     for (const NearPair& pair : made->list.pairs) {
@@ -98,13 +117,14 @@ int tangency_neighbours_columns(const tangency_neighbours* neighbours,
                                 tangency_neighbour_columns* columns) {
   return guarded([&] {
     if (neighbours == nullptr) refuse("neighbours", "must not be NULL");
-    if (columns == nullptr || columns->size < sizeof(std::size_t)) {
-      refuse("columns", "must not be NULL, and its size be sizeof of the struct");
-    }
-    // A longer struct of a later version keeps what it has behind these.
+    if (columns == nullptr) refuse("columns", "must not be NULL");
+    const std::size_t size = columns->size;
+    require_size("columns", size);
     tangency_neighbour_columns all = columns_of(*neighbours);
-    all.size = columns->size;
-    std::memcpy(columns, &all, std::min(columns->size, sizeof all));
+    all.size = size;
+    // What a longer struct of a later version has behind these is not answered.
+    std::memset(columns, 0, size);
+    std::memcpy(columns, &all, std::min(size, sizeof all));
   });
 }
 

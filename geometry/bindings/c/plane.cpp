@@ -70,10 +70,7 @@ std::vector<IndexedPair> pairs_of(const std::vector<MatrixEllipse>& all, const u
     const Pairs checked(all.size(), all.size(), "ellipses", pairs, count);
     return {checked.list().pairs.begin(), checked.list().pairs.end()};
   }
-  if (all.size() != 2 * count) {
-    refuse_value("count", static_cast<double>(count),
-                 "without pairs must be half of the number of ellipses");
-  }
+  require_half(count, all.size(), "ellipses");
   std::vector<IndexedPair> own;
   own.reserve(count);
   for (std::size_t k = 0; k < count; ++k) own.push_back(indexed_pair(k, count + k));

@@ -268,6 +268,8 @@ typedef struct tangency_accuracy {
   double length;
   /** not 0: normals and points to rounding too */
   int normals;
+  /** 0 */
+  int reserved;
 } tangency_accuracy;
 
 /** Answers of tangency_contacts(). */
@@ -550,11 +552,13 @@ typedef struct tangency_neighbour_question {
   const int* periodic;
   /** tangency_neighbour_answers */
   int answers;
+  /** 0 */
+  int reserved;
 } tangency_neighbour_question;
 
 /**
- * What tangency_neighbours_columns() shows, NULL where it was not asked for. Valid until the list
- * is destroyed.
+ * What tangency_neighbours_columns() shows, NULL where it was not asked for, as is what this
+ * version does not know. Valid until the list is destroyed.
  */
 typedef struct tangency_neighbour_columns {
   /** sizeof(this struct) */
@@ -883,10 +887,11 @@ TANGENCY_API int tangency_gap_derivatives(const tangency_bodies* bodies, const u
     const tangency_derivative_columns* answers, int threads);
 
 /**
- * Curvatures where two bodies touch.
+ * Curvatures where two bodies touch, of pairs whose longest semi-axis is at most 1e70 times the
+ * shortest.
  * @param bodies  as they were made
- * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
- * row)
+ * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
+ * count + k (2 a row)
  * @param count  pairs
  * @param normals  of tangency_contacts() for the same pairs, unit (3 a row)
  * @param answers  each column count rows, or NULL: not asked for
@@ -936,7 +941,8 @@ TANGENCY_API int tangency_containments(const tangency_bodies* bodies, const unsi
  * @param separations  c_B - c_A in place of that of the centres, as for periodic images; NULL: of
  * the centres (3 a row, unit: length)
  * @param motions  of each body: velocity of the pivot, angular velocity in space (rad per time),
- * centre less pivot (9 a row)
+ * centre less pivot. Each of them, and what the first two cover within the horizon, is at most
+ * 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a row)
  * @param horizon  finite, >= 0 (unit: time)
  * @param tolerance  > 0 (unit: time)
  * @param answers  each column count rows, or NULL: not asked for
@@ -954,7 +960,7 @@ TANGENCY_API int tangency_times_of_contact(const tangency_bodies* bodies, const 
  * @param sheets  not 0: walls without thickness, free on both sides
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
- * @param count  pairs
+ * @param count  pairs; without places at most the number of bodies and that of the others
  * @param answers  each column count rows, or NULL: not asked for
  * @param threads  that may work on it; below 1 counts as 1
  */
@@ -969,7 +975,7 @@ TANGENCY_API int tangency_walls(const tangency_bodies* bodies, const double* wal
  * @param points_count  how many points
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
- * @param count  pairs
+ * @param count  pairs; without places at most the number of bodies and that of the others
  * @param answers  each column count rows, or NULL: not asked for
  * @param threads  that may work on it; below 1 counts as 1
  */
@@ -984,7 +990,7 @@ TANGENCY_API int tangency_points(const tangency_bodies* bodies, const double* po
  * @param balls_count  how many balls
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
- * @param count  pairs
+ * @param count  pairs; without places at most the number of bodies and that of the others
  * @param answers  each column count rows, or NULL: not asked for
  * @param threads  that may work on it; below 1 counts as 1
  */
@@ -1000,7 +1006,7 @@ TANGENCY_API int tangency_balls(const tangency_bodies* bodies, const double* bal
  * @param rays_count  how many rays
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
- * @param count  pairs
+ * @param count  pairs; without places at most the number of bodies and that of the others
  * @param answers  each column count rows, or NULL: not asked for
  * @param threads  that may work on it; below 1 counts as 1
  */
@@ -1096,7 +1102,7 @@ TANGENCY_API int tangency_plane_contacts(const tangency_ellipses* ellipses, cons
  * @param points_count  how many points
  * @param pairs  places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
  * row)
- * @param count  pairs
+ * @param count  pairs; without places at most the number of bodies and that of the others
  * @param answers  each column count rows, or NULL: not asked for
  * @param threads  that may work on it; below 1 counts as 1
  */

@@ -189,6 +189,8 @@ module tangency
     real(c_double) :: length = 0.0_c_double
     ! not 0: normals and points to rounding too
     integer(c_int) :: normals = 0_c_int
+    ! 0
+    integer(c_int) :: reserved = 0_c_int
   end type tangency_accuracy
 
   ! Answers of tangency_contacts().
@@ -437,10 +439,12 @@ module tangency
     type(c_ptr) :: periodic = c_null_ptr
     ! tangency_neighbour_answers
     integer(c_int) :: answers = 0_c_int
+    ! 0
+    integer(c_int) :: reserved = 0_c_int
   end type tangency_neighbour_question
 
-  ! What tangency_neighbours_columns() shows, NULL where it was not asked for. Valid until the
-  ! list is destroyed.
+  ! What tangency_neighbours_columns() shows, NULL where it was not asked for, as is what this
+  ! version does not know. Valid until the list is destroyed.
   type, bind(c) :: tangency_neighbour_columns
     integer(c_size_t) :: size = 88_c_size_t
     ! body a <= body b (2 a row)
@@ -880,10 +884,11 @@ module tangency
       integer(c_int) :: code
     end function tangency_gap_derivatives
 
-    ! Curvatures where two bodies touch.
+    ! Curvatures where two bodies touch, of pairs whose longest semi-axis is at most 1e70 times
+    ! the shortest.
     !   bodies: as they were made
-    !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
-    !   row)
+    !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
+    !   count + k (2 a row)
     !   count: pairs
     !   normals: of tangency_contacts() for the same pairs, unit (3 a row)
     !   answers: each column count rows, or NULL: not asked for
@@ -955,7 +960,9 @@ module tangency
     !   separations: c_B - c_A in place of that of the centres, as for periodic images; NULL: of
     !   the centres (3 a row, unit: length)
     !   motions: of each body: velocity of the pivot, angular velocity in space (rad per time),
-    !   centre less pivot (9 a row)
+    !   centre less pivot. Each of them, and what the first two cover within the horizon, is at
+    !   most 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a
+    !   row)
     !   horizon: finite, >= 0 (unit: time)
     !   tolerance: > 0 (unit: time)
     !   answers: each column count rows, or NULL: not asked for
@@ -983,7 +990,7 @@ module tangency
     !   sheets: not 0: walls without thickness, free on both sides
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
-    !   count: pairs
+    !   count: pairs; without places at most the number of bodies and that of the others
     !   answers: each column count rows, or NULL: not asked for
     !   threads: that may work on it; below 1 counts as 1
     function tangency_walls(bodies, walls, walls_count, sheets, pairs, count, answers, threads) &
@@ -1007,7 +1014,7 @@ module tangency
     !   points_count: how many points
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
-    !   count: pairs
+    !   count: pairs; without places at most the number of bodies and that of the others
     !   answers: each column count rows, or NULL: not asked for
     !   threads: that may work on it; below 1 counts as 1
     function tangency_points(bodies, points, points_count, pairs, count, answers, threads) &
@@ -1030,7 +1037,7 @@ module tangency
     !   balls_count: how many balls
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
-    !   count: pairs
+    !   count: pairs; without places at most the number of bodies and that of the others
     !   answers: each column count rows, or NULL: not asked for
     !   threads: that may work on it; below 1 counts as 1
     function tangency_balls(bodies, balls, balls_count, pairs, count, answers, threads) bind(c, &
@@ -1054,7 +1061,7 @@ module tangency
     !   rays_count: how many rays
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
-    !   count: pairs
+    !   count: pairs; without places at most the number of bodies and that of the others
     !   answers: each column count rows, or NULL: not asked for
     !   threads: that may work on it; below 1 counts as 1
     function tangency_rays(bodies, rays, rays_count, pairs, count, answers, threads) bind(c, &
@@ -1200,7 +1207,7 @@ module tangency
     !   points_count: how many points
     !   pairs: places of a body and of another thing, from 0. NULL: of pair k both are k (2 a
     !   row)
-    !   count: pairs
+    !   count: pairs; without places at most the number of bodies and that of the others
     !   answers: each column count rows, or NULL: not asked for
     !   threads: that may work on it; below 1 counts as 1
     function tangency_plane_points(ellipses, points, points_count, pairs, count, answers, &

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests of the Python package share."""
 
+import unittest
+
 import numpy as np
+
+import tangency
 
 NAMES = ["x", "y", "z", "r1", "r2", "r3", "qw", "qx", "qy", "qz"]
 BALL = [0.0, 0, 0, 1, 1, 1, 1, 0, 0, 0]
@@ -23,3 +27,13 @@ def near(count, seed):
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     b[:, :3] = a[:, :3] + 2.2 * directions / np.linalg.norm(directions, axis=1)[:, np.newaxis]
     return a, b
+
+
+class Refusals(unittest.TestCase):
+    """Tests of what is refused: by which message, and of which row."""
+
+    def refused(self, message, row, ask, *arguments, **options):
+        with self.assertRaises(tangency.TangencyError) as caught:
+            ask(*arguments, **options)
+        self.assertEqual(str(caught.exception), message)
+        self.assertEqual(caught.exception.row, row)

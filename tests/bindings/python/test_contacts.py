@@ -2,6 +2,7 @@
 """Contacts from NumPy: forms of input, answers, errors."""
 
 import dataclasses
+import signal
 import subprocess
 import sys
 import threading
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import tangency
-from sample import BALL, NAMES, drawn, near
+from sample import BALL, NAMES, Refusals, drawn, near
 
 
 def same(left, right):
@@ -45,7 +46,7 @@ class FormsOfInput(unittest.TestCase):
             scattered["b." + name] = self.b[:, k]
         self.check(grains, scattered)
 
-        class Frame:  # what of pandas.DataFrame is asked for; test_pandas.py has a true one
+        class Frame:  # what of pandas.DataFrame is asked for; pandas_check.py has a true one
             def __init__(self, columns):
                 self.columns = list(columns)
                 self.table = columns
@@ -115,6 +116,8 @@ class Answers(unittest.TestCase):
     def test_columns_are_those_that_are_asked_for(self):
         found = tangency.contacts(drawn(3, 6), drawn(3, 7), columns=["gap", "normal_bound"])
         self.assertEqual([name for name, _ in found], ["gap", "normal_bound"])
+        once = tangency.contacts(drawn(3, 6).astype(np.float32), drawn(3, 7), columns=iter(["gap"]))
+        self.assertEqual([name for name, _ in once], ["gap"])
         with self.assertRaisesRegex(AttributeError, "normal was not asked for"):
             found.normal
         with self.assertRaisesRegex(tangency.TangencyError, "columns: 'depth': must be of gap"):
@@ -127,12 +130,89 @@ class Answers(unittest.TestCase):
         np.testing.assert_array_equal(flat["normal_y"], found.normal[:, 1])
         self.assertTrue(all(column.shape == (3,) for column in flat.values()))
         self.assertEqual(set(found.names("status")), {"ok"})
+        self.assertEqual(list(tangency.contacts(np.empty((0, 10)), np.empty((0, 10))).flat()), list(flat))
+
+    def test_flat_columns_are_named_by_axes_bodies_or_places(self):
+        near = tangency.neighbours([BALL, BALL]).flat()
+        for name in ("pairs_a", "pairs_b", "images_2", "normal_z", "separation_x", "gap"):
+            self.assertIn(name, near)
+        self.assertEqual((near["pairs_a"][0], near["pairs_b"][0]), (0, 1))
+        met = tangency.rays([BALL], [0, 0, -5, 0, 0, 1])
+        self.assertEqual([met.flat()[name][0] for name in ("t_0", "t_1")], met.t[0].tolist())
+        self.assertEqual(met.flat()["arm_1_z"][0], met.arm[0, 1, 2])
+        pair = drawn(1, 6), drawn(1, 7)
+        found = tangency.contacts(*pair)
+        curved = tangency.contact_curvatures(found, *pair)
+        flat = curved.flat()
+        self.assertEqual([name for name in flat if name.startswith("a")],
+                         ["a_0", "a_1", *(f"a_directions_{k}_{axis}" for k in (0, 1) for axis in "xyz")])
+        self.assertEqual(flat["a_directions_1_x"][0], curved.a_directions[0, 1, 0])
+        derivatives = tangency.gap_derivatives(found, *pair)
+        self.assertEqual(derivatives.flat()["hessian_3_17"][0], derivatives.hessian[0, 3, 17])
+        plane = tangency.plane_contacts([[0, 0, 2, 1, 1, 0]], [[1, 0, 2, 1, 0, 1]], columns=None)
+        self.assertEqual(plane.flat()["crossing_arms_3_y"][0], plane.crossing_arms[0, 3, 1])
+        self.assertEqual(plane.flat()["chord_normal_y"][0], plane.chord_normal[0, 1])
 
     def test_out_is_written_over(self):
         out = tangency.contacts(drawn(9, 8), drawn(9, 9))
         again = tangency.contacts(drawn(9, 10), drawn(9, 11), out=out)
         self.assertIs(again, out)
         self.assertTrue(same(out, tangency.contacts(drawn(9, 10), drawn(9, 11))))
+
+    def test_out_with_bounds_is_written_over(self):
+        pair = drawn(9, 10), drawn(9, 11)
+        for names in (["gap", "arm_a_bound"], ["arm_b_bound", "gap"], ["normal_bound"]):
+            out = tangency.contacts(drawn(9, 8), drawn(9, 9), columns=names)
+            tangency.contacts(*pair, out=out)
+            self.assertTrue(same(out, tangency.contacts(*pair, columns=names)))
+
+    def test_a_single_pair_may_be_asked_about_while_another_is_converted(self):
+        class Lazy:
+            def __init__(self, row):
+                self.row = row
+
+            def __len__(self):
+                return 10
+
+            def __array__(self, dtype=None, copy=None):
+                tangency.contact([50.0, *BALL[1:]], [99.0, *BALL[1:]])
+                return np.array(self.row)
+
+        class Item(float):
+            def __float__(self):
+                tangency.contact([50.0, *BALL[1:]], [99.0, *BALL[1:]])
+                return float.__float__(self)
+
+        other = [5.0, *BALL[1:]]
+        for b in (Lazy(other), [Item(value) for value in other]):
+            self.assertEqual(tangency.contact(BALL, b).gap, 3.0)
+
+    def test_a_single_pair_may_be_asked_about_in_a_signal_handler(self):
+        # A signal may arrive between any two steps of a call: here one does at each.
+        def ask(*_):
+            tangency.contact([50.0, *BALL[1:]], [99.0, *BALL[1:]])
+
+        previous = signal.signal(signal.SIGUSR1, ask)
+        trace = sys.gettrace()
+
+        def step(frame, event, argument):
+            frame.f_trace_opcodes = True
+            if frame.f_code is tangency.contact.__code__ and event == "opcode":
+                sys.settrace(None)
+                signal.raise_signal(signal.SIGUSR1)
+                sys.settrace(step)
+            return step
+
+        try:
+            for x in (2.5, 3.0, 4.0):
+                sys.settrace(step)
+                found = tangency.contact(BALL, [x, *BALL[1:]])
+                sys.settrace(trace)
+                self.assertEqual(found.gap, x - 2)
+                self.assertEqual(found.normal.tolist(), [1, 0, 0])
+        finally:
+            sys.settrace(trace)
+            signal.signal(signal.SIGUSR1, previous)
 
     def test_previous_normals_are_followed(self):
         a, b = drawn(40, 12), drawn(40, 13)
@@ -159,13 +239,7 @@ class Answers(unittest.TestCase):
         np.testing.assert_array_equal(found.gap < 0, tangency.overlaps(a, b))
 
 
-class Errors(unittest.TestCase):
-    def refused(self, message, row, ask, *arguments, **options):
-        with self.assertRaises(tangency.TangencyError) as caught:
-            ask(*arguments, **options)
-        self.assertEqual(str(caught.exception), message)
-        self.assertEqual(caught.exception.row, row)
-
+class Errors(Refusals):
     def test_of_rows_name_argument_row_field_value_and_rule(self):
         good, bad = drawn(10, 14), drawn(10, 15)
         bad[7, 4] = -1
@@ -190,7 +264,7 @@ class Errors(unittest.TestCase):
                      [[5, 1]])
         self.refused("pairs: numbers of type float64: must be integers", None, tangency.contacts, rows,
                      pairs=[[0.5, 1]])
-        self.refused(f"a: 1 numbers: must be 10, {names}", None, tangency.contact, [1.0], rows[0])
+        self.refused(f"a: shape (1,): must be (10,), the numbers {names}", None, tangency.contact, [1.0], rows[0])
         self.refused("accuracy = 'best': must be standard, certified, fast, or a length", None, tangency.contacts,
                      rows, rows, accuracy="best")
         self.refused("separations: row 2: z = nan: must be finite", 2, tangency.contacts, rows, rows,
@@ -232,6 +306,25 @@ print(size() - before)
 
 
 class Threads(unittest.TestCase):
+    def test_single_pairs_of_threads_are_their_own(self):
+        wrong, interval = [], sys.getswitchinterval()
+
+        def ask(x):
+            for _ in range(1000):
+                if tangency.contact(BALL, [x, *BALL[1:]]).gap != x - 2:
+                    wrong.append(x)
+
+        sys.setswitchinterval(1e-6)  # s: threads change places within calls
+        try:
+            threads = [threading.Thread(target=ask, args=(x,)) for x in (3.0, 4.0, 5.0, 6.0)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+        finally:
+            sys.setswitchinterval(interval)
+        self.assertEqual(wrong, [])
+
     def test_another_thread_runs_during_a_call(self):
         # It sees a call that has begun to answer and has not ended: impossible where the lock is held. A
         # machine that is busy may let a whole call pass before this thread's turn; then there is another.

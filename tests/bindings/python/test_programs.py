@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs that are read and started, and functions that are graded."""
 
+import os
 import tempfile
 import unittest
 from pathlib import Path
@@ -89,9 +90,33 @@ class Grades(unittest.TestCase):
         self.assertFalse(failed.passed)
         self.assertRegex(failed.verdict, "FAILED")
 
-    def test_columns_of_another_length_and_unknown_corpora_are_refused(self):
-        with self.assertRaisesRegex(ValueError, "gap: 1 rows: must be"):
-            grade.grade(lambda a, b: {"gap": [1.0]}, ["touching"])
+    def test_a_program_is_named_by_a_path_from_this_folder_too_and_has_to_be_there(self):
+        program = os.environ["TANGENCY_VERIFY"]
+        near = os.path.relpath(program)
+        self.assertFalse(os.path.isabs(near))
+        (found,) = grade.grade(lambda a, b: {"overlaps": tangency.overlaps(a, b)}, ["touching"], program=near)
+        self.assertTrue(found.passed, found.table)
+        with self.assertRaisesRegex(grade.ProgramError, "^program = './nowhere': must be a program that may be run"):
+            grade.grade(lambda a, b: {}, ["touching"], program="./nowhere")
+        with self.assertRaisesRegex(dem.ProgramError, "^program = 'nowhere'"):
+            dem.run("scene.toml", "out", program="nowhere")
+        with tempfile.TemporaryDirectory() as folder:
+            broken = Path(folder) / "broken"
+            broken.write_text("\x7fELF and no more")
+            broken.chmod(0o700)
+            with self.assertRaisesRegex(dem.ProgramError, "broken cannot be started"):
+                dem.particles("a.state", program=broken)
+
+    def test_columns_of_another_shape_and_unknown_corpora_are_refused(self):
+        for answer, message in (
+                (lambda n: {"gap": [1.0]}, r"^gap: shape \(1,\): must be \(\d+,\)$"),
+                (lambda n: {"gap": 1.0}, r"^gap: shape \(\): must be \(\d+,\)$"),
+                (lambda n: {"normal": np.zeros(n)}, r"^normal: shape \(\d+,\): must be \(\d+, 3\)$"),
+                (lambda n: {"gapp": np.zeros(n)}, "^gapp: is not graded: must be of relation overlaps gap "),
+                (lambda n: {"relation": np.full(n, 9)}, "^relation: row 0: 9: must be from 0 to 6$"),
+                (lambda n: np.zeros(n), "^the function answered ndarray: must be a mapping of columns by name")):
+            with self.assertRaisesRegex(ValueError, message):
+                grade.grade(lambda a, b: answer(len(a)), ["touching"])
         with self.assertRaisesRegex(grade.ProgramError, "nope"):
             grade.grade(lambda a, b: {}, ["nope"])
         with self.assertRaisesRegex(ValueError, "quadrics"):

@@ -63,6 +63,8 @@ class Pairs(unittest.TestCase):
 
 
 class Meetings(unittest.TestCase):
+    OTHERS = ((tangency.walls, 4), (tangency.points, 3), (tangency.balls, 4), (tangency.rays, 6))
+
     def test_of_walls_points_balls_and_rays(self):
         bodies = [ball(0), ball(0, 0, 3)]
         wall = tangency.walls(bodies, [0, 0, 2, -2])  # z <= -1
@@ -78,6 +80,29 @@ class Meetings(unittest.TestCase):
         segment = tangency.rays(bodies, [[0, 0, -5, 0, 0, 1, 0, 5]], [[1, 0], [0, 0]])
         self.assertEqual(segment.names("status"), ["miss", "hit"])
 
+    def test_one_against_none_is_no_pair(self):
+        none, one = np.empty((0, 10)), np.array([BALL])
+        for ask in (tangency.contacts, tangency.relations, tangency.overlaps, tangency.bounded_gaps,
+                    tangency.common_volumes, tangency.containments, tangency.perram_wertheim_factors):
+            self.assertEqual((len(ask(one, none)), len(ask(none, one)), len(ask(none, none))), (0, 0, 0))
+        self.assertEqual(len(tangency.contacts(one, none, columns=["normal_bound"])), 0)
+        for ask, width in self.OTHERS:
+            self.assertEqual((len(ask(none, np.ones((1, width)))), len(ask(one, np.ones((0, width))))), (0, 0))
+
+    def test_others_are_as_many_as_bodies_or_one(self):
+        bodies = drawn(4, 41)
+        for ask, width in self.OTHERS:
+            for count in (3, 9, 0):
+                with self.assertRaises(tangency.TangencyError) as caught:
+                    ask(bodies, np.ones((count, width)))
+                self.assertEqual(str(caught.exception), f"{ask.__name__}: {count} rows: must be 4, as many as of "
+                                                        "bodies, or one, where no pairs are given")
+            others = np.random.default_rng(42).normal(size=(4, width)) ** 2 + 0.5
+            each, first = ask(bodies, others), ask(bodies, others[0])
+            self.assertEqual((len(each), len(first), len(ask(bodies[0], others))), (4, 4, 4))
+            for name, column in ask(bodies, others, [[2, 2], [3, 0]]):
+                np.testing.assert_array_equal(column, [getattr(each, name)[2], getattr(first, name)[3]])
+
     def test_neighbours_in_a_lattice(self):
         rows = [ball(0.5), ball(2.5), ball(9.5)]
         found = tangency.neighbours(rows, edges=10 * np.eye(3))
@@ -89,7 +114,20 @@ class Meetings(unittest.TestCase):
         np.testing.assert_array_equal(alone.pairs, [[0, 1]])
         with self.assertRaises(AttributeError):
             alone.gap
-        self.assertEqual(len(tangency.neighbours([ball(0), ball(9)])), 0)
+
+    def test_columns_of_neighbours_are_those_that_are_asked_for_of_no_pairs_too(self):
+        apart, near = [ball(0), ball(9)], [ball(0), ball(1)]
+        numbers = []
+        for answers in tangency.NeighbourAnswers:
+            none, some = tangency.neighbours(apart, answers=answers), tangency.neighbours(near, answers=answers)
+            self.assertEqual((len(none), len(some)), (0, 1))
+            self.assertEqual([name for name, _ in none], [name for name, _ in some])
+            for (_, empty), (_, array) in zip(none, some):
+                self.assertEqual((empty.shape[1:], empty.dtype), (array.shape[1:], array.dtype))
+            numbers.append(len(list(some)))
+        self.assertEqual(numbers, [2, 3, 6, 10])
+        some.gap[0] = 7  # an array of its own, as every other answer
+        self.assertEqual(some.gap[0], 7)
 
 
 class Forms(unittest.TestCase):

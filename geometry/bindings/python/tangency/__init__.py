@@ -10,8 +10,9 @@ normals point from A to B; witness points are given from their body's centre.
 """
 
 from tangency._bodies import Bodies, Ellipses
+from tangency._checks import TangencyError
 from tangency._columns import Columns
-from tangency._library import TangencyError, instruction_set, level_of_confidence, version
+from tangency._library import instruction_set, level_of_confidence, version
 from tangency._plane import plane_contacts, plane_points
 from tangency._questions import (balls, bounded_gaps, classify, common_volumes, contact_curvatures, contacts,
                                  containments, gap_derivatives, neighbours, other_gaps, overlaps, overlaps_by_filter,

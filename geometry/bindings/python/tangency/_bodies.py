@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import ctypes
+import sys
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tangency._library import TangencyError, call, functions
+from tangency._checks import TangencyError, integer, member, plain, real
+from tangency._library import call, functions
 from tangency._table import Form, Number, PlaneForm
 
 #: The columns of a body in every table of the project.
@@ -40,7 +42,9 @@ def rows_of(given: Any, names: tuple[str, ...], argument: str) -> NDArray[Any]:
     columns = _column_names(given)
     if columns is not None:
         return _rows_of_columns(given, columns, names, argument)
-    array: NDArray[Any] = given if isinstance(given, np.ndarray) else np.asarray(given)
+    if isinstance(given, _Rows):
+        raise TangencyError(f"{argument}: {type(given).__name__}: must be rows; append() joins two arrays")
+    array = plain(given, argument)
     if array.dtype not in (np.float64, np.float32):
         array = array.astype(np.float64)
     if array.ndim == 1 and array.size == len(names):
@@ -69,14 +73,24 @@ def _rows_of_columns(given: Any, columns: list[str], names: tuple[str, ...], arg
                and not (name[len(prefix):] in _IDENTITY and not turned)]
     if missing:
         raise TangencyError(f"{argument}: there is no column {missing[0]}")
-    if isinstance(given, np.ndarray) and given.ndim == 1:
+    if isinstance(given, np.ndarray) and not isinstance(given, np.ma.MaskedArray) and given.ndim == 1:
         view = _view_of_neighbours(given, wanted)
         if view is not None:
             return view
     rows = np.empty((len(given), len(names)))
     for k, name in enumerate(wanted):
-        rows[:, k] = given[name] if name in columns else _IDENTITY[names[k]]
+        rows[:, k] = _column(given, name, argument) if name in columns else _IDENTITY[names[k]]
     return rows
+
+
+def _column(table: Any, name: str, argument: str) -> NDArray[Any]:
+    column, place = table[name], f"{argument}: column {name}"
+    if isinstance(column, np.ndarray) or getattr(getattr(column, "dtype", None), "kind", None) not in list("fiub"):
+        return plain(column, place)
+    try:  # pandas: its types that know of missing numbers are no types of NumPy
+        return np.asarray(column, np.float64)
+    except (TypeError, ValueError) as error:
+        raise TangencyError(f"{place}: {error}") from error
 
 
 def _view_of_neighbours(given: NDArray[Any], wanted: list[str]) -> NDArray[Any] | None:
@@ -113,7 +127,7 @@ class _Rows:
         self._call("append", self._pointer, rows, form, level, argument)
 
     def _call(self, name: str, to: Any, rows: Any, form: Any, level: float, argument: str) -> None:
-        known = type(next(iter(self._names)))(form)
+        known, level = member(type(next(iter(self._names))), form, "form"), real(level, "level")
         array = rows_of(rows, self._names[known], argument)
         try:
             call(f"{self._kind}_{name}", to, int(known), array.ctypes.data, number_of(array), len(array),
@@ -122,6 +136,10 @@ class _Rows:
             if error.row is None:
                 raise
             raise TangencyError(argument + str(error).removeprefix("rows"), error.row) from None
+
+    def __reduce__(self) -> Any:
+        # Of copy and pickle: two objects with one pointer would both free it.
+        raise TypeError(f"{type(self).__name__} cannot be copied or pickled: make others of the rows")
 
     def __len__(self) -> int:
         return int(functions[f"{self._kind}_count"](self._pointer))
@@ -158,7 +176,8 @@ class Bodies(_Rows):
 
     Notes
     -----
-    The numbers are copied. Any number of threads may ask about the same bodies while none changes them.
+    The numbers are copied, and Bodies themselves cannot be. Any number of threads may ask about the same bodies
+    while none changes them.
     """
 
     _kind = "bodies"
@@ -170,6 +189,7 @@ class Bodies(_Rows):
     def set(self, rows: Any, first: int = 0) -> None:
         """Other numbers for the bodies from `first` on: of bodies that move. By axes alone."""
         array = rows_of(rows, NAMES[Form.axes], "rows")
+        first = integer(first, "first", 0, sys.maxsize)
         call("bodies_set", self._pointer, first, array.ctypes.data, number_of(array), len(array), array.strides[0])
 
 
@@ -201,7 +221,7 @@ class Ellipses(_Rows):
 
 def float_rows(given: ArrayLike, width: int, count: int | None, argument: str) -> NDArray[np.float64]:
     """Rows of float64 side by side, `count` of them."""
-    array = np.ascontiguousarray(given, np.float64)
+    array = np.ascontiguousarray(plain(given, argument), np.float64)
     if array.ndim == 1 and array.size == width:
         array = array[np.newaxis]
     if array.ndim != 2 or array.shape[1] != width or (count is not None and len(array) != count):
@@ -212,11 +232,9 @@ def float_rows(given: ArrayLike, width: int, count: int | None, argument: str) -
 
 def pair_rows(given: ArrayLike) -> NDArray[np.uint32]:
     """Pairs of indices. Those that fit into no index are refused here, with their row."""
-    array = np.asarray(given)
+    array = plain(given, "pairs", "iu", "integers")
     if array.dtype == np.uint32:
         array = np.ascontiguousarray(array)
-    elif array.size and array.dtype.kind not in "iu":
-        raise TangencyError(f"pairs: numbers of type {array.dtype}: must be integers")
     else:
         wrong = np.argwhere((array < 0) | (array > 0xFFFFFFFF))
         if len(wrong):

@@ -13,6 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+#: Words in the names of columns whose last axis is x, y and, in space, z.
+_VECTORS = frozenset(("normal", "arm", "arms", "point", "separation", "gradient", "directions"))
+
+
 @dataclass(frozen=True)
 class Column:
     """One column: its name, NumPy type, shape of a row, and whose values its numbers are."""
@@ -21,6 +25,15 @@ class Column:
     dtype: str
     shape: tuple[int, ...] = ()
     enum: type[IntEnum] | None = None
+
+    def labels(self, place: tuple[int, ...]) -> list[str]:
+        """What `Columns.flat` calls a number of a row."""
+        labels = [str(index) for index in place]
+        if labels and not _VECTORS.isdisjoint(self.name.split("_")) and self.shape[-1] <= len("xyz"):
+            labels[-1] = "xyz"[place[-1]]
+        elif self.name == "pairs":
+            labels[-1] = "ab"[place[-1]]
+        return labels
 
 
 class Columns:
@@ -64,16 +77,17 @@ class Columns:
         return [values[value] for value in getattr(self, column)]
 
     def flat(self) -> dict[str, NDArray[Any]]:
-        """Columns of single numbers, ``normal_x`` and the like, as ``pandas.DataFrame`` takes them."""
+        """Columns of single numbers, as ``pandas.DataFrame`` takes them; the same ones whatever was found.
+
+        Vectors by axes, ``normal_x``; pairs by bodies, ``pairs_a``; others by places from 0, ``t_0``,
+        ``b_directions_1_z``.
+        """
         result = {}
-        for name, array in self:
-            rows = array.reshape(len(array), -1) if array.size else array.reshape(len(array), 0)
-            if array.ndim == 1:
-                result[name] = array
-            elif array.ndim == 2 and rows.shape[1] <= 3:
-                result.update({f"{name}_{axis}": rows[:, k] for k, axis in enumerate("xyz"[:rows.shape[1]])})
-            else:
-                result.update({f"{name}_{k}": rows[:, k] for k in range(rows.shape[1])})
+        for column in self.fields:
+            if column.name in self.__dict__:
+                array = self.__dict__[column.name]
+                for place in np.ndindex(column.shape):
+                    result["_".join([column.name, *column.labels(place)])] = array[(slice(None), *place)]
         return result
 
     def __iter__(self) -> Iterator[tuple[str, NDArray[Any]]]:

@@ -8,24 +8,11 @@ import os
 from pathlib import Path
 from typing import Any
 
+from tangency._checks import TangencyError, integer, real
 from tangency._table import FUNCTIONS, Code
 
 #: What Debian's package of the library has; the part behind .so is its version.
 INSTALLED = "libtangency_c.so.0.2"
-
-
-class TangencyError(ValueError):
-    """Numbers that the library refuses.
-
-    Attributes
-    ----------
-    row : int or None
-        The row of the argument that was refused, from 0.
-    """
-
-    def __init__(self, message: str, row: int | None = None) -> None:
-        super().__init__(message)
-        self.row = row
 
 
 def _loaded() -> ctypes.CDLL:
@@ -85,5 +72,6 @@ def instruction_set() -> str:
 def level_of_confidence(confidence: float, dimensions: int = 3) -> float:
     """The level of the ellipsoid (3) or ellipse (2) that holds a share of a normal distribution."""
     level = ctypes.c_double()
-    call("level_of_confidence", confidence, dimensions, ctypes.addressof(level))
+    call("level_of_confidence", real(confidence, "confidence"), integer(dimensions, "dimensions"),
+         ctypes.addressof(level))
     return level.value

@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from tangency._asked import ask, columns_for, data_of
 from tangency._bodies import Ellipses, float_rows, pair_rows
-from tangency._library import TangencyError, call
-from tangency._questions import columns_for
+from tangency._checks import TangencyError
 from tangency._table import PlaneContacts, PlanePoints
 
 #: By default: what takes no more than some microseconds a pair.
@@ -46,9 +44,7 @@ def plane_contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
         raise TangencyError("pairs: must be given where b is not")
     count = len(known) // 2 if list_ is None else len(list_)
     answers = columns_for(PlaneContacts, count, columns)
-    call("plane_contacts", known.pointer, None if list_ is None else list_.ctypes.data, count,
-         ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("plane_contacts", known.pointer, data_of(list_), count, answers=answers, threads=threads)
 
 
 def plane_points(ellipses: Any, points: ArrayLike, *, columns: Iterable[str] | None = None,
@@ -57,9 +53,8 @@ def plane_points(ellipses: Any, points: ArrayLike, *, columns: Iterable[str] | N
     known = ellipses if isinstance(ellipses, Ellipses) else Ellipses(ellipses, argument="ellipses")
     rows = float_rows(points, 2, len(known), "points")
     answers = columns_for(PlanePoints, len(known), columns)
-    call("plane_points", known.pointer, rows.ctypes.data, len(rows), None, len(known),
-         ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("plane_points", known.pointer, rows.ctypes.data, len(rows), None, len(known), answers=answers,
+               threads=threads)
 
 
 __all__ = ["PLANE_COLUMNS", "plane_contacts", "plane_points"]

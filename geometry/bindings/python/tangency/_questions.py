@@ -5,119 +5,19 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterable
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tangency._asked import ON_DEMAND, Answer, Asked, accuracy_pointer, ask, columns_for, data_of
 from tangency._bodies import NAMES, Bodies, float_rows, pair_rows, rows_of
-from tangency._columns import Columns
-from tangency._library import TangencyError, call, functions
-from tangency._table import (AccuracyStruct, BoundedGaps, CommonVolumes, Containments, Contacts, Curvatures,
+from tangency._checks import TangencyError, integer, member, plain, real
+from tangency._library import call, functions
+from tangency._table import (BoundedGaps, CommonVolumes, Containments, Contacts, Curvatures,
                              Definition, Derivatives, Factors, Form, NeighbourAnswers, NeighbourColumnsStruct,
                              NeighbourQuestionStruct, Neighbours, OtherGaps, Points, Quadrics, Rays, Relations, Times,
                              Walls)
-
-Answer = TypeVar("Answer", bound=Columns)
-
-#: Not computed unless they are named: they take longer than the rest.
-_ON_DEMAND = {"normal_bound", "arm_a_bound", "arm_b_bound"}
-
-#: Accuracies by name, as (of_size, length, normals).
-ACCURACIES = {"standard": (0.0, 0.0, False), "certified": (0.0, 0.0, True), "fast": (2.0**-20, 0.0, False)}
-
-
-def accuracy_pointer(accuracy: str | float) -> tuple[int | None, Any]:
-    """Address of the C struct, or None, and what has to live as long as it is used."""
-    if accuracy == "standard":
-        return None, None
-    if isinstance(accuracy, str):
-        if accuracy not in ACCURACIES:
-            raise TangencyError(f"accuracy = {accuracy!r}: must be {', '.join(ACCURACIES)}, or a length")
-        of_size, length, normals = ACCURACIES[accuracy]
-    else:
-        of_size, length, normals = 0.0, float(accuracy), False
-    struct = AccuracyStruct(ctypes.sizeof(AccuracyStruct), of_size, length, int(normals))
-    return ctypes.addressof(struct), struct
-
-
-def columns_for(kind: type[Answer], count: int, columns: Iterable[str] | None, out: Answer | None = None) -> Answer:
-    """The columns that are asked for: those named, all that take no longer, or those of an earlier answer."""
-    if out is not None:
-        if len(out) != count:
-            raise TangencyError(f"out: {len(out)} rows: must be {count}, the number of pairs")
-        return out
-    known = [column.name for column in kind.fields]
-    wanted = tuple(name for name in known if name not in _ON_DEMAND) if columns is None else tuple(columns)
-    for name in wanted:
-        if name not in known:
-            raise TangencyError(f"columns: {name!r}: must be of {' '.join(known)}")
-    answers: Answer = kind.allocated(count, wanted)
-    return answers
-
-
-class _Asked:
-    """Bodies and pairs of a question, however they were given."""
-
-    def __init__(self, a: Any, b: Any, pairs: Any, separations: Any = None) -> None:
-        if isinstance(a, Bodies):
-            if b is not None:
-                raise TangencyError("b: must be None where a are Bodies; append() joins two arrays")
-            self.bodies = a
-            self.pairs = None if pairs is None else pair_rows(pairs)
-            self.count = len(a) // 2 if self.pairs is None else len(self.pairs)
-        else:
-            self._take_rows(a, b, pairs)
-        self.separations = (None if separations is None
-                            else float_rows(separations, 3, self.count, "separations"))
-
-    def _take_rows(self, a: Any, b: Any, pairs: Any) -> None:
-        self.bodies = Bodies(a, argument="a")
-        first = len(self.bodies)
-        self.pairs = None if pairs is None else pair_rows(pairs)
-        if b is None:
-            if self.pairs is None:
-                raise TangencyError("pairs: must be given where b is not")
-            self.count = len(self.pairs)
-            return
-        others = rows_of(b, NAMES[Form.axes], "b")
-        if self.pairs is None:
-            if first == 1 or len(others) == 1:
-                self._repeat(a, others)
-                return
-            if len(others) != first:
-                raise TangencyError(f"b: {len(others)} rows: must be {first}, as many as of a")
-            self.count = first
-        else:
-            self._require_index(self.pairs[:, 0], first, "a")
-            self._require_index(self.pairs[:, 1], len(others), "b")
-            self.pairs = self.pairs + np.array([0, first], np.uint32)
-            self.count = len(self.pairs)
-        self.bodies.append(others, argument="b")
-
-    def _repeat(self, a: Any, others: NDArray[Any]) -> None:
-        """One body against many."""
-        first, second = len(self.bodies), len(others)
-        self.count = max(first, second)
-        self.pairs = np.empty((self.count, 2), np.uint32)
-        self.pairs[:, 0] = np.arange(first)
-        self.pairs[:, 1] = first + np.arange(second)
-        self.bodies.append(others, argument="b")
-
-    @staticmethod
-    def _require_index(indices: NDArray[np.uint32], count: int, entry: str) -> None:
-        wrong = np.flatnonzero(indices >= count)
-        if len(wrong):
-            row = int(wrong[0])
-            raise TangencyError(f"pairs: row {row}: {entry} = {indices[row]}: must be below {count}, the number of "
-                                "bodies", row)
-
-    def arguments(self) -> tuple[Any, ...]:
-        return (self.bodies.pointer, _data(self.pairs), self.count, _data(self.separations))
-
-
-def _data(array: NDArray[Any] | None) -> int | None:
-    return None if array is None else array.ctypes.data
 
 
 def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
@@ -130,7 +30,8 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     a, b : array_like, shape (N, 10), or Bodies
         Rows ``x y z r1 r2 r3 qw qx qy qz`` (`Bodies`), or structured arrays or data frames with these columns, as they
         are or with the prefix ``a.`` and ``b.``. Pair k is row k of both; a single row stands for as many as
-        the other has. float64 rows are read where they are.
+        the other has. Without pairs, separations and previous normals, float64 rows whose ten numbers lie side by
+        side are read where they are; others are copied.
     pairs : array_like of int, shape (P, 2), optional
         Rows of `a` and of `b`; without `b` both of `a`.
     separations : array_like, shape (P, 3), optional
@@ -145,7 +46,8 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     threads : int
         That may work on it.
     out : Contacts, optional
-        An earlier answer for as many pairs, to be written over.
+        An earlier answer for as many pairs, whose columns are written over. It has to be of this function,
+        `columns` None, and each column as it was made: dtype, shape, C-contiguous and writeable.
 
     Returns
     -------
@@ -168,24 +70,23 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     >>> found.gap
     array([1.])
     """
+    columns = None if columns is None else tuple(columns)  # read more than once
     fast = _contacts_of_rows(a, b, accuracy, columns, threads, out) if (
         pairs is None and separations is None and previous_normals is None and b is not None
         and not isinstance(a, Bodies)) else None
     if fast is not None:
         return fast
-    asked = _Asked(a, b, pairs, separations)
+    asked = Asked(a, b, pairs, separations)
     answers = columns_for(Contacts, asked.count, columns, out)
     previous = None if previous_normals is None else float_rows(previous_normals, 3, asked.count, "previous_normals")
     address, _kept = accuracy_pointer(accuracy)
-    call("contacts", *asked.arguments(), _data(previous), address, ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("contacts", *asked.arguments(), data_of(previous), address, answers=answers, threads=threads)
 
 
-def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: Iterable[str] | None, threads: int,
+def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: tuple[str, ...] | None, threads: int,
                       out: Contacts | None) -> Contacts | None:
     """Of rows of float64, read where they are; None where they are not such."""
-    wanted = None if columns is None else tuple(columns)
-    if wanted is not None and _ON_DEMAND.intersection(wanted) or out is not None and "normal_bound" in vars(out):
+    if ON_DEMAND.intersection(columns or ()) or type(out) is Contacts and ON_DEMAND.intersection(vars(out)):
         return None
     rows_a, rows_b = rows_of(a, NAMES[Form.axes], "a"), rows_of(b, NAMES[Form.axes], "b")
     if rows_a.dtype != np.float64 or rows_b.dtype != np.float64:
@@ -193,19 +94,17 @@ def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: Iterable[s
     count = max(len(rows_a), len(rows_b)) if len(rows_a) and len(rows_b) else 0
     if len(rows_a) not in (1, count) or len(rows_b) not in (1, count):
         raise TangencyError(f"b: {len(rows_b)} rows: must be {len(rows_a)}, as many as of a")
-    answers = columns_for(Contacts, count, wanted, out)
+    answers = columns_for(Contacts, count, columns, out)
     address, _kept = accuracy_pointer(accuracy)
-    call("contacts_of_rows", rows_a.ctypes.data, rows_a.strides[0] if len(rows_a) > 1 else 0,
-         rows_b.ctypes.data, rows_b.strides[0] if len(rows_b) > 1 else 0, count, address,
-         ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("contacts_of_rows", rows_a.ctypes.data, rows_a.strides[0] if len(rows_a) > 1 else 0,
+               rows_b.ctypes.data, rows_b.strides[0] if len(rows_b) > 1 else 0, count, address,
+               answers=answers, threads=threads)
 
 
-def _pair_question(kind: type[Answer], name: str, asked: _Asked, columns: Iterable[str] | None, threads: int,
+def _pair_question(kind: type[Answer], name: str, asked: Asked, columns: Iterable[str] | None, threads: int,
                    *more: object) -> Answer:
     answers = columns_for(kind, asked.count, columns)
-    call(name, *asked.arguments(), *more, ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask(name, *asked.arguments(), *more, answers=answers, threads=threads)
 
 
 def bounded_gaps(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
@@ -216,7 +115,7 @@ def bounded_gaps(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separ
     Parameters are those of `contacts`.
     """
     address, _kept = accuracy_pointer(accuracy)
-    return _pair_question(BoundedGaps, "bounded_gaps", _Asked(a, b, pairs, separations), columns, threads, address)
+    return _pair_question(BoundedGaps, "bounded_gaps", Asked(a, b, pairs, separations), columns, threads, address)
 
 
 def overlaps(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
@@ -227,25 +126,25 @@ def overlaps(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     -------
     ndarray of bool, shape (P,)
     """
-    asked = _Asked(a, b, pairs, separations)
+    asked = Asked(a, b, pairs, separations)
     answers = np.empty(asked.count, np.bool_)
-    call("overlaps", *asked.arguments(), answers.ctypes.data, threads)
+    call("overlaps", *asked.arguments(), answers.ctypes.data, integer(threads, "threads"))
     return answers
 
 
 def overlaps_by_filter(a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
                        separations: ArrayLike | None = None, threads: int = 1) -> NDArray[np.uint8]:
     """The same in bounded time: 1 yes, 0 no, 2 where only integers would know."""
-    asked = _Asked(a, b, pairs, separations)
+    asked = Asked(a, b, pairs, separations)
     answers = np.empty(asked.count, np.uint8)
-    call("overlaps_by_filter", *asked.arguments(), answers.ctypes.data, threads)
+    call("overlaps_by_filter", *asked.arguments(), answers.ctypes.data, integer(threads, "threads"))
     return answers
 
 
 def relations(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
               columns: Iterable[str] | None = None, threads: int = 1) -> Relations:
     """How pairs lie, as point sets: exact. Parameters are those of `contacts`."""
-    return _pair_question(Relations, "relations", _Asked(a, b, pairs, separations), columns, threads)
+    return _pair_question(Relations, "relations", Asked(a, b, pairs, separations), columns, threads)
 
 
 def other_gaps(definition: Definition, a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
@@ -255,15 +154,15 @@ def other_gaps(definition: Definition, a: Any, b: Any = None, pairs: ArrayLike |
 
     Parameters behind `definition` are those of `contacts`.
     """
-    return _pair_question(OtherGaps, "other_gaps", _Asked(a, b, pairs, separations), columns, threads,
-                          int(definition))
+    return _pair_question(OtherGaps, "other_gaps", Asked(a, b, pairs, separations), columns, threads,
+                          int(member(Definition, definition, "definition")))
 
 
 def perram_wertheim_factors(a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
                             separations: ArrayLike | None = None, columns: Iterable[str] | None = None,
                             threads: int = 1) -> Factors:
     """The Perram-Wertheim contact function. Parameters are those of `contacts`."""
-    return _pair_question(Factors, "perram_wertheim_factors", _Asked(a, b, pairs, separations), columns, threads)
+    return _pair_question(Factors, "perram_wertheim_factors", Asked(a, b, pairs, separations), columns, threads)
 
 
 def gap_derivatives(found: Contacts, a: Any, b: Any = None, pairs: ArrayLike | None = None, *,
@@ -279,8 +178,11 @@ def gap_derivatives(found: Contacts, a: Any, b: Any = None, pairs: ArrayLike | N
     The others are those of `contacts`. The 18 parameters: centre, rotation vector in space (rad) and
     semi-axes of A, then of B.
     """
-    asked = _Asked(a, b, pairs, separations)
-    normals, statuses = _normals(found, asked.count), np.ascontiguousarray(found.status, np.int32)
+    asked = Asked(a, b, pairs, separations)
+    normals = _normals(found, asked.count)
+    statuses = np.ascontiguousarray(plain(found.status, "found.status", "iu", "integers"), np.int32)
+    if statuses.shape != (asked.count,):
+        raise TangencyError(f"found.status: shape {statuses.shape}: must be ({asked.count},)")
     return _pair_question(Derivatives, "gap_derivatives", asked, columns, threads, normals.ctypes.data,
                           statuses.ctypes.data)
 
@@ -296,15 +198,14 @@ def contact_curvatures(found: Contacts, a: Any, b: Any = None, pairs: ArrayLike 
 
     The others are those of `contacts`.
     """
-    asked = _Asked(a, b, pairs)
+    asked = Asked(a, b, pairs)
     normals = _normals(found, asked.count)
     own = asked.pairs
     if own is None:
         own = np.stack([np.arange(asked.count), asked.count + np.arange(asked.count)], 1).astype(np.uint32)
     answers = columns_for(Curvatures, asked.count, columns)
-    call("contact_curvatures", asked.bodies.pointer, own.ctypes.data, asked.count, normals.ctypes.data,
-         ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("contact_curvatures", asked.bodies.pointer, own.ctypes.data, asked.count, normals.ctypes.data,
+               answers=answers, threads=threads)
 
 
 def _normals(found: Contacts, count: int) -> NDArray[np.float64]:
@@ -323,14 +224,14 @@ def common_volumes(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, sep
 
     The others are those of `contacts`.
     """
-    return _pair_question(CommonVolumes, "common_volumes", _Asked(a, b, pairs, separations), columns, threads,
-                          tolerance)
+    return _pair_question(CommonVolumes, "common_volumes", Asked(a, b, pairs, separations), columns, threads,
+                          real(tolerance, "tolerance"))
 
 
 def containments(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
                  columns: Iterable[str] | None = None, threads: int = 1) -> Containments:
     """How far A lies inside B: a length and a factor. Parameters are those of `contacts`."""
-    return _pair_question(Containments, "containments", _Asked(a, b, pairs, separations), columns, threads)
+    return _pair_question(Containments, "containments", Asked(a, b, pairs, separations), columns, threads)
 
 
 def times_of_contact(bodies: Any, motions: ArrayLike, pairs: ArrayLike, horizon: float, tolerance: float, *,
@@ -350,23 +251,32 @@ def times_of_contact(bodies: Any, motions: ArrayLike, pairs: ArrayLike, horizon:
     tolerance : float
         Time, > 0.
     """
-    asked = _Asked(bodies, None, pairs, separations)
+    asked = Asked(bodies, None, pairs, separations)
     rows = float_rows(motions, 9, len(asked.bodies), "motions")
-    return _pair_question(Times, "times_of_contact", asked, columns, threads, rows.ctypes.data, horizon, tolerance)
+    return _pair_question(Times, "times_of_contact", asked, columns, threads, rows.ctypes.data,
+                          real(horizon, "horizon"), real(tolerance, "tolerance"))
 
 
 def _meeting(kind: type[Answer], name: str, bodies: Any, others: NDArray[np.float64], pairs: ArrayLike | None,
              columns: Iterable[str] | None, threads: int, *more: object) -> Answer:
     known = bodies if isinstance(bodies, Bodies) else Bodies(bodies, argument="bodies")
-    list_ = None if pairs is None else pair_rows(pairs)
-    if list_ is None and 1 in (len(known), len(others)) and len(known) != len(others):
-        list_ = np.zeros((max(len(known), len(others)), 2), np.uint32)
-        list_[:, int(len(known) == 1)] = np.arange(len(list_))
-    count = len(known) if list_ is None else len(list_)
-    answers = columns_for(kind, count, columns)
-    call(name, known.pointer, others.ctypes.data, len(others), *more, _data(list_), count,
-         ctypes.byref(answers.pointers()), threads)
-    return answers
+    list_ = _meeting_pairs(name, len(known), len(others)) if pairs is None else pair_rows(pairs)
+    answers = columns_for(kind, len(list_), columns)
+    return ask(name, known.pointer, others.ctypes.data, len(others), *more, data_of(list_), len(list_),
+               answers=answers, threads=threads)
+
+
+def _meeting_pairs(name: str, bodies: int, others: int) -> NDArray[np.uint32]:
+    """Body k and other k of each pair, or all with the single one."""
+    if bodies != others and 1 not in (bodies, others):
+        raise TangencyError(f"{name}: {others} rows: must be {bodies}, as many as of bodies, or one, "
+                            "where no pairs are given")
+    count = max(bodies, others) if bodies and others else 0
+    pairs = np.zeros((count, 2), np.uint32)
+    for column, rows in enumerate((bodies, others)):
+        if rows > 1:
+            pairs[:, column] = np.arange(count)
+    return pairs
 
 
 def walls(bodies: Any, walls: ArrayLike, pairs: ArrayLike | None = None, *, sheets: bool = False,
@@ -409,10 +319,17 @@ def rays(bodies: Any, rays: ArrayLike, pairs: ArrayLike | None = None, *,
 
     The others are those of `walls`.
     """
-    given = np.atleast_2d(np.asarray(rays, np.float64))
+    given = np.atleast_2d(plain(rays, "rays").astype(np.float64))
     if given.ndim == 2 and given.shape[1] == 6:
         given = np.hstack([given, np.broadcast_to([0.0, np.inf], (len(given), 2))])
     return _meeting(Rays, "rays", bodies, float_rows(given, 8, None, "rays"), pairs, columns, threads)
+
+
+#: The least answers of which a column is; those that are not named are of contacts.
+_NEIGHBOURS_FROM = {
+    "pairs": NeighbourAnswers.pairs, "images": NeighbourAnswers.pairs, "overlaps": NeighbourAnswers.overlaps,
+    "gap": NeighbourAnswers.gaps, "gap_error": NeighbourAnswers.gaps, "status": NeighbourAnswers.gaps,
+}
 
 
 def neighbours(bodies: Any, reach: float = 0.0, *, edges: ArrayLike | None = None,
@@ -439,35 +356,34 @@ def neighbours(bodies: Any, reach: float = 0.0, *, edges: ArrayLike | None = Non
     """
     known = bodies if isinstance(bodies, Bodies) else Bodies(bodies, argument="bodies")
     cell = None if edges is None else float_rows(edges, 3, 3, "edges")
-    along = None if periodic is None else np.ascontiguousarray(periodic, np.int32)
+    along = (None if periodic is None
+             else np.ascontiguousarray(plain(periodic, "periodic", "biu", "yes or no"), np.int32))
     if along is not None and along.shape != (3,):
         raise TangencyError(f"periodic: shape {along.shape}: must be (3,)")
-    question = NeighbourQuestionStruct(ctypes.sizeof(NeighbourQuestionStruct), reach, _data(cell), _data(along),
-                                       int(answers))
+    answers = member(NeighbourAnswers, answers, "answers")
+    question = NeighbourQuestionStruct(ctypes.sizeof(NeighbourQuestionStruct), real(reach, "reach"), data_of(cell),
+                                       data_of(along), int(answers))
     address, _kept = accuracy_pointer(accuracy)
     list_ = ctypes.c_void_p()
-    call("neighbours_create", ctypes.addressof(list_), known.pointer, ctypes.addressof(question), address, threads)
+    call("neighbours_create", ctypes.addressof(list_), known.pointer, ctypes.addressof(question), address,
+         integer(threads, "threads"))
     try:
-        return _copied(list_)
+        return _copied(list_, answers)
     finally:
         functions["neighbours_destroy"](list_)
 
 
-def _copied(list_: ctypes.c_void_p) -> Neighbours:
-    """Columns of a list as arrays of their own: those that were asked for."""
+def _copied(list_: ctypes.c_void_p, answers: NeighbourAnswers) -> Neighbours:
+    """Columns of a list as arrays of their own: those that were asked for, of no pairs too."""
     count = int(functions["neighbours_count"](list_))
     columns = NeighbourColumnsStruct(ctypes.sizeof(NeighbourColumnsStruct))
     call("neighbours_columns", list_, ctypes.addressof(columns))
-    found = Neighbours()
-    for column in Neighbours.fields:
-        address = getattr(columns, column.name)
-        shape = (count, *column.shape)
-        if address:
-            size = int(np.prod(shape)) * np.dtype(column.dtype).itemsize
-            array = np.frombuffer(ctypes.string_at(address, size), column.dtype).reshape(shape)
-            setattr(found, column.name, array)
-        elif count == 0:
-            setattr(found, column.name, np.empty(shape, column.dtype))
+    found: Neighbours = Neighbours.allocated(
+        count, tuple(column.name for column in Neighbours.fields
+                     if answers >= _NEIGHBOURS_FROM.get(column.name, NeighbourAnswers.contacts)))
+    for name, array in found:
+        if count:
+            ctypes.memmove(array.ctypes.data, getattr(columns, name), array.nbytes)
     return found
 
 
@@ -481,5 +397,4 @@ def classify(coefficients: ArrayLike, *, columns: Iterable[str] | None = None, t
     """
     rows = rows_of(coefficients, NAMES[Form.quadric], "coefficients").astype(np.float64, copy=False)
     answers = columns_for(Quadrics, len(rows), columns)
-    call("classify", rows.ctypes.data, len(rows), rows.strides[0], ctypes.byref(answers.pointers()), threads)
-    return answers
+    return ask("classify", rows.ctypes.data, len(rows), rows.strides[0], answers=answers, threads=threads)

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import ctypes
-import threading
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tangency._library import TangencyError, failed, functions
-from tangency._table import ContactColumnsStruct, GapTier, Status
+from tangency._checks import TangencyError, plain
+from tangency._library import failed, functions
+from tangency._table import FUNCTIONS, ContactColumnsStruct, GapTier, Status
 
 
 @dataclass
@@ -47,7 +47,7 @@ class Contact:
 
 
 class _Desk:
-    """A thread's memory for one pair, which the library reads and writes: made once."""
+    """Memory for one pair, which the library reads and writes: made once for many calls."""
 
     def __init__(self) -> None:
         self.rows = np.empty((2, 10))
@@ -58,13 +58,17 @@ class _Desk:
         self.columns = ContactColumnsStruct(
             size=ctypes.sizeof(ContactColumnsStruct), gap=base, gap_error=base + step, normal=base + 2 * step,
             arm_a=base + 5 * step, arm_b=base + 8 * step, point=base + 11 * step, status=codes, tier=codes + 4)
-        self.arguments = (self.a.ctypes.data, 80, self.b.ctypes.data, 80, 1, None,
-                          ctypes.addressof(self.columns), 1)
+        given = (self.a.ctypes.data, 80, self.b.ctypes.data, 80, 1, None, ctypes.addressof(self.columns), 1)
+        # As values of C, which ctypes hands on without looking at them again.
+        self.arguments = tuple(kind(value) for kind, value in zip(FUNCTIONS["contacts_of_rows"][1], given))
 
 
-_desks = threading.local()
+#: Those that no call uses. A call takes one out, so that whoever asks in the middle of it has another: a
+#: thread, a signal handler, or the conversion of an argument.
+_free: list[_Desk] = []
 _ask = functions["contacts_of_rows"]
 _STATUSES, _TIERS = tuple(Status), tuple(GapTier)
+_QUICK = {float, int, np.float64}
 
 
 def contact(a: ArrayLike, b: ArrayLike) -> Contact:
@@ -80,22 +84,32 @@ def contact(a: ArrayLike, b: ArrayLike) -> Contact:
     TangencyError
         Numbers that make no body.
     """
-    desk: Any = getattr(_desks, "desk", None)
-    if desk is None:
-        desk = _desks.desk = _Desk()
-    _take(desk.a, a, "a")
-    _take(desk.b, b, "b")
-    code = _ask(*desk.arguments)
-    if code:
-        raise failed(code)
-    numbers = desk.numbers.copy()
-    status, tier = desk.codes.tolist()
+    try:
+        desk = _free.pop()
+    except IndexError:
+        desk = _Desk()
+    try:
+        _take(desk.a, a, "a")
+        _take(desk.b, b, "b")
+        code = _ask(*desk.arguments)
+        if code:
+            raise failed(code)
+        numbers = desk.numbers.copy()
+        status, tier = desk.codes.tolist()
+    finally:
+        _free.append(desk)
     return Contact(numbers.item(0), numbers.item(1), numbers[2:5], numbers[5:8], numbers[8:11], numbers[11:],
                    _STATUSES[status], _TIERS[tier])
 
 
 def _take(row: NDArray[np.float64], given: Any, argument: str) -> None:
-    # A single number would be taken for all ten.
-    if len(given) != 10:
-        raise TangencyError(f"{argument}: {len(given)} numbers: must be 10, x y z r1 r2 r3 qw qx qy qz")
-    row[:] = given
+    if type(given) is list and len(given) == 10 and _QUICK.issuperset(map(type, given)):
+        try:
+            row[:] = given
+            return
+        except OverflowError:  # an int, which plain() refuses
+            pass
+    array = plain(given, argument)
+    if array.shape != (10,):  # a single number would be taken for all ten
+        raise TangencyError(f"{argument}: shape {array.shape}: must be (10,), the numbers x y z r1 r2 r3 qw qx qy qz")
+    row[:] = array

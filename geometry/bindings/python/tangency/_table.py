@@ -193,6 +193,7 @@ class AccuracyStruct(ctypes.Structure):
         ("of_size", c_double),
         ("length", c_double),
         ("normals", c_int),
+        ("reserved", c_int),
     ]
 
 
@@ -361,6 +362,7 @@ class NeighbourQuestionStruct(ctypes.Structure):
         ("edges", c_void_p),
         ("periodic", c_void_p),
         ("answers", c_int),
+        ("reserved", c_int),
     ]
 
 
@@ -937,8 +939,8 @@ class Times(Columns):
 
 @dataclass(init=False, repr=False, eq=False)
 class Neighbours(Columns):
-    """What neighbours_columns shows, NULL where it was not asked for. Valid until the list is
-    destroyed.
+    """What neighbours_columns shows, NULL where it was not asked for, as is what this version
+    does not know. Valid until the list is destroyed.
 
     Attributes
     ----------

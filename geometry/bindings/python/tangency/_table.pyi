@@ -133,6 +133,7 @@ class AccuracyStruct(ctypes.Structure):
     of_size: float
     length: float
     normals: int
+    reserved: int
 
 class ContactColumnsStruct(ctypes.Structure):
     size: int
@@ -259,6 +260,7 @@ class NeighbourQuestionStruct(ctypes.Structure):
     edges: int | None
     periodic: int | None
     answers: int
+    reserved: int
 
 class NeighbourColumnsStruct(ctypes.Structure):
     size: int

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import csv
 import json
-import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,10 +17,13 @@ from numpy.typing import NDArray
 from tangency import _programs
 from tangency._programs import ProgramError
 
-__all__ = ["CORPORA", "Grade", "ProgramError", "grade"]
+__all__ = ["CORPORA", "GRADED", "Grade", "ProgramError", "grade"]
 
 #: Those of pairs of ellipsoids.
 CORPORA = ("classes", "near", "touching", "symmetric", "nested", "extreme", "deep", "profiles")
+
+#: Columns that a function may answer.
+GRADED = ("relation", "overlaps", "gap", "gap_error", "normal", "nx", "ny", "nz", "status")
 
 #: What a function is given: rows x y z r1 r2 r3 qw qx qy qz of all A and of all B.
 Rows = NDArray[np.float64]
@@ -60,9 +62,9 @@ def grade(function: Callable[[Rows, Rows], Answers], corpora: Sequence[str] = CO
     Parameters
     ----------
     function : callable
-        ``function(a, b)`` of two arrays (N, 10) returns columns of N rows by name, any of ``relation`` (names, or
-        numbers of `tangency.Relation`), ``overlaps``, ``gap``, ``gap_error``, ``normal`` (N, 3) or ``nx ny nz``,
-        ``status``.
+        ``function(a, b)`` of two arrays (N, 10) returns columns of N rows by name, any of `GRADED`: ``relation``
+        (names, or numbers of `tangency.Relation`), ``overlaps``, ``gap``, ``gap_error``, ``normal`` (N, 3) or
+        ``nx ny nz``, ``status``.
     corpora : sequence of str
         Of `CORPORA`.
     max_gap_error, max_normal_error : float, optional
@@ -75,9 +77,9 @@ def grade(function: Callable[[Rows, Rows], Answers], corpora: Sequence[str] = CO
     Raises
     ------
     ProgramError
-        A corpus or definition that there is not.
+        A program, corpus or definition that there is not.
     ValueError
-        A column of another length.
+        A column that is not graded, or of another shape.
     """
     path = _programs.found("tangency-verify", program)
     options = ["--definition", definition]
@@ -107,8 +109,7 @@ def _graded(path: str, corpus: str, function: Callable[[Rows, Rows], Answers], o
 def _inputs(path: str, corpus: str, folder: Path) -> Rows:
     """A corpus as the grader hands it to a tool, which here keeps it and answers nothing."""
     file = folder / f"{corpus}.csv"
-    done = subprocess.run([path, "grade", "--tool", "cat > inputs.csv", "--corpus", corpus], cwd=folder,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    done = _programs.ended([path, "grade", "--tool", "cat > inputs.csv", "--corpus", corpus], folder)
     kept = folder / "inputs.csv"
     if not kept.exists():
         said = done.stderr.strip().splitlines()
@@ -124,14 +125,23 @@ def _inputs(path: str, corpus: str, folder: Path) -> Rows:
 def _flat(answers: Answers, count: int) -> dict[str, Any]:
     from tangency import Relation  # which loads the library: a function under test may do without
 
+    if not isinstance(answers, Mapping):
+        raise ValueError(f"the function answered {type(answers).__name__}: must be a mapping of columns by name, "
+                         f"any of {' '.join(GRADED)}")
     flat: dict[str, Any] = {}
     for name, column in answers.items():
+        if name not in GRADED:
+            raise ValueError(f"{name}: is not graded: must be of {' '.join(GRADED)}")
         rows = np.asarray(column)
-        if len(rows) != count:
-            raise ValueError(f"{name}: {len(rows)} rows: must be {count}")
+        shape = (count, 3) if name == "normal" else (count,)
+        if rows.shape != shape:
+            raise ValueError(f"{name}: shape {rows.shape}: must be {shape}")
         if name == "normal":
             flat.update(nx=rows[:, 0], ny=rows[:, 1], nz=rows[:, 2])
         elif name == "relation" and rows.dtype.kind in "iu":
+            wrong = np.flatnonzero((rows < 0) | (rows >= len(Relation)))
+            if len(wrong):
+                raise ValueError(f"relation: row {wrong[0]}: {rows[wrong[0]]}: must be from 0 to {len(Relation) - 1}")
             flat[name] = [Relation(value).name for value in rows]
         elif name == "status" and rows.dtype.kind in "iu":
             flat[name] = ["ok" if value == 0 else "local" for value in rows]
