@@ -48,13 +48,9 @@ HWY_INLINE FloatAnswer answer_at(const LaneBlock& block, const FloatPairs& pairs
 HWY_INLINE FloatVec3 stepped(const FloatPairs& pairs, const FloatAnswer& from) {
   const FloatVec3& n = from.normal;
   const FloatLook& at = from.at;
-  FloatSymmetric3 k = multiply_add(at.inverse_h_b, pairs.shape_b, pairs.shape_a * at.inverse_h_a);
-  k = with_square(k, -at.inverse_h_a, at.point_a);
-  k = with_square(k, -at.inverse_h_b, at.point_b);
-  k = with_square(k, pairs.size - at.gap, n);
-  k.xx = k.xx + at.gap;
-  k.yy = k.yy + at.gap;
-  k.zz = k.zz + at.gap;
+  const FloatSymmetric3 k =
+      newton_matrix<FloatPack>(pairs.shape_a, pairs.shape_b, {at.inverse_h_a, at.point_a},
+                               {at.inverse_h_b, at.point_b}, pairs.size, at.gap, n);
   const FloatSymmetric3 adj = adjugate(k);
   const FloatVec3 move = (adj * at.across) * quick_inverse(determinant(k, adj));
   return normalised(n + move);
@@ -97,12 +93,9 @@ HWY_INLINE void write(const LaneBlock& to, std::size_t i, const FloatPairs& pair
   const Pack back = all(1.0) / to_double(pairs.scale);
   if (to.gap != nullptr) store(to_double(answer.gap) * back, to.gap + i);
   if (to.gap_error != nullptr) store(to_double(answer.error) * back, to.gap_error + i);
-  if (to.normal != nullptr) store(normalised(to_double(answer.normal)), to.normal + 3 * i);
-  if (to.arm_a == nullptr && to.arm_b == nullptr) return;
-  const PairRows rows = find_rows(to, i, to.bodies_a, to.bodies_b);
   const PackVec3 n = normalised(to_double(answer.normal));
-  if (to.arm_a != nullptr) store(support(load_body(rows.a), n).point, to.arm_a + 3 * i);
-  if (to.arm_b != nullptr) store(-support(load_body(rows.b), n).point, to.arm_b + 3 * i);
+  if (to.normal != nullptr) store(n, to.normal + 3 * i);
+  write_arms(to, i, n);
 }
 
 /// By short loops over all packs, of which the machine works at several at a time.

@@ -37,19 +37,19 @@ struct FloatLook {
   FloatVec3 across;            ///< what leads from one to the other, across the normal
 };
 
-struct FloatSupport {
+struct FloatHeight {
   FloatPack h, inverse_h;
   FloatVec3 point;
 };
 
-HWY_INLINE FloatSupport support(const FloatSymmetric3& shape, const FloatVec3& n) {
+HWY_INLINE FloatHeight support(const FloatSymmetric3& shape, const FloatVec3& n) {
   const FloatVec3 point = shape * n;
   const FloatPack square = dot(n, point), inverse = inverse_root(square);
   return {square * inverse, inverse, point * inverse};
 }
 
 HWY_INLINE FloatLook look(const FloatPairs& pairs, const FloatVec3& n) {
-  const FloatSupport a = support(pairs.shape_a, n), b = support(pairs.shape_b, n);
+  const FloatHeight a = support(pairs.shape_a, n), b = support(pairs.shape_b, n);
   const FloatPack gap = (dot(n, pairs.d) - a.h) - b.h;
   const FloatVec3 rest = (pairs.d - a.point) - b.point;
   return {a.inverse_h, b.inverse_h, gap, a.point, b.point, multiply_take(gap, n, rest)};

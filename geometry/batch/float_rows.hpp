@@ -3,9 +3,6 @@
 /// A body as the lanes in float read it: one line of cache. Internal.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 namespace tangency::inline v0::detail {
 
 /// What body_rows.hpp makes of a LaneBody and its ShapeRow: floats to nearest, but for least_radius

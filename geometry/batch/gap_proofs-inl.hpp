@@ -11,6 +11,7 @@
 
 #include <cstddef>
 
+#include <tangency/geometry/batch/newton_lanes-inl.hpp>
 #include <tangency/geometry/batch/pack_bodies-inl.hpp>
 #include <tangency/geometry/batch/packs-inl.hpp>
 #include <tangency/geometry/gap/error_bounds.hpp>
@@ -55,11 +56,6 @@ struct PackPoint {
   Pack gap;
 };
 
-struct PackSupport {
-  Pack inverse_h;
-  PackVec3 point;
-};
-
 HWY_INLINE PackSupport support(const PackBody& body, const PackVec3& n) {
   const PackVec3* s = body.factor;
   const PackVec3 y{dot(s[0], n), dot(s[1], n), dot(s[2], n)};
@@ -68,11 +64,12 @@ HWY_INLINE PackSupport support(const PackBody& body, const PackVec3& n) {
   return {inverse, multiply_add(k.z, s[2], multiply_add(k.y, s[1], s[0] * k.x))};
 }
 
-/// The same from M = S S', quicker and only good enough to see where to go.
-HWY_INLINE PackSupport glance(const PackSymmetric3& shape, const PackVec3& n) {
-  const PackVec3 point = shape * n;
-  const Pack inverse = inverse_root(dot(n, point));
-  return {inverse, point * inverse};
+/// Writes the arms that are asked for, of pairs i and on: support points by the factors.
+HWY_INLINE void write_arms(const LaneBlock& to, std::size_t i, const PackVec3& n) {
+  if (to.arm_a == nullptr && to.arm_b == nullptr) return;
+  const PairRows rows = find_rows(to, i, to.bodies_a, to.bodies_b);
+  if (to.arm_a != nullptr) store(support(load_body(rows.a), n).point, to.arm_a + 3 * i);
+  if (to.arm_b != nullptr) store(-support(load_body(rows.b), n).point, to.arm_b + 3 * i);
 }
 
 HWY_INLINE PackPoint point_of(const PackPair& pair, const PackVec3& n, const PackSupport& a,
@@ -168,16 +165,8 @@ struct PackStep {
 
 HWY_INLINE PackStep newton_step(const PackSymmetric3& shape_a, const PackSymmetric3& shape_b,
                                 const Pack& size, const PackVec3& n, const PackPoint& at) {
-  // H = Hess (h_A + h_B) = (M - x x') / h of both; H n = 0. With K = H + gap (I - n n') + L n n'
-  // the step is K^-1 r, as r is normal to n.
-  const Pack wa = at.inverse_h_a, wb = at.inverse_h_b;
-  PackSymmetric3 k = multiply_add(wb, shape_b, shape_a * wa);
-  k = with_square(k, -wa, at.point_a);
-  k = with_square(k, -wb, at.point_b);
-  k = with_square(k, size - at.gap, n);
-  k.xx = k.xx + at.gap;
-  k.yy = k.yy + at.gap;
-  k.zz = k.zz + at.gap;
+  const PackSymmetric3 k = newton_matrix<Pack>(shape_a, shape_b, {at.inverse_h_a, at.point_a},
+                                               {at.inverse_h_b, at.point_b}, size, at.gap, n);
   const PackSymmetric3 adj = adjugate(k);
   const Pack det = determinant(k, adj);
   const PackVec3 r = multiply_take(at.gap, n, at.rest);

@@ -81,7 +81,7 @@ struct LaneBlock {
   // Of pairs that mixed_gap_lanes() leaves open: is there a better start for the next lanes, and
   // may this tier itself settle the pair from there?
   std::uint64_t nearer = 0, promising = 0;
-  bool within_float = false;  ///< answer of mixed_gap_lanes(): is it any of its lanes that is?
+  bool within_float = false;  ///< answer of mixed_gap_lanes(): is any pair one that it may settle?
   double* nearer_normals = nullptr;  ///< x y z of each; read by no lane
   double* gap = nullptr;             ///< null, here and below: not wanted
   double* gap_error = nullptr;

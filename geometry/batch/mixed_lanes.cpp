@@ -135,31 +135,15 @@ HWY_INLINE FloatMask first_normal(const LaneBlock& block, MixedColumns& work, st
   return fresh;
 }
 
-struct FloatSide {
-  FloatPack inverse_h;
-  FloatVec3 point;
-};
-HWY_INLINE FloatSide look(const FloatSymmetric3& shape, const FloatVec3& n) {
-  const FloatVec3 point = shape * n;
-  const FloatPack inverse = inverse_root(dot(n, point));
-  return {inverse, point * inverse};
-}
-
 /// newton_step() of gap_proofs-inl.hpp, and what is kept of it for the last one.
 HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) {
   const FloatSymmetric3 shape_a = load(work.float_a.shape, i),
                         shape_b = load(work.float_b.shape, i);
   const FloatVec3 n = load(work.start, i);
-  const FloatSide a = look(shape_a, n), b = look(shape_b, n);
+  const FloatSupport a = glance(shape_a, n), b = glance(shape_b, n);
   const FloatVec3 rest = (load(work.float_d, i) - a.point) - b.point;
   const FloatPack gap = dot(n, rest);
-  FloatSymmetric3 k = multiply_add(b.inverse_h, shape_b, shape_a * a.inverse_h);
-  k = with_square(k, -a.inverse_h, a.point);
-  k = with_square(k, -b.inverse_h, b.point);
-  k = with_square(k, load(work.size, i) - gap, n);
-  k.xx = k.xx + gap;
-  k.yy = k.yy + gap;
-  k.zz = k.zz + gap;
+  const FloatSymmetric3 k = newton_matrix(shape_a, shape_b, a, b, load(work.size, i), gap, n);
   const FloatSymmetric3 adj = adjugate(k);
   const FloatPack inverse = quick_inverse(determinant(k, adj));
   store(adj, work.adjugate, i);
@@ -169,14 +153,18 @@ HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) 
   store(chosen(asked, better, n), work.start, i);
 }
 
+/// 1 / |m| by its series, where |m|^2 - 1 is below 2^-20 (2^-19 after a step).
+HWY_INLINE Pack inverse_length(const PackVec3& m) {
+  const Pack w = dot(m, m) - all(1.0);
+  return multiply_add(multiply_add(all(0.375), w, all(-0.5)), w, all(1.0));
+}
+
 /// f and its gradient at the normal, in double.
 HWY_INLINE void evaluate(MixedColumns& work, std::size_t i) {
   const PackVec3 m = to_double(load(work.start, i));
   const PackSupport a = glance(work.a.shape(i), m), b = glance(work.b.shape(i), m);
   const PackVec3 rest = (load(work.d, i) - a.point) - b.point;
-  // 1 / |m| by its series: |m|^2 - 1 is below 2^-20.
-  const Pack w = dot(m, m) - all(1.0);
-  const Pack inverse = multiply_add(multiply_add(all(0.375), w, all(-0.5)), w, all(1.0));
+  const Pack inverse = inverse_length(m);
   const Pack gap = dot(m, rest) * inverse;
   store(gap, work.value, i);
   const Pack unit = load(work.unit, i);
@@ -209,9 +197,7 @@ HWY_INLINE std::uint64_t certify(LaneBlock& block, MixedColumns& work, std::size
     store(multiply_add(to_double(proof.beyond), unit, load(work.value, i)), block.gap + i);
   if (block.gap_error != nullptr) store(to_double(proof.error) * unit, block.gap_error + i);
   const PackVec3 m = to_double(at.normal) + to_double(delta);
-  const Pack w = dot(m, m) - all(1.0);
-  const Pack inverse = multiply_add(multiply_add(all(0.375), w, all(-0.5)), w, all(1.0));
-  const PackVec3 n = m * inverse;
+  const PackVec3 n = m * inverse_length(m);
   store(n, work.normal, i);
   if (block.normal != nullptr) store(n, block.normal + 3 * i);
   const std::uint64_t settled = bits(proof.settled);
@@ -221,14 +207,6 @@ HWY_INLINE std::uint64_t certify(LaneBlock& block, MixedColumns& work, std::size
     block.promising |= bits(without(proof.promising, proof.settled)) << i;
   }
   return settled;
-}
-
-/// Support points of the normals that are answered, by the factors.
-HWY_INLINE void find_arms(const LaneBlock& block, const MixedColumns& work, std::size_t i) {
-  const PairRows rows = find_rows(block, i, block.bodies_a, block.bodies_b);
-  const PackVec3 n = load(work.normal, i);
-  if (block.arm_a != nullptr) store(support(load_body(rows.a), n).point, block.arm_a + 3 * i);
-  if (block.arm_b != nullptr) store(-support(load_body(rows.b), n).point, block.arm_b + 3 * i);
 }
 
 HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
@@ -253,8 +231,7 @@ HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
   for (std::size_t i = 0; i < kPairs; i += lanes) evaluate(work, i);
   std::uint64_t settled = 0;
   for (std::size_t i = 0; i < count; i += lanes) settled |= certify(block, work, i) << i;
-  if (block.arm_a != nullptr || block.arm_b != nullptr)
-    for (std::size_t i = 0; i < count; i += lanes) find_arms(block, work, i);
+  for (std::size_t i = 0; i < count; i += lanes) write_arms(block, i, load(work.normal, i));
   return settled;
 }
 

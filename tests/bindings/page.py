@@ -9,11 +9,13 @@ where it names {program}, or runs it, and {source} is its file. Ends with 1 wher
 there is no block.
 """
 
-import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "guide"))
+from blocks import blocks_of  # noqa: E402
 
 ENDINGS = {"c": "c", "fortran": "f90", "octave": "m", "python": "py"}
 SEPARATOR = "---- the next block"
@@ -21,11 +23,11 @@ SEPARATOR = "---- the next block"
 
 def blocks(page, kind):
     """Code, what it prints, and the line where it stands."""
-    text = Path(page).read_text(encoding="utf-8")
+    every = blocks_of(page.parent, page.name)
     found = []
-    for block in re.finditer(rf"^```{kind}\n(.*?)^```\n", text, re.M | re.S):
-        printed = re.match(r"\s*```text\n(.*?)^```", text[block.end():], re.M | re.S)
-        found.append((block[1], printed[1] if printed else "", text.count("\n", 0, block.start()) + 1))
+    for block, after in zip(every, [*every[1:], None]):
+        if block.kind == kind:
+            found.append((block.text, after.text if after and after.kind == "text" else "", block.line - 1))
     return found
 
 
@@ -53,7 +55,7 @@ def outputs(kind, code, folder, command):
 
 
 def main():
-    page, kind, folder, command = sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve(), sys.argv[4:]
+    page, kind, folder, command = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]).resolve(), sys.argv[4:]
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     all_blocks = blocks(page, kind)
