@@ -163,8 +163,8 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
   const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
   if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
-  const Demands demands{options.demands_words, limits.gap_error.has_value(),
-                        limits.normal_error.has_value() && truth.has_normals};
+  const Demands demands{options.demands_words, limits.gap_error,
+                        truth.has_normals ? limits.normal_error : std::nullopt};
   if (options.tool.empty()) {
     require_readable(options.answers);
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
