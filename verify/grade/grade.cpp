@@ -6,7 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
@@ -63,8 +62,7 @@ class Grader {
   Grader(const TruthTable& truth, const Demands& demands)
       : truth_(truth), demands_(demands), verdicts_(truth.rows.size()) {}
 
-  void read(const std::string& path) {
-    tables::Reader reader(path);
+  void read(tables::Reader&& reader) {
     const Columns columns(reader.header(), truth_);
     header_ = &reader.header();
     result_.judges_words = columns.words();
@@ -350,16 +348,25 @@ class Grader {
   std::size_t row_ = kNoRow;                // that is being graded
 };
 
-}  // namespace
-
-Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands) {
+template <class Answers>
+Grade graded(const TruthTable& truth, const Answers& answers, const Demands& demands) {
   Grader grader(truth, demands);
   try {
-    grader.read(answers);
+    grader.read(tables::Reader(answers));
   } catch (const tables::Error& error) {
     grader.end_by(error);
   }
   return grader.result();
+}
+
+}  // namespace
+
+Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands) {
+  return graded(truth, answers, demands);
+}
+
+Grade grade(const TruthTable& truth, const tables::NamedText& answers, const Demands& demands) {
+  return graded(truth, answers, demands);
 }
 
 }  // namespace tangency::inline v0::verify

@@ -32,6 +32,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::inline v0::verify {
@@ -81,7 +82,8 @@ struct Demands {
   std::optional<double> gap{}, normal{};
 };
 
-/// `answers` is a path. Never throws for what stands in it.
+/// `answers` is a path, or the table itself. Never throws for what stands in it.
 Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands);
+Grade grade(const TruthTable& truth, const tables::NamedText& answers, const Demands& demands);
 
 }  // namespace tangency::inline v0::verify

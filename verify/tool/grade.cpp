@@ -20,6 +20,7 @@
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
 #include <tangency/verify/grade/outputs.hpp>
@@ -28,10 +29,6 @@
 
 namespace tangency::inline v0::verify {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::string_view kTruthSuffix = ".truth.csv";
 
 constexpr const char* kHelp = R"(
 What is graded is a table with the column row, the number of the input row from 0, and
@@ -108,53 +105,6 @@ constexpr std::array kOutputs{
   throw tables::Error({.file = file, .rule = rule});
 }
 
-// Beside the installed tool, or in the source tree.
-fs::path default_corpora() {
-  std::error_code unknown;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  const fs::path installed = (folder / TANGENCY_INSTALLED_CORPORA).lexically_normal();
-  if (!unknown && fs::is_directory(installed, unknown)) return installed;
-  return (folder / TANGENCY_SOURCE_CORPORA).lexically_normal();
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::error_code problem;
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder, problem)) {
-    const std::string file = entry.path().filename().string();
-    if (file.ends_with(kTruthSuffix)) {
-      names.push_back(file.substr(0, file.size() - kTruthSuffix.size()));
-    }
-  }
-  if (problem) refuse(folder.string(), "cannot be read: " + problem.message());
-  std::ranges::sort(names);
-  return names;
-}
-
-std::string truth_of(const fs::path& folder, const std::string& name) {
-  return (folder / (name + std::string(kTruthSuffix))).string();
-}
-
-std::vector<std::string> chosen_corpora(const Options& options, const fs::path& folder) {
-  const std::vector<std::string> all = names_in(folder);
-  for (const std::string& name : options.names) {
-    if (std::ranges::count(options.names, name) > 1) {
-      refuse("--corpus", name + " is named more than once");
-    }
-    if (std::ranges::find(all, name) != all.end()) continue;
-    std::string rule = "there is no corpus " + name + " here; there are:";
-    for (const std::string& known : all) rule += ' ' + known;
-    refuse(folder.string(), rule);
-  }
-  if (!options.names.empty()) return options.names;
-  std::vector<std::string> pairs = all;
-  std::erase_if(pairs, [&](const std::string& name) {
-    return kind_of_truth(truth_of(folder, name)) != CorpusKind::pairs;
-  });
-  if (pairs.empty()) refuse(folder.string(), "there is no corpus of pairs here");
-  return pairs;
-}
-
 constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
     {{"common-normal", Definition::common_normal},
      {"perram-wertheim", Definition::perram_wertheim},
@@ -169,16 +119,16 @@ Definition definition_named(std::string_view name) {
 void require_readable(const std::string& path) {
   if (path == "-") return;
   std::error_code none;
-  const int problem = ::access(path.c_str(), R_OK) != 0 ? errno
-                      : fs::is_directory(path, none)    ? EISDIR
-                                                        : 0;
+  const int problem = ::access(path.c_str(), R_OK) != 0           ? errno
+                      : std::filesystem::is_directory(path, none) ? EISDIR
+                                                                  : 0;
   if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
 }
 
 // Where the rows stand.
-InputLines input_lines(const std::string& inputs) {
-  InputLines found{inputs, {}};
-  tables::Reader reader(inputs);
+InputLines input_lines(const CorpusTable& inputs) {
+  InputLines found{inputs.file, {}};
+  tables::Reader reader(inputs.named());
   tables::for_each_row(reader,
                        [&](const tables::RowCursor& row) { found.lines.push_back(row.line()); });
   return found;
@@ -191,13 +141,15 @@ void require_rows(const InputLines& inputs, std::size_t rows) {
                           std::to_string(rows));
 }
 
-CorpusGrade graded(const Options& options, const fs::path& folder, const std::string& name) {
-  const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
-  if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
+CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+  const CorpusTable table = source.truth(name);
+  const TruthTable truth =
+      read_truth(tables::Reader(table.named()), definition_named(options.definition));
+  if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
-  const std::string inputs = (folder / (name + ".csv")).string();
+  const CorpusTable inputs = source.inputs(name);
   InputLines lines = input_lines(inputs);
   require_rows(lines, truth.rows.size());
   if (options.tool.empty()) {
@@ -207,8 +159,8 @@ CorpusGrade graded(const Options& options, const fs::path& folder, const std::st
   }
   // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const ToolRun run = run_tool(options.tool, inputs, {options.seconds, most_bytes});
-  return {name, truth.kind, grade(truth, run.output_path, demands),
+  const ToolRun run = run_tool(options.tool, inputs.text, {options.seconds, most_bytes});
+  return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
           RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
 }
 
@@ -327,13 +279,14 @@ std::string closing(const GradeReport& report, const Options& options) {
 }
 
 ExitStatus run(const Options& options) {
-  const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
+  const CorpusSource source =
+      options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
   OutputFiles outputs(options);
   tables::OutputFile screen("-");
   GradeReport report = begun(options);
-  for (const std::string& name : chosen_corpora(options, folder)) {
-    screen.write(as_table(add(report, graded(options, folder, name))) + '\n');
+  for (const std::string& name : source.chosen(options.names)) {
+    screen.write(as_table(add(report, graded(options, source, name))) + '\n');
   }
   std::vector<std::string> further;
   if (!options.baseline.empty()) {
@@ -406,7 +359,7 @@ void add_grade(tables::Program& program) {
       .type_name("NAME");
   command
       .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
+              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
       .not_empty()
       .type_name("DIR");
   command
