@@ -113,18 +113,25 @@ std::string errors(const ErrorSummary& s) {
          cell(std::to_string(s.worst_row));
 }
 
+std::string all_errors(const std::vector<ErrorName>& kinds, const FamilyGrade& family) {
+  std::string text;
+  for (const ErrorName& one : kinds) text += errors(family.*one.summary);
+  return text;
+}
+
 std::string table(const CorpusGrade& grade) {
   const Grade& g = grade.grade;
-  const bool areas = g.all.area.count > 0;
   const std::string four = "<th>median</th><th>99 %</th><th>largest</th><th>row</th>";
   std::string text =
       "<table><tr><th rowspan=\"2\">family</th><th rowspan=\"2\">pairs</th>"
       "<th rowspan=\"2\">wrong</th><th rowspan=\"2\">touches</th>"
       "<th rowspan=\"2\">missing</th><th rowspan=\"2\">broken bounds</th>"
-      "<th rowspan=\"2\">reversed normals</th>"
-      "<th colspan=\"4\">gap error / L</th><th colspan=\"4\">normal error</th>" +
-      std::string(areas ? "<th colspan=\"4\">area error</th>" : "") + "</tr><tr>" + four + four +
-      (areas ? four : "") + "</tr>\n";
+      "<th rowspan=\"2\">reversed normals</th>";
+  const std::vector<ErrorName> kinds = answered(grade);
+  for (const ErrorName& one : kinds) text += "<th colspan=\"4\">" + escaped(one.title) + "</th>";
+  text += "</tr><tr>";
+  for (std::size_t i = 0; i < kinds.size(); ++i) text += four;
+  text += "</tr>\n";
   std::vector<FamilyGrade> families = g.families;
   if (families.size() > 1) families.push_back(g.all);
   for (const FamilyGrade& family : families) {
@@ -135,8 +142,7 @@ std::string table(const CorpusGrade& grade) {
             cell(g.claims_bounds ? std::to_string(family.broken_bounds) : "-",
                  family.broken_bounds > 0) +
             cell(g.judges_normals ? std::to_string(family.reversed) : "-", family.reversed > 0) +
-            errors(family.gap) + errors(family.normal) + (areas ? errors(family.area) : "") +
-            "</tr>\n";
+            all_errors(kinds, family) + "</tr>\n";
   }
   return text + "</table>\n";
 }
@@ -162,9 +168,7 @@ std::string as_page(const std::vector<CorpusGrade>& grades, const std::string& t
     }
     const Grade& g = grade.grade;
     page += table(grade);
-    if (g.all.gap.count > 0) page += plot(g, &FamilyGrade::gap, "gap error / L");
-    if (g.all.normal.count > 0) page += plot(g, &FamilyGrade::normal, "normal error");
-    if (g.all.area.count > 0) page += plot(g, &FamilyGrade::area, "area error");
+    for (const ErrorName& one : answered(grade)) page += plot(g, one.summary, one.title);
     for (const std::string& fault : g.faults) page += "<p>" + escaped(fault) + "</p>\n";
   }
   return page + "</body></html>\n";

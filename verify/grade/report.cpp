@@ -21,23 +21,6 @@ std::string padded(const std::string& text, std::size_t width) {
 
 std::string row_name(std::size_t row) { return row == kNoRow ? "" : std::to_string(row); }
 
-struct Errors {
-  const char* title;
-  ErrorSummary FamilyGrade::*summary;
-};
-
-constexpr Errors kGap{"gap error / L", &FamilyGrade::gap};
-constexpr Errors kNormal{"normal error", &FamilyGrade::normal};
-constexpr Errors kArea{"area error", &FamilyGrade::area};
-
-std::vector<Errors> answered(const CorpusGrade& grade) {
-  std::vector<Errors> kinds;
-  for (const Errors& errors : {kGap, kNormal, kArea}) {
-    if ((grade.grade.all.*errors.summary).count > 0) kinds.push_back(errors);
-  }
-  return kinds;
-}
-
 std::string table_line(const CorpusGrade& grade, const FamilyGrade& family, std::size_t width) {
   const Grade& g = grade.grade;
   std::string line = family.name + std::string(width - family.name.size(), ' ');
@@ -46,7 +29,7 @@ std::string table_line(const CorpusGrade& grade, const FamilyGrade& family, std:
   line += padded(std::to_string(family.touches), 8) + padded(std::to_string(family.missing), 9);
   if (g.claims_bounds) line += padded(std::to_string(family.broken_bounds), 8);
   if (g.judges_normals) line += padded(std::to_string(family.reversed), 10);
-  for (const Errors& errors : answered(grade)) {
+  for (const ErrorName& errors : answered(grade)) {
     const ErrorSummary& s = family.*errors.summary;
     const bool any = s.count > 0;
     line += "  |" + padded(any ? number(s.median) : "-", 9) +
@@ -75,15 +58,25 @@ void add_counts(const CorpusGrade& grade, std::vector<std::string>& lines) {
     lines.push_back(grade.corpus + ": the tool " + grade.run->ending);
 }
 
-void add_excess(const CorpusGrade& grade, const Errors& errors, const std::optional<double>& most,
-                std::vector<std::string>& lines) {
-  const ErrorSummary& s = grade.grade.all.*errors.summary;
+void add_excess(const CorpusGrade& grade, ErrorSummary FamilyGrade::*which,
+                const std::optional<double>& most, std::vector<std::string>& lines) {
+  const ErrorSummary& s = grade.grade.all.*which;
   if (!most || s.count == 0 || s.largest <= *most) return;
-  lines.push_back(grade.corpus + ": " + errors.title + ' ' + number(s.largest) + " in row " +
+  const auto names = error_names(grade.kind);
+  const auto errors = std::ranges::find(names, which, &ErrorName::summary);
+  lines.push_back(grade.corpus + ": " + errors->title + ' ' + number(s.largest) + " in row " +
                   row_name(s.worst_row) + " is above " + number(*most));
 }
 
 }  // namespace
+
+std::vector<ErrorName> answered(const CorpusGrade& grade) {
+  std::vector<ErrorName> kinds;
+  for (const ErrorName& errors : error_names(grade.kind)) {
+    if ((grade.grade.all.*errors.summary).count > 0) kinds.push_back(errors);
+  }
+  return kinds;
+}
 
 std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
                                   const Thresholds& thresholds) {
@@ -92,8 +85,8 @@ std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
   std::string where;
   for (const CorpusGrade& grade : grades) {
     add_counts(grade, lines);
-    add_excess(grade, kGap, thresholds.gap_error, lines);
-    add_excess(grade, kNormal, thresholds.normal_error, lines);
+    add_excess(grade, &FamilyGrade::gap, thresholds.gap_error, lines);
+    add_excess(grade, &FamilyGrade::normal, thresholds.normal_error, lines);
     const FamilyGrade& all = grade.grade.all;
     if (wrong == 0 && all.wrong > 0) where = grade.corpus + " row " + row_name(all.first_wrong);
     wrong += all.wrong;
@@ -108,6 +101,7 @@ std::vector<std::string> failures(const std::vector<CorpusGrade>& grades,
 std::string verdict(const std::vector<CorpusGrade>& grades, const Thresholds& thresholds,
                     bool has_passed) {
   Grade total;
+  std::vector<std::pair<std::string_view, double>> largest;  // errors by their titles
   FamilyGrade& sum = total.all;
   for (const CorpusGrade& grade : grades) {
     const Grade& g = grade.grade;
@@ -120,11 +114,11 @@ std::string verdict(const std::vector<CorpusGrade>& grades, const Thresholds& th
     sum.missing += g.all.missing;
     sum.broken_bounds += g.all.broken_bounds;
     sum.reversed += g.all.reversed;
-    for (const Errors& errors : {kGap, kNormal, kArea}) {
-      ErrorSummary& largest = sum.*errors.summary;
-      const ErrorSummary& one = g.all.*errors.summary;
-      largest.count += one.count;
-      largest.largest = std::max(largest.largest, one.largest);
+    for (const ErrorName& errors : answered(grade)) {
+      const std::string_view title = errors.title;
+      auto at = std::ranges::find(largest, title, &std::pair<std::string_view, double>::first);
+      if (at == largest.end()) at = largest.insert(at, {title, 0});
+      at->second = std::max(at->second, (g.all.*errors.summary).largest);
     }
   }
   const auto count = [](std::size_t number, const char* what) {
@@ -139,11 +133,8 @@ std::string verdict(const std::vector<CorpusGrade>& grades, const Thresholds& th
   if (total.claims_bounds) text += count(sum.broken_bounds, " bounds broken");
   if (total.judges_normals) text += count(sum.reversed, " normals reversed");
   text += count(total.fault_count, " faulty lines or cells");
-  for (const Errors& errors : {kGap, kNormal, kArea}) {
-    const ErrorSummary& largest = sum.*errors.summary;
-    if (largest.count > 0)
-      text += std::string(", largest ") + errors.title + ' ' + number(largest.largest);
-  }
+  for (const auto& [title, error] : largest)
+    text += ", largest " + std::string(title) + ' ' + number(error);
   return text;
 }
 
@@ -151,7 +142,7 @@ std::string as_table(const CorpusGrade& grade) {
   const Grade& g = grade.grade;
   std::size_t width = 12;
   for (const FamilyGrade& family : g.families) width = std::max(width, family.name.size() + 1);
-  const std::vector<Errors> kinds = answered(grade);
+  const std::vector<ErrorName> kinds = answered(grade);
   std::string text = grade.corpus;
   if (grade.run) {
     text += ": the tool " + grade.run->ending + ", " + number(grade.run->seconds) + " s";
@@ -160,7 +151,7 @@ std::string as_table(const CorpusGrade& grade) {
   if (!kinds.empty())
     text += '\n' +
             std::string(width + 33 + (g.claims_bounds ? 8 : 0) + (g.judges_normals ? 10 : 0), ' ');
-  for (const Errors& errors : kinds) {
+  for (const ErrorName& errors : kinds) {
     std::string title = "  | " + std::string(errors.title);
     if (errors.title != kinds.back().title) title.resize(38, ' ');
     text += title;
@@ -202,14 +193,13 @@ std::vector<NamedValue> values_of(const std::vector<CorpusGrade>& grades) {
       if (g.judges_gaps) add(name + "rows without a gap", "pairs", count, family.without_gap);
       if (g.claims_bounds) add(name + "broken bounds", "pairs", count, family.broken_bounds);
       if (g.judges_normals) add(name + "reversed normals", "pairs", count, family.reversed);
-      for (const auto& [errors, what, unit] :
-           {std::tuple(kGap, "gap error", "L"), std::tuple(kNormal, "normal error", "1"),
-            std::tuple(kArea, "area error", "smaller area")}) {
+      for (const ErrorName& errors : error_names(grade.kind)) {
         const ErrorSummary& s = family.*errors.summary;
         if (s.count == 0) continue;
-        add(name + what + ", median", unit, error, s.median);
-        add(name + what + ", 99 %", unit, error, s.percentile_99);
-        add(name + what + ", largest", unit, error, s.largest);
+        const std::string what = name + errors.name;
+        add(what + ", median", errors.unit, error, s.median);
+        add(what + ", 99 %", errors.unit, error, s.percentile_99);
+        add(what + ", largest", errors.unit, error, s.largest);
       }
     }
     add(grade.corpus + "/faulty lines or cells", "cells", count, g.fault_count);

@@ -26,6 +26,9 @@ struct CorpusGrade {
   std::optional<RunNote> run;  ///< of a tool
 };
 
+/// Of the errors that some row has.
+std::vector<ErrorName> answered(const CorpusGrade& grade);
+
 struct Thresholds {
   std::size_t wrong = 0;  ///< most in all corpora together: none, unless more are allowed
   std::optional<double> gap_error, normal_error;
