@@ -190,7 +190,7 @@ CorpusText started(const CorpusInfo& corpus) {
           " 40 digits of 150, a line for every normal that reaches the gap\n"
           "# (verify/oracles/ellipse.hpp). Columns: verify/corpus/corpus.hpp.\n";
       break;
-    case CorpusKind::quadrics:
+    default:
       truth = " Types: exact, in integers (verify/oracles/classification.hpp).\n";
       break;
   }
@@ -233,7 +233,7 @@ CorpusText generate(std::string_view name, std::size_t most_per_family) {
       return tables<PairFormat>(*found, pair_families(name), most_per_family);
     case CorpusKind::ellipses:
       return tables<EllipseFormat>(*found, ellipse_families(), most_per_family);
-    case CorpusKind::quadrics:
+    default:
       break;
   }
   return tables<QuadricFormat>(*found, quadric_families(), most_per_family);
