@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include <tangency/geometry/tables/descriptor.hpp>
 #include <tangency/tests/grade/report.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 
@@ -144,14 +145,13 @@ TEST(ToolRun, KeepsWhatWasPrintedBeforeTheTimeWasUp) {
   const TemporaryFolder folder;
   const std::string up = make_pipe(folder.path("up")), never = make_pipe(folder.path("never"));
   const tables::Descriptor deadline(::open(up.c_str(), O_RDWR | O_CLOEXEC));
-  const std::string inputs = folder.write("inputs.csv", "x\n1\n");
   const verify::ToolRun run = verify::run_tool(
-      "printf 'row,overlaps\\n3,1\\n'; echo slow >&2; echo > " + up + "; cat " + never, inputs,
+      "printf 'row,overlaps\\n3,1\\n'; echo slow >&2; echo > " + up + "; cat " + never, "x\n1\n",
       {7, 1000, deadline.get()});
   EXPECT_FALSE(run.sound);
   EXPECT_EQ(run.ending, "had not ended after 7 s");
   EXPECT_EQ(run.last_words, "slow");
-  EXPECT_EQ(read_file(run.output_path), "row,overlaps\n3,1\n");
+  EXPECT_EQ(run.output, "row,overlaps\n3,1\n");
 }
 
 TEST(GradeCommand, ADyingToolIsNamedAndItsAnswersAreGraded) {

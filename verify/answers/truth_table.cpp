@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/oracles/classification.hpp>
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
@@ -15,11 +14,6 @@ namespace {
 using tables::Column;
 using tables::RowCursor;
 using Columns3 = std::array<Column, 3>;
-
-CorpusKind kind_of(const tables::Header& header) {
-  if (header.find("type")) return CorpusKind::quadrics;
-  return header.find("crossings") ? CorpusKind::ellipses : CorpusKind::pairs;
-}
 
 TwoDoubles two_doubles(const RowCursor& row, Column column) {
   const double high = row.number(column);
@@ -228,12 +222,14 @@ std::optional<Relation> relation_named(std::string_view word) {
   return std::nullopt;
 }
 
-CorpusKind kind_of_truth(const std::string& path) { return kind_of(tables::Reader(path).header()); }
+CorpusKind kind_of_truth(const tables::Header& header) {
+  if (header.find("type")) return CorpusKind::quadrics;
+  return header.find("crossings") ? CorpusKind::ellipses : CorpusKind::pairs;
+}
 
-TruthTable read_truth(const std::string& path, Definition definition) {
-  tables::Reader file(path);
+TruthTable read_truth(tables::Reader&& file, Definition definition) {
   const tables::Header& header = file.header();
-  TableReader reader(header, kind_of(header));
+  TableReader reader(header, kind_of_truth(header));
   TruthTable& table = reader.table();
   bool again = false;
   switch (table.kind) {

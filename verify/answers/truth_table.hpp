@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -51,12 +52,12 @@ struct TruthTable {
   bool has_normals = false;
 };
 
-/// By the columns: `type` makes quadrics, `crossings` ellipses. Throws tables::Error.
-CorpusKind kind_of_truth(const std::string& path);
+/// By the columns: `type` makes quadrics, `crossings` ellipses.
+CorpusKind kind_of_truth(const tables::Header& header);
 
 /// `definition` is for pairs; it changes nothing else. Throws tables::Error: a table that cannot be
 /// read, lacks a column, skips a row or returns to one.
-TruthTable read_truth(const std::string& path, Definition definition);
+TruthTable read_truth(tables::Reader&& file, Definition definition);
 
 /// `relation` says the interiors meet.
 constexpr bool interiors_meet(Relation relation) {

@@ -16,6 +16,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
 #include <tangency/verify/grade/report.hpp>
@@ -23,10 +24,6 @@
 
 namespace tangency::inline v0::verify {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::string_view kTruthSuffix = ".truth.csv";
 
 constexpr const char* kHelp = R"(
 What is graded is a table with the column row, the number of the input row from 0, and
@@ -81,53 +78,6 @@ struct Options {
   throw tables::Error({.file = file, .rule = rule});
 }
 
-// Beside the installed tool, or in the source tree.
-fs::path default_corpora() {
-  std::error_code unknown;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  const fs::path installed = (folder / TANGENCY_INSTALLED_CORPORA).lexically_normal();
-  if (!unknown && fs::is_directory(installed, unknown)) return installed;
-  return (folder / TANGENCY_SOURCE_CORPORA).lexically_normal();
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::error_code problem;
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder, problem)) {
-    const std::string file = entry.path().filename().string();
-    if (file.ends_with(kTruthSuffix)) {
-      names.push_back(file.substr(0, file.size() - kTruthSuffix.size()));
-    }
-  }
-  if (problem) refuse(folder.string(), "cannot be read: " + problem.message());
-  std::ranges::sort(names);
-  return names;
-}
-
-std::string truth_of(const fs::path& folder, const std::string& name) {
-  return (folder / (name + std::string(kTruthSuffix))).string();
-}
-
-std::vector<std::string> chosen_corpora(const Options& options, const fs::path& folder) {
-  const std::vector<std::string> all = names_in(folder);
-  for (const std::string& name : options.names) {
-    if (std::ranges::count(options.names, name) > 1) {
-      refuse("--corpus", name + " is named more than once");
-    }
-    if (std::ranges::find(all, name) != all.end()) continue;
-    std::string rule = "there is no corpus " + name + " here; there are:";
-    for (const std::string& known : all) rule += ' ' + known;
-    refuse(folder.string(), rule);
-  }
-  if (!options.names.empty()) return options.names;
-  std::vector<std::string> pairs = all;
-  std::erase_if(pairs, [&](const std::string& name) {
-    return kind_of_truth(truth_of(folder, name)) != CorpusKind::pairs;
-  });
-  if (pairs.empty()) refuse(folder.string(), "there is no corpus of pairs here");
-  return pairs;
-}
-
 constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
     {{"common-normal", Definition::common_normal},
      {"perram-wertheim", Definition::perram_wertheim},
@@ -142,39 +92,41 @@ Definition definition_named(std::string_view name) {
 void require_readable(const std::string& path) {
   if (path == "-") return;
   std::error_code none;
-  const int problem = ::access(path.c_str(), R_OK) != 0 ? errno
-                      : fs::is_directory(path, none)    ? EISDIR
-                                                        : 0;
+  const int problem = ::access(path.c_str(), R_OK) != 0           ? errno
+                      : std::filesystem::is_directory(path, none) ? EISDIR
+                                                                  : 0;
   if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
 }
 
 // The inputs must be those that the truth is about.
-void require_rows(const std::string& inputs, std::size_t rows) {
-  tables::Reader reader(inputs);
+void require_rows(const CorpusTable& inputs, std::size_t rows) {
+  tables::Reader reader(inputs.named());
   std::size_t found = 0;
   tables::for_each_row(reader, [&](const tables::RowCursor&) { ++found; });
   if (found != rows) {
-    refuse(inputs,
+    refuse(inputs.file,
            std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
   }
 }
 
-CorpusGrade graded(const Options& options, const fs::path& folder, const std::string& name) {
-  const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
-  if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
+CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+  const CorpusTable table = source.truth(name);
+  const TruthTable truth =
+      read_truth(tables::Reader(table.named()), definition_named(options.definition));
+  if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
-  const Demands demands{options.demands_words, limits.gap_error.has_value(),
-                        limits.normal_error.has_value() && truth.has_normals};
+  const Demands demands{options.demands_words, limits.gap_error,
+                        truth.has_normals ? limits.normal_error : std::nullopt};
   if (options.tool.empty()) {
     require_readable(options.answers);
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
   }
   // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const std::string inputs = (folder / (name + ".csv")).string();
+  const CorpusTable inputs = source.inputs(name);
   require_rows(inputs, truth.rows.size());
-  const ToolRun run = run_tool(options.tool, inputs, {options.seconds, most_bytes});
-  return {name, truth.kind, grade(truth, run.output_path, demands),
+  const ToolRun run = run_tool(options.tool, inputs.text, {options.seconds, most_bytes});
+  return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
           RunNote{run.sound, run.ending, run.last_words, run.seconds}};
 }
 
@@ -216,14 +168,15 @@ std::string differences(const Comparison& beside, const std::string& file) {
 }
 
 ExitStatus run(const Options& options) {
-  const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
+  const CorpusSource source =
+      options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
   // What cannot be written is refused before the first tool is started.
   const auto json = opened(options.json), html = opened(options.html);
   tables::OutputFile screen("-");
   std::vector<CorpusGrade> grades;
-  for (const std::string& name : chosen_corpora(options, folder)) {
-    grades.push_back(graded(options, folder, name));
+  for (const std::string& name : source.chosen(options.names)) {
+    grades.push_back(graded(options, source, name));
     screen.write(as_table(grades.back()) + '\n');
   }
   std::vector<std::string> failed_by = failures(grades, options.thresholds);
@@ -300,7 +253,7 @@ void add_grade(tables::Program& program) {
       .type_name("NAME");
   command
       .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
+              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
       .not_empty()
       .type_name("DIR");
   command
