@@ -63,17 +63,17 @@ std::string family_name(std::string text) {
 
 }  // namespace
 
-std::vector<Finding> findings(const Search& search, Subject& subject, std::size_t most,
-                              std::size_t answers) {
+std::vector<HuntFinding> findings(const Search& search, Subject& subject, std::size_t most,
+                                  std::size_t answers) {
   // Chosen: after so many pairs whose simple forms are known already, others will be too.
   constexpr std::size_t kMostInVain = 4;
-  std::vector<Finding> all;
+  std::vector<HuntFinding> all;
   for (const auto& [fault, places] : by_fault(search.archive())) {
     std::set<std::uint16_t> known;
     std::size_t in_vain = 0;
     for (const auto& [set, elite] : places) {
       if (known.size() == most || in_vain == kMostInVain) break;
-      Finding one{fault, elite->source, {}, elite->found, elite->pair, {}, true};
+      HuntFinding one{fault, elite->source, {}, elite->found, elite->pair, {}, true};
       one.simple = shrunk(subject, search.judge(), elite->pair, fault, answers);
       one.again = one.simple.verdict.fault == fault;
       const auto now = one.again ? traits(one.simple.pair, one.simple.verdict.near) : set;
@@ -85,7 +85,7 @@ std::vector<Finding> findings(const Search& search, Subject& subject, std::size_
       all.push_back(std::move(one));
     }
     const auto of_this = all.end() - static_cast<std::ptrdiff_t>(known.size());
-    std::stable_sort(of_this, all.end(), [](const Finding& one, const Finding& other) {
+    std::stable_sort(of_this, all.end(), [](const HuntFinding& one, const HuntFinding& other) {
       return complexity(one.simple.pair) < complexity(other.simple.pair);
     });
   }
@@ -107,7 +107,7 @@ std::string pair_text(const EllipsoidPair& pair) {
   return text;
 }
 
-std::string finding_text(const Finding& finding, std::size_t number) {
+std::string finding_text(const HuntFinding& finding, std::size_t number) {
   const Shrunk& simple = finding.simple;
   std::string text = "finding " + std::to_string(number) + ": " + finding.fault + " (" +
                      finding.traits + "), from " + finding.source + ", answer " +
@@ -127,9 +127,9 @@ std::string finding_text(const Finding& finding, std::size_t number) {
   return text;
 }
 
-CorpusText findings_corpus(const std::vector<Finding>& findings, const std::string& comment) {
+CorpusText findings_corpus(const std::vector<HuntFinding>& findings, const std::string& comment) {
   std::vector<NamedPair> rows;
-  for (const Finding& one : findings) {
+  for (const HuntFinding& one : findings) {
     rows.push_back({family_name(one.fault),
                     one.traits + "; " + one.fault + "; answered " + said_text(one.simple.answer),
                     one.simple.pair});

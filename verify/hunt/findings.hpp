@@ -14,7 +14,7 @@
 
 namespace tangency::inline v0::verify {
 
-struct Finding {
+struct HuntFinding {
   std::string fault;
   std::string source;     ///< the corpus that it descends from
   std::string traits;     ///< "long, near"; "plain" for none
@@ -27,16 +27,16 @@ struct Finding {
 /// Of each kind of fault up to `most` pairs, the ones with the fewest traits first, of which each
 /// has, when it is simple, traits of its own. A fault that does not come again is one, unshrunk.
 /// @param answers  to ask for at most, for one pair
-std::vector<Finding> findings(const Search& search, Subject& subject, std::size_t most,
-                              std::size_t answers);
+std::vector<HuntFinding> findings(const Search& search, Subject& subject, std::size_t most,
+                                  std::size_t answers);
 
 /// "a  centre 0 0 0  semi-axes 1 1 1  turned 1 0 0 0", and so for b: decimals that read back.
 std::string pair_text(const EllipsoidPair& pair);
 
 /// Some lines a finding: what was answered, what is true, the pair.
-std::string finding_text(const Finding& finding, std::size_t number);
+std::string finding_text(const HuntFinding& finding, std::size_t number);
 
 /// A row a finding, the family its fault.
-CorpusText findings_corpus(const std::vector<Finding>& findings, const std::string& comment);
+CorpusText findings_corpus(const std::vector<HuntFinding>& findings, const std::string& comment);
 
 }  // namespace tangency::inline v0::verify

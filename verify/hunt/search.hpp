@@ -19,17 +19,10 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/verify/families/families.hpp>
+#include <tangency/verify/hunt/sources.hpp>
 #include <tangency/verify/hunt/verdict.hpp>
 
 namespace tangency::inline v0::verify {
-
-/// Where fresh pairs come from: rows of a corpus, drawn families, or both.
-struct Source {
-  std::string name;                 ///< of the corpus
-  std::vector<EllipsoidPair> rows;  ///< of its committed table
-  PairFamilies families;            ///< drawn with the hunt's seed
-};
 
 /// The worst pair of a kind.
 struct Elite {

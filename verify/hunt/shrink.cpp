@@ -98,6 +98,13 @@ class Simpler {
     with([&](EllipsoidPair& p) { p.a.orientation = kStraight; });
     with([&](EllipsoidPair& p) { p.b.orientation = kStraight; });
     with([](EllipsoidPair& p) { p.b.orientation = p.a.orientation; });
+    with([](EllipsoidPair& p) {  // of length about 1
+      for (RawEllipsoid* e : {&p.a, &p.b}) {
+        double most = 0;
+        for (const double v : e->orientation) most = std::max(most, std::abs(v));
+        for (double& v : e->orientation) v /= most;
+      }
+    });
     for (std::size_t k = 0; k < 3; ++k) {  // B at its distance along one axis, and off it
       with([&](EllipsoidPair& p) {
         double square = 0;

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/hunt/tool_subject.hpp>
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <tangency/geometry/tables/csv.hpp>
-#include <tangency/geometry/tables/descriptor.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
@@ -25,28 +19,11 @@ namespace {
 using tables::Column;
 using tables::RowCursor;
 
-// A table of the pairs in a file in memory, which lives as long as this.
-class InputTable {
- public:
-  explicit InputTable(std::span<const EllipsoidPair> pairs)
-      : file_(::memfd_create("pairs", MFD_CLOEXEC)) {
-    if (!file_.is_open()) fail("no file in memory");
-    std::string text = std::string(pair_columns()) + '\n';
-    for (const EllipsoidPair& pair : pairs) text += pair_cells(pair) + '\n';
-    for (std::string_view left = text; !left.empty();) {
-      const ssize_t written = ::write(file_.get(), left.data(), left.size());
-      if (written < 0 && errno != EINTR) fail("pairs cannot be kept in memory");
-      if (written > 0) left.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_.get()); }
-
- private:
-  [[noreturn]] static void fail(const char* what) {
-    throw std::system_error(errno, std::generic_category(), what);
-  }
-  tables::Descriptor file_;
-};
+std::string table_of(std::span<const EllipsoidPair> pairs) {
+  std::string text = std::string(pair_columns()) + '\n';
+  for (const EllipsoidPair& pair : pairs) text += pair_cells(pair) + '\n';
+  return text;
+}
 
 std::optional<double> number(const RowCursor& row, const std::optional<Column>& column) {
   double value = 0;
@@ -94,10 +71,11 @@ bool says_something(const Answer& answer) {
 
 }  // namespace
 
-Answers ToolSubject::read(const std::string& path, std::size_t count) {
+Answers ToolSubject::read(const std::string& text, std::size_t count) {
+  const std::string name = "answers";
   Answers answers(count);
   try {
-    tables::Reader reader(path);
+    tables::Reader reader(tables::NamedText{name, text});
     const Columns columns(reader.header());
     words_ = columns.relation || columns.overlaps;
     gaps_ = columns.gap.has_value();
@@ -116,19 +94,18 @@ Answers ToolSubject::read(const std::string& path, std::size_t count) {
       if (const Answer said = columns.answer(row); says_something(said)) answer = said;
     });
   } catch (const tables::Error& error) {
-    // What cannot be read is not said. Of the table's name nothing is told: it is a number.
-    trouble_ = "what it printed cannot be read: " + std::string(error.what()).substr(path.size());
+    // What cannot be read is not said.
+    trouble_ = "what it printed cannot be read: " + std::string(error.what()).substr(name.size());
   }
   return answers;
 }
 
 void ToolSubject::ask(std::span<const EllipsoidPair> pairs, Answers& answers) {
   if (has_to_end()) return;
-  const InputTable table(pairs);
   // As `grade` allows: ten times the longest answer, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * pairs.size();
   ++starts_;
-  const ToolRun run = run_tool(command_, table.path(), {seconds_, most_bytes});
+  const ToolRun run = run_tool(command_, table_of(pairs), {seconds_, most_bytes});
   if (*stopped_) return;
   if (!run.sound) {
     trouble_ = "the tool " + run.ending + (run.last_words.empty() ? "" : ": " + run.last_words);
@@ -141,7 +118,7 @@ void ToolSubject::ask(std::span<const EllipsoidPair> pairs, Answers& answers) {
     answers.emplace_back();
     return;
   }
-  std::ranges::move(read(run.output_path, pairs.size()), std::back_inserter(answers));
+  std::ranges::move(read(run.output, pairs.size()), std::back_inserter(answers));
   // Chosen: between a tenth of a second and two a batch.
   if (run.seconds < 0.1) batch_ = std::min<std::size_t>(2 * batch_, 4096);
   if (run.seconds > 2) batch_ = std::max<std::size_t>(batch_ / 2, 1);

@@ -44,7 +44,7 @@ class ToolSubject final : public Subject {
 
  private:
   void ask(std::span<const EllipsoidPair> pairs, Answers& answers);
-  Answers read(const std::string& path, std::size_t count);
+  Answers read(const std::string& text, std::size_t count);
 
   std::string command_;
   double seconds_;

@@ -65,7 +65,7 @@ Example:
 )";
 
 struct Options {
-  std::string tool, state, out, goal = "relation";
+  std::string tool, corpora, state, out, goal = "relation";
   std::vector<std::string> from;
   Limits limits;
   std::uint64_t seed = 1;
@@ -119,27 +119,12 @@ std::string question(const Options& options) {
                      tables::to_text(options.limits.normal_error) + " --seed " +
                      std::to_string(options.seed);
   for (const std::string& name : options.from) text += " --from " + name;
+  if (!options.corpora.empty()) text += " --corpora '" + options.corpora + "'";
   return text;
 }
 
-std::vector<Source> sources(const Options& options) {
-  std::vector<Source> all;
-  for (const CorpusInfo& corpus : corpora()) {
-    const std::string name(corpus.name);
-    const bool wanted = options.from.empty() || std::ranges::count(options.from, name) > 0;
-    if (corpus.kind == CorpusKind::pairs && wanted) all.push_back({name, {}, pair_families(name)});
-  }
-  return all;
-}
-
-std::string check_source(const std::string& name) {
-  const auto found = std::ranges::find(corpora(), name, &CorpusInfo::name);
-  if (found != corpora().end() && found->kind == CorpusKind::pairs) return {};
-  std::string rule = name + " is not a corpus of pairs; these are:";
-  for (const CorpusInfo& corpus : corpora()) {
-    if (corpus.kind == CorpusKind::pairs) rule += ' ' + std::string(corpus.name);
-  }
-  return rule;
+CorpusSource source(const Options& options) {
+  return options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
 }
 
 class Hunt {
@@ -147,7 +132,7 @@ class Hunt {
   explicit Hunt(const Options& options)
       : options_(options),
         judge_(goal_named(options.goal), options.limits),
-        search_(judge_, sources(options), options.seed),
+        search_(judge_, hunt_sources(source(options), options.from), options.seed),
         question_(question(options)) {}
 
   ExitStatus run() {
@@ -248,7 +233,7 @@ class Hunt {
     constexpr std::size_t kMostOfAKind = 3, kMostAnswers = 8000;
     std::atomic<bool> never = false;
     ToolSubject subject(options_.tool, options_.time_limit, never);
-    const std::vector<Finding> found = findings(search_, subject, kMostOfAKind, kMostAnswers);
+    const std::vector<HuntFinding> found = findings(search_, subject, kMostOfAKind, kMostAnswers);
     tables::OutputFile screen("-");
     for (std::size_t i = 0; i < found.size(); ++i) screen.write(finding_text(found[i], i + 1));
     for (const auto& [fault, count] : search_.faults()) {
@@ -268,7 +253,7 @@ class Hunt {
     return failed;
   }
 
-  void write(const std::vector<Finding>& found) const {
+  void write(const std::vector<HuntFinding>& found) const {
     if (options_.out.empty() || found.empty()) return;
     const fs::path folder(options_.out);
     tables::OutputFile inputs((folder / "hunt.csv").string());
@@ -304,8 +289,13 @@ void add_hunt(tables::Program& program) {
   command
       .option("--from", options->from,
               "Corpora of pairs to start from; several (default: all of them)")
-      .check(check_source)
       .type_name("NAME");
+  command
+      .option("--corpora", options->corpora,
+              "Folder of NAME.csv and NAME.truth.csv to start from (default: the corpora in this "
+              "program); those of another name than these have rows and no families")
+      .not_empty()
+      .type_name("DIR");
   command
       .option("--goal", options->goal,
               "What to hunt for: relation (default), gap, normal or certificate")
