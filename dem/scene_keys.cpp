@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include <tangency/dem/contact_law.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
@@ -95,6 +96,10 @@ constexpr std::array kKeys{
         "hertz: overlap, of the smaller radius, up to which the time step is right"},
     Key{"contact", "cohesion", real, "N", "0.0", kNotNegative, "", "",
         "Coulomb limit without a normal force"},
+    Key{"contact", "restitution", real, "-", "1.0", between(kLeastRestitution, 1.0), "", "",
+        "Speed of parting over speed of approach, along the normal where two bodies meet, of an "
+        "impact; contacts are damped so that it comes out, to 1e-3 with a time_step_factor of "
+        "0.04"},
 
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,

@@ -118,6 +118,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
     }
     compare(pair, "friction_coefficient", was.friction_coefficient, is.friction_coefficient);
     compare(pair, "cohesion", was.cohesion, is.cohesion);
+    compare(pair, "restitution", was.restitution(), is.restitution());
   }
   return text;
 }
@@ -164,6 +165,7 @@ const Stage& Simulation::stage() const {
 
 void Simulation::prepare_stage() {
   laws_ = scene_.laws;
+  laws_.bodies_turn = scene_.rotation != Rotation::none;
   if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
@@ -304,6 +306,7 @@ void Simulation::update_contacts(double dt) {
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;
+  state_.energy.viscous += work.viscous;
 }
 
 void Simulation::keep_list_current(double dt) {

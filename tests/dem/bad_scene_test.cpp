@@ -390,7 +390,7 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        with(scene_with("compress"), "[output]", "[contact.grain-grain.more]\n[output]"),
        "scene.toml:10: contact.grain-grain.more: no such key; allowed are law, normal_stiffness, "
        "shear_stiffness, friction_coefficient, young_modulus, poisson_ratio, largest_overlap, "
-       "cohesion"},
+       "cohesion, restitution"},
   };
   for (const Combination& one : all) EXPECT_EQ(refusal(one.scene), one.message) << one.what;
 }
