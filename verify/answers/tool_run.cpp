@@ -18,12 +18,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
-#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -37,34 +36,18 @@ constexpr std::size_t kLastWords = 2000;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-void write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno != EINTR) fail("answers cannot be kept in memory");
-    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-tables::Descriptor memory_file(const char* name) {
-  tables::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
-  if (!file.is_open()) fail("no file in memory");
-  return file;
-}
-
 // The table without its comments, from its start.
-tables::Descriptor without_comments(const std::string& path) {
-  std::ifstream from(path, std::ios::binary);
-  if (!from) {
-    throw tables::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
-  }
-  tables::Descriptor table = memory_file("inputs");
-  std::string line, text;
-  while (std::getline(from, line)) {
+tables::Descriptor without_comments(std::string_view inputs) {
+  std::string kept;
+  while (!inputs.empty()) {
+    const std::string_view line = inputs.substr(0, inputs.find('\n'));
     const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] != '#') text += line + '\n';
-    if (text.size() > (std::size_t{1} << 20)) write_all(table.get(), std::exchange(text, {}));
+    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
+    inputs.remove_prefix(std::min(line.size() + 1, inputs.size()));
   }
-  write_all(table.get(), text);
+  tables::Descriptor table(::memfd_create("inputs", MFD_CLOEXEC));
+  if (!table.is_open()) fail("no file in memory");
+  if (!tables::write_all(table.get(), kept)) fail("inputs cannot be kept in memory");
   ::lseek(table.get(), 0, SEEK_SET);
   return table;
 }
@@ -240,7 +223,7 @@ class Watch {
     read_ += text.size();
     if (is_output) {
       bytes_ += text.size();
-      write_all(run_.output.get(), text);
+      run_.output += text;
     } else {
       words_ += text;
       if (words_.size() > kLastWords) words_.erase(0, words_.size() - kLastWords);
@@ -271,10 +254,9 @@ class Watch {
 
 }  // namespace
 
-ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits) {
+ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits) {
   const tables::Descriptor table = without_comments(inputs);
-  ToolRun run{memory_file("answers"), {}, false, {}, {}, 0};
-  run.output_path = "/proc/self/fd/" + std::to_string(run.output.get());
+  ToolRun run{{}, false, {}, {}, 0};
   Pipe output, error;
   const HeldSignals signals;
   const pid_t tool = start(command, table.get(), output.theirs.get(), error.theirs.get(), signals);

@@ -29,5 +29,6 @@ int main(int argc, char** argv) {
   program.footer(kProgramHelp);
   add_generate(program);
   add_grade(program);
+  add_hunt(program);
   return program.run(argc, argv);
 }
