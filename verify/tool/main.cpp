@@ -29,5 +29,7 @@ int main(int argc, char** argv) {
   program.footer(kProgramHelp);
   add_generate(program);
   add_grade(program);
+  add_show(program);
+  add_inputs(program);
   return program.run(argc, argv);
 }
