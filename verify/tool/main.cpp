@@ -30,5 +30,7 @@ int main(int argc, char** argv) {
   add_generate(program);
   add_grade(program);
   add_hunt(program);
+  add_show(program);
+  add_inputs(program);
   return program.run(argc, argv);
 }
