@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::inline v0::verify {
@@ -63,6 +64,7 @@ class Grader {
 
   void read(tables::Reader&& reader) {
     const Columns columns(reader.header(), truth_);
+    header_ = &reader.header();
     result_.judges_words = columns.words();
     result_.judges_gaps = columns.gap.has_value();
     result_.judges_normals = columns.normal();
@@ -103,6 +105,23 @@ class Grader {
     if (result_.fault_count++ < kMostNamedFaults) result_.faults.push_back(what);
   }
 
+  // Of the row in hand.
+  void find(Problem problem, std::string column, std::string answered, std::string truth,
+            double error = 0) {
+    result_.findings.push_back(
+        {row_, problem, std::move(column), std::move(answered), std::move(truth), error});
+  }
+
+  void find_missing(const RowCursor& line, Column column, Verdict& verdict) {
+    verdict.missing = true;
+    find(Problem::missing, header_->name(column), std::string(line.text(column)), {});
+  }
+
+  void find_wrong(const RowCursor& line, Column column, std::string truth, Verdict& verdict) {
+    verdict.wrong = true;
+    find(Problem::wrong, header_->name(column), std::string(line.text(column)), std::move(truth));
+  }
+
   // False at the end; lines of a wrong length are faults.
   bool next(RowCursor& line) {
     for (;;) {
@@ -124,13 +143,13 @@ class Grader {
         fault(error);
       }
     }
-    verdict.missing = true;
+    find_missing(line, column, verdict);
     return std::nullopt;
   }
 
   std::string_view word(const RowCursor& line, Column column, Verdict& verdict) {
     const std::string_view text = line.text(column);
-    if (text.empty()) verdict.missing = true;
+    if (text.empty()) find_missing(line, column, verdict);
     return text;
   }
 
@@ -154,9 +173,15 @@ class Grader {
     row_ = i;
     judge_words(line, columns, truth_.rows[i], verdict);
     judge_numbers(line, columns, truth_.rows[i], verdict);
-    verdict.missing = verdict.missing || !offered_ || (demands_.words && !columns.words()) ||
-                      (demands_.gap && !columns.gap && truth_.rows[i].gap) ||
-                      (demands_.normal && !columns.normal() && truth_.rows[i].gap);
+    const bool has_gap = truth_.rows[i].gap.has_value();
+    for (const auto& [is_missing, what] :
+         {std::pair(!offered_, ""), std::pair(demands_.words && !columns.words(), "relation"),
+          std::pair(demands_.gap && !columns.gap && has_gap, "gap"),
+          std::pair(demands_.normal && !columns.normal() && has_gap, "nx ny nz")}) {
+      if (!is_missing) continue;
+      verdict.missing = true;
+      find(Problem::missing, what, {}, {});
+    }
   }
 
   void judge_words(const RowCursor& line, const Columns& columns, const TruthRow& row,
@@ -165,10 +190,10 @@ class Grader {
       if (const auto text = word(line, *columns.relation, verdict); !text.empty()) {
         const auto relation = relation_named(text);
         if (!relation) {
-          verdict.missing = true;
+          find_missing(line, *columns.relation, verdict);
           fault(line.error(*columns.relation, "this is not a relation"));
-        } else {
-          verdict.wrong |= *relation != row.relation;
+        } else if (*relation != row.relation) {
+          find_wrong(line, *columns.relation, std::string(name(row.relation)), verdict);
         }
       }
     }
@@ -176,7 +201,7 @@ class Grader {
     if (columns.crossings) judge_crossings(line, *columns.crossings, row, verdict);
     if (columns.type) {
       const auto text = word(line, *columns.type, verdict);
-      verdict.wrong |= !text.empty() && text != row.type;
+      if (!text.empty() && text != row.type) find_wrong(line, *columns.type, row.type, verdict);
     }
   }
 
@@ -184,21 +209,22 @@ class Grader {
     const auto text = word(line, column, verdict);
     if (text.empty()) return;
     if (text != "0" && text != "1") {
-      verdict.missing = true;
+      find_missing(line, column, verdict);
       return fault(line.error(column, "this is neither 0 nor 1"));
     }
-    const bool yes = text == "1";
+    const bool yes = text == "1", truth = interiors_meet(row.relation);
     verdict.touch = yes && row.relation == Relation::external_touch;
-    verdict.wrong |= !verdict.touch && yes != interiors_meet(row.relation);
+    if (!verdict.touch && yes != truth) find_wrong(line, column, truth ? "1" : "0", verdict);
   }
 
   void judge_crossings(const RowCursor& line, Column column, const TruthRow& row,
                        Verdict& verdict) {
     const bool empty = line.text(column).empty();
     if (row.crossings < 0) {
-      verdict.wrong |= !empty;
+      if (!empty) find_wrong(line, column, {}, verdict);
     } else if (const auto count = number(line, column, verdict)) {
-      verdict.wrong |= *count != row.crossings;
+      if (*count == row.crossings) return;
+      find_wrong(line, column, std::to_string(row.crossings), verdict);
     }
   }
 
@@ -214,10 +240,18 @@ class Grader {
       if (const auto gap = number(line, *columns.gap, verdict)) {
         const double off = excess(*gap, *row.gap);
         verdict.gap = std::abs(off) / row.size;
+        if (demands_.gap && verdict.gap > *demands_.gap) {
+          find(Problem::gap_error, "gap", std::string(line.text(*columns.gap)),
+               tables::to_text(row.gap->high), verdict.gap);
+        }
         if (columns.gap_error && !line.text(*columns.gap_error).empty()) {
           const auto bound = number(line, *columns.gap_error, verdict);
           const bool local = columns.status && line.text(*columns.status) == "local";
           verdict.broken = bound && breaks_bound(off, *bound, local);
+          if (verdict.broken) {
+            find(Problem::broken_bound, "gap_error", std::string(line.text(*columns.gap_error)),
+                 tables::rounded_text(std::abs(off), 4), verdict.gap);
+          }
         }
       }
     }
@@ -239,6 +273,19 @@ class Grader {
     const NormalVerdict found = judge_normal(truth_, row, n);
     verdict.normal = found.error;
     verdict.reversed = found.reversed;
+    const bool is_off = demands_.normal && found.error > *demands_.normal;
+    if (!found.reversed && !is_off) return;
+    std::string answered, truth;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!components[k]) continue;
+      const char* separator = k == 0 ? "" : " ";
+      answered += separator + std::string(line.text(*components[k]));
+      if (row.every_normal) continue;
+      truth += separator + tables::to_text(truth_.maximisers[row.first_normal].normal[k]);
+    }
+    find(found.reversed ? Problem::reversed : Problem::normal_error,
+         columns.normal_z ? "nx ny nz" : "nx ny", std::move(answered), std::move(truth),
+         found.error);
   }
 
   void summarise() {
@@ -253,6 +300,11 @@ class Grader {
       result_.families[f] = summary(truth_.families[f], rows[f]);
     }
     result_.all = summary("all", every);
+    for (row_ = 0; row_ < verdicts_.size(); ++row_) {
+      result_.family.push_back(truth_.rows[row_].family);
+      if (!verdicts_[row_].seen) find(Problem::missing, {}, {}, {});
+    }
+    std::ranges::stable_sort(result_.findings, {}, &Finding::row);
   }
 
   static void count(std::size_t& number, std::size_t& first, std::size_t row) {
@@ -292,7 +344,8 @@ class Grader {
   std::vector<Verdict> verdicts_;
   Grade result_;
   bool offered_ = false;
-  std::size_t row_ = kNoRow;  // that is being graded
+  const tables::Header* header_ = nullptr;  // of the answers that are being read
+  std::size_t row_ = kNoRow;                // that is being graded
 };
 
 template <class Answers>

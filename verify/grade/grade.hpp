@@ -21,6 +21,8 @@
 ///  (7) Every line of the answers is graded, or is named as a fault, or both: of a row answered
 ///      twice the first answer counts. A header without `row`, and a line of a mebibyte, end the
 ///      reading, which is named too.
+///  (8) Whatever is counted above, but for touches, has a finding, which says what was answered and
+///      what is true; so has an error above what the demands allow.
 #pragma once
 
 #include <array>
@@ -34,6 +36,18 @@
 #include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::inline v0::verify {
+
+enum class Problem { wrong, missing, broken_bound, reversed, gap_error, normal_error };
+
+/// What is at fault in the answer to one row.
+struct Finding {
+  std::size_t row;
+  Problem problem;
+  std::string column;    ///< "relation", "nx ny nz"; nothing where the whole row is missing
+  std::string answered;  ///< as it stands in the answers, or nothing
+  std::string truth;     ///< a word or a number, as an answer would say it; nothing where none is
+  double error = 0;      ///< of a gap or a normal, in the unit of its summary
+};
 
 struct FamilyGrade {
   std::string name;
@@ -51,6 +65,8 @@ struct FamilyGrade {
 struct Grade {
   std::vector<FamilyGrade> families;
   FamilyGrade all;                  ///< of the whole corpus
+  std::vector<Finding> findings;    ///< all of them, in the order of the rows
+  std::vector<std::size_t> family;  ///< of each row, in families
   std::vector<std::string> faults;  ///< the first ten: duplicates, unknown rows, rubbish
   std::size_t fault_count = 0;
   bool judges_words = false;    ///< relation, overlaps, crossings or type were answered
@@ -59,9 +75,11 @@ struct Grade {
   bool claims_bounds = false;   ///< gap_error was answered
 };
 
-/// Asked of every row even where the answers' header does not offer it.
+/// Asked of every row even where the answers' header does not offer it; of numbers the largest
+/// error without a finding.
 struct Demands {
-  bool words = false, gap = false, normal = false;
+  bool words = false;
+  std::optional<double> gap{}, normal{};
 };
 
 /// `answers` is a path, or the table itself. Never throws for what stands in it.

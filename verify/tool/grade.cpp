@@ -115,8 +115,8 @@ CorpusGrade graded(const Options& options, const CorpusSource& source, const std
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
   if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
-  const Demands demands{options.demands_words, limits.gap_error.has_value(),
-                        limits.normal_error.has_value() && truth.has_normals};
+  const Demands demands{options.demands_words, limits.gap_error,
+                        truth.has_normals ? limits.normal_error : std::nullopt};
   if (options.tool.empty()) {
     require_readable(options.answers);
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
