@@ -32,6 +32,13 @@ struct Maximiser {
   std::optional<std::array<double, 3>> axis;
 };
 
+/// How an answer to a row is counted (claims.hpp).
+enum class Standing {
+  judged,
+  not_claimed,       ///< the tool has opted out of it: no answer is judged
+  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
+};
+
 struct TruthRow {
   std::size_t family = 0;
   Relation relation = Relation::separate;
@@ -42,6 +49,7 @@ struct TruthRow {
   int crossings = -1;                         ///< of ellipses; -1: equal
   double area = 0, smaller_area = 1;          ///< of ellipses
   std::string type;                           ///< of a quadric
+  Standing standing = Standing::judged;
 };
 
 struct TruthTable {

@@ -27,7 +27,9 @@ int main(int argc, char** argv) {
   tangency::tables::Program program("tangency-verify", kProgramDescription,
                                     TANGENCY_VERSION_STRING);
   program.footer(kProgramHelp);
+#ifdef TANGENCY_HAS_ORACLES
   add_generate(program);
+#endif
   add_grade(program);
   return program.run(argc, argv);
 }
