@@ -400,15 +400,18 @@ void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pai
   for (const auto column : ContactColumns::kNumbers) keep(old.*column, columns_.*column);
 }
 
+/// A pair under its new name, and where its contact is.
+struct Contacts::MovedPair {
+  Pair pair;
+  std::size_t from;
+  bool turned;  ///< its bodies have changed their places
+
+  bool operator<(const MovedPair& other) const { return pair < other.pair; }
+};
+
 std::vector<Pair> Contacts::renumber(const std::vector<Pair>& pairs,
                                      std::span<const std::uint32_t> place) {
-  struct Moved {
-    Pair pair;
-    std::size_t from;
-    bool turned;
-    bool operator<(const Moved& other) const { return pair < other.pair; }
-  };
-  std::vector<Moved> moved;
+  std::vector<MovedPair> moved;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     Pair pair = pairs[k];
     const bool wall = static_cast<std::size_t>(pair.b) >= place.size();
@@ -421,6 +424,23 @@ std::vector<Pair> Contacts::renumber(const std::vector<Pair>& pairs,
     }
     moved.push_back({pair, k, turned});
   }
+  return reorder(std::move(moved));
+}
+
+std::vector<Pair> Contacts::follow(const std::vector<Pair>& pairs, const Reset& reset) {
+  std::vector<MovedPair> moved;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Pair pair = pairs[k];
+    pair.image = reset.image(pair.image);
+    const bool turned = pair.a == pair.b && pair.image < Image{};
+    if (turned)
+      for (std::int32_t& edges : pair.image) edges = -edges;
+    moved.push_back({pair, k, turned});
+  }
+  return reorder(std::move(moved));
+}
+
+std::vector<Pair> Contacts::reorder(std::vector<MovedPair> moved) {
   std::sort(moved.begin(), moved.end());
   const ContactColumns old = columns_;
   std::vector<Pair> now;

@@ -164,6 +164,11 @@ class Contacts {
   /// order, its contact is seen from the other side. Resultants and sums wait for the next update.
   std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
+  /// Follows a cell that is described anew: the pairs that the contacts are now of, in ascending
+  /// order. The contacts keep their bits; one of a particle with its own image may be seen from the
+  /// other side. Resultants and sums wait for add_up().
+  std::vector<Pair> follow(const std::vector<Pair>& pairs, const Reset& reset);
+
   /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds them up.
   void restore(ContactColumns columns, const Particles& particles, const NeighbourList& list);
 
@@ -197,6 +202,8 @@ class Contacts {
 
  private:
   struct Step;
+  struct MovedPair;
+  std::vector<Pair> reorder(std::vector<MovedPair> moved);
   struct BlockTimes;
   void refresh(const Particles& particles, Profile* profile);
   void update_blocks(const Step& step, Profile* profile);
