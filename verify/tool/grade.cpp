@@ -241,13 +241,10 @@ ExitStatus run(const Options& options) {
   return failed_by.empty() ? passed : failed;
 }
 
-std::string check_definition(const std::string& name) {
-  for (const auto& [known, definition] : kDefinitions) {
-    if (name == known) return {};
-  }
-  return name +
-         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
-         "are";
+std::vector<std::string> definition_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, definition] : kDefinitions) names.emplace_back(name);
+  return names;
 }
 
 std::string check_whole_number(const std::string& text) {
@@ -304,12 +301,11 @@ void add_grade(tables::Program& program) {
       .not_empty()
       .type_name("DIR");
   command
-      .option("--definition", options->definition,
-              "What gap and normal mean: common-normal (default), perram-wertheim, "
-              "midpoint-potential or centre-line (how far B moves along the line of centres "
-              "until both touch; normals are not graded)")
-      .check(check_definition)
-      .type_name("D");
+      .option(
+          "--definition", options->definition,
+          "What gap and normal mean (default: common-normal); centre-line: how far B moves along "
+          "the line of centres until both touch, and normals are not graded")
+      .one_of(definition_names());
   Thresholds& limits = options->thresholds;
   const tables::Option max_wrong =
       command
