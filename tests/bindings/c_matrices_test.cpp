@@ -95,7 +95,12 @@ TEST(CMatrices, BoundedGapsHoldTheTrueOne) {
     EXPECT_LE(gap[k] - below[k], true_gap[k] + error[k]) << k;
     EXPECT_GE(gap[k] + above[k], true_gap[k] - error[k]) << k;
     const unsigned a = both.pairs[2 * k], b = both.pairs[2 * k + 1];
-    EXPECT_GE(below[k], both.given[a].rounding() + both.given[b].rounding()) << k;
+    const MatrixEllipsoid &of_a = both.given[a], &of_b = both.given[b];
+    const BoundedGap rounded = bounded_gap(of_a.ellipsoid(), of_b.ellipsoid());
+    const double off = of_a.rounding() + of_b.rounding();
+    ASSERT_GT(off, 0.0) << k;
+    EXPECT_GE(below[k], rounded.gap_error + off) << k;
+    EXPECT_GE(above[k], rounded.above + off) << k;
     if (known[k] == 2) {
       ++open;
     } else {

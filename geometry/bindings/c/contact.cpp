@@ -90,12 +90,19 @@ void require_normals(const double* normals, std::size_t count) {
   }
 }
 
+/// Of bodies by matrices.
+void require_no_cutoff(const Accuracy& accuracy) {
+  if (accuracy.cutoff < std::numeric_limits<double>::infinity())
+    refuse("accuracy.has_cutoff", "must be 0 for bodies by matrices");
+}
+
 void ask_contacts(const tangency_bodies& bodies, const Pairs& pairs, const double* previous,
                   const tangency_accuracy* accuracy, tangency_contact_columns to, int threads) {
   const Accuracy wanted = accuracy_of(accuracy);
   const std::size_t count = pairs.size();
   if (bodies.by_matrices()) {
     if (previous != nullptr) refuse("previous_normals", "must be NULL for bodies by matrices");
+    require_no_cutoff(wanted);
     if (to.normal_bound || to.arm_a_bound || to.arm_b_bound) {
       refuse("answers",
              "normal_bound, arm_a_bound and arm_b_bound are not known of bodies by "
@@ -242,6 +249,7 @@ int tangency_bounded_gaps(const tangency_bodies* bodies, const unsigned* pairs, 
     const Pairs list(required(bodies), pairs, count, separations);
     const Accuracy wanted = accuracy_of(accuracy);
     if (bodies->by_matrices()) {
+      require_no_cutoff(wanted);
       return each_pair<Separations::of_all>(
           *bodies, list, threads, [](const auto&... pair) { return bounded_gap(pair...); },
           [&](std::size_t k, const BoundedGap& gap) {
