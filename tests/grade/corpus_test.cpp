@@ -16,6 +16,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
@@ -97,6 +98,17 @@ TEST(Corpus, WholeFilesAreWrittenByteForByte) {
   }
 }
 
+TEST(Corpus, TheProgramHoldsEveryFileByteForByte) {
+  const CorpusSource inside, folder{std::filesystem::path(kFolder)};
+  EXPECT_EQ(inside.names(), folder.names());
+  ASSERT_FALSE(inside.names().empty());
+  for (const std::string& name : folder.names()) {
+    EXPECT_EQ(inside.inputs(name).text, folder.inputs(name).text) << name;
+    EXPECT_EQ(inside.truth(name).text, folder.truth(name).text) << name;
+    EXPECT_EQ(inside.kind(name), folder.kind(name)) << name;
+  }
+}
+
 TEST(Corpus, AllTogetherStayBelowThreeMebibytes) {
   std::uintmax_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(kFolder)) bytes += file.file_size();
@@ -108,12 +120,13 @@ TEST(Corpus, HoldsEveryRelationAndEveryType) {
   std::set<std::string> types;
   for (const CorpusInfo& corpus : corpora()) {
     const TruthTable truth =
-        read_truth(kFolder + std::string(corpus.name) + ".truth.csv", Definition::common_normal);
+        read_truth(tables::Reader(kFolder + std::string(corpus.name) + ".truth.csv"),
+                   Definition::common_normal);
     EXPECT_EQ(truth.kind, corpus.kind);
     for (const TruthRow& row : truth.rows) {
       if (truth.kind == CorpusKind::pairs) pairs.insert(row.relation);
       if (truth.kind == CorpusKind::ellipses) ellipses.insert(row.relation);
-      if (truth.kind == CorpusKind::quadrics) types.insert(row.type);
+      if (truth.kind == CorpusKind::quadrics) types.insert(row.word);
     }
   }
   EXPECT_EQ(pairs.size(), 7U);
@@ -135,7 +148,8 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
   for (const CorpusInfo& corpus : corpora()) {
     if (corpus.kind != CorpusKind::pairs) continue;
     const std::string path = kFolder + std::string(corpus.name);
-    const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+    const TruthTable truth =
+        read_truth(tables::Reader(path + ".truth.csv"), Definition::common_normal);
     tables::Reader reader(path + ".csv");
     tables::for_each_row(reader, [&](const tables::RowCursor& line) {
       if (line.index() % 5 != 0) return;
@@ -179,7 +193,8 @@ Real support(const RawEllipse& e, const std::array<Real, 2>& n) {
 // flat body at its end: up to the aspect ratio squared, 1e12, of the size.
 TEST(Corpus, EveryTrueNormalOfEllipsesReachesTheGapAndNoneOfAGridExceedsIt) {
   const std::string path = kFolder + "ellipses";
-  const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+  const TruthTable truth =
+      read_truth(tables::Reader(path + ".truth.csv"), Definition::common_normal);
   tables::Reader reader(path + ".csv");
   std::size_t ties = 0;
   tables::for_each_row(reader, [&](const tables::RowCursor& line) {
