@@ -74,6 +74,7 @@ class Reader {
     scene_.output = {output.integer("history_interval"),    output.integer("frame_interval"),
                      output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
                      output.integer("contact_interval"),    output.integer("micro_interval")};
+    scene_.output.contact_frames = output.boolean("contact_frames");
     scene_.output.polar = output.text("partition") == "polar";
     const std::int64_t usual = scene_.output.polar ? kRingsOfPolar : kClassesOfNearUniform;
     const std::int64_t classes = output.optional_integer("classes").value_or(usual);

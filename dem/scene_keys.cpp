@@ -252,6 +252,9 @@ constexpr std::array kKeys{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; the start and a stage's end have one too. With 0 there are none at "
         "all"},
+    Key{"output", "contact_frames", boolean, "-", "false", kNoRange, "", "",
+        "With each frame its contacts: contacts.pvd (points) and chains.pvd (lines between "
+        "centres) for ParaView, frames/CYCLE.bonds for OVITO"},
     Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
         "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
         "there are none at all"},
@@ -292,27 +295,6 @@ std::string choices_text(std::string_view choices) {
   std::string text;
   for (const char c : choices) text += c == ' ' ? std::string(", ") : std::string(1, c);
   return text;
-}
-
-std::string_view type_text(KeyType type) {
-  switch (type) {
-    case integer:
-      return "integer";
-    case real:
-      return "number";
-    case real3:
-      return "3 numbers";
-    case real4:
-      return "4 numbers";
-    case reals:
-      return "numbers";
-    case boolean:
-      return "boolean";
-    case text:
-    case path:
-      return "text";
-  }
-  return "";
 }
 
 std::string_view header_of(std::string_view section) {
@@ -363,6 +345,27 @@ void print_section(std::ostream& out, std::span<const Key> keys) {
 }  // namespace
 
 std::span<const Key> scene_keys() { return kKeys; }
+
+std::string_view type_text(KeyType type) {
+  switch (type) {
+    case integer:
+      return "integer";
+    case real:
+      return "number";
+    case real3:
+      return "3 numbers";
+    case real4:
+      return "4 numbers";
+    case reals:
+      return "numbers";
+    case boolean:
+      return "boolean";
+    case text:
+    case path:
+      return "text";
+  }
+  return "";
+}
 
 bool is_among(std::string_view word, std::string_view words) {
   std::istringstream stream{std::string(words)};

@@ -63,6 +63,9 @@ std::span<const Key> scene_keys();
 /// Is `word` one of the blank-separated words?
 bool is_among(std::string_view word, std::string_view words);
 
+/// "integer", "number", "3 numbers", "boolean", "text" and so on.
+std::string_view type_text(KeyType type);
+
 /// "an integer from 1 to 1000000", "a number > 0 (m)", "one of place, compress, grow, relax".
 std::string allowed_values(const Key& key);
 

@@ -83,8 +83,9 @@ struct OutputIntervals {
   double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
   std::int64_t contacts = 0;                ///< cycles; 0: no tables of contacts
   std::int64_t micro = 0;                   ///< cycles; 0: no micro.csv
-  bool polar = false;  ///< micro.csv's partition of directions; else near-uniform
-  int classes = 0;     ///< its number N
+  bool polar = false;           ///< micro.csv's partition of directions; else near-uniform
+  int classes = 0;              ///< its number N
+  bool contact_frames = false;  ///< contacts in each frame too
 };
 
 /// A scene as it was read and checked.
