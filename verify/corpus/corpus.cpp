@@ -12,6 +12,7 @@
 
 #include <tangency/verify/corpus/truth.hpp>
 #include <tangency/verify/families/families.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -190,7 +191,7 @@ CorpusText started(const CorpusInfo& corpus) {
           " 40 digits of 150, a line for every normal that reaches the gap\n"
           "# (verify/oracles/ellipse.hpp). Columns: verify/corpus/corpus.hpp.\n";
       break;
-    case CorpusKind::quadrics:
+    default:
       truth = " Types: exact, in integers (verify/oracles/classification.hpp).\n";
       break;
   }
@@ -221,9 +222,37 @@ CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>
   return text;
 }
 
+// A row of which no more is known than the relation.
+std::string relation_alone(const EllipsoidPair& pair) {
+  const Real size = ascent::extent(separation(real(pair.a), real(pair.b)));
+  return relation_cells(exact_relation(pair.a, pair.b)) + ',' + hex(size.convert_to<double>()) +
+         std::string(std::ranges::count(PairFormat::truth, ',') - 2, ',');
+}
+
 }  // namespace
 
 std::span<const CorpusInfo> corpora() { return kCorpora; }
+
+std::string_view pair_columns() { return PairFormat::inputs; }
+std::string pair_cells(const EllipsoidPair& pair) { return PairFormat::input(pair); }
+
+CorpusText corpus_of(std::span<const NamedPair> pairs, std::string_view comment) {
+  const std::string head = "# " + std::string(comment) + '\n';
+  CorpusText text{head + std::string(PairFormat::inputs) + '\n',
+                  head + "row,family," + std::string(PairFormat::truth) + '\n'};
+  for (std::size_t row = 0; row < pairs.size(); ++row) {
+    const auto& [family, note, pair] = pairs[row];
+    TruthLines lines = PairFormat::lines(pair);
+    if (lines.empty()) lines = {relation_alone(pair)};
+    const std::string above = "# row " + std::to_string(row) + ": " + note + '\n';
+    text.inputs += above + PairFormat::input(pair) + '\n';
+    text.truth += above;
+    for (const std::string& line : lines) {
+      text.truth += std::to_string(row) + ',' + family + ',' + line + '\n';
+    }
+  }
+  return text;
+}
 
 CorpusText generate(std::string_view name, std::size_t most_per_family) {
   const auto found = std::ranges::find(kCorpora, name, &CorpusInfo::name);
@@ -233,7 +262,7 @@ CorpusText generate(std::string_view name, std::size_t most_per_family) {
       return tables<PairFormat>(*found, pair_families(name), most_per_family);
     case CorpusKind::ellipses:
       return tables<EllipseFormat>(*found, ellipse_families(), most_per_family);
-    case CorpusKind::quadrics:
+    default:
       break;
   }
   return tables<QuadricFormat>(*found, quadric_families(), most_per_family);

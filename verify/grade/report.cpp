@@ -18,7 +18,7 @@ constexpr std::size_t kMostFaults = 10;     // chosen: of a family and a problem
 constexpr std::size_t kMostConfusions = 5;  // chosen: what a reader takes in at a glance
 
 // The quantities of a grade, in the order of its tables and values.
-FamilyReport quantities(const Grade& g, const FamilyGrade& f) {
+FamilyReport quantities(CorpusKind kind, const Grade& g, const FamilyGrade& f) {
   using enum Count::Kind;
   FamilyReport family{f.name, {{"pairs", "pairs", size, f.rows}}, {}};
   std::vector<Count>& counts = family.counts;
@@ -29,9 +29,9 @@ FamilyReport quantities(const Grade& g, const FamilyGrade& f) {
   counts.push_back({"rows without a gap", "", fault, f.without_gap, g.judges_gaps});
   counts.push_back({"broken bounds", "broken", fault, f.broken_bounds, g.claims_bounds});
   counts.push_back({"reversed normals", "reversed", fault, f.reversed, g.judges_normals});
-  family.errors = {{"gap error", "gap error / L", "L", f.gap},
-                   {"normal error", "normal error", "1", f.normal},
-                   {"area error", "area error", "smaller area", f.area}};
+  for (const ErrorName& error : error_names(kind)) {
+    family.errors.push_back({error.name, error.title, error.unit, f.*error.summary});
+  }
   return family;
 }
 
@@ -50,7 +50,7 @@ void add_faults(const CorpusGrade& grade, std::vector<FamilyReport>& families) {
     }
     const auto& lines = grade.inputs.lines;
     family.faults.push_back({found.row, found.row < lines.size() ? lines[found.row] : 0,
-                             found.problem, text_of(found)});
+                             found.problem, text_of(found, grade.kind)});
   }
 }
 
@@ -202,7 +202,7 @@ const char* to_string(Problem problem) {
   return kWords[static_cast<std::size_t>(problem)];
 }
 
-std::string text_of(const Finding& found) {
+std::string text_of(const Finding& found, CorpusKind kind) {
   const std::string truth = ", true is " + (found.truth.empty() ? "nothing" : found.truth);
   switch (found.problem) {
     case Problem::wrong:
@@ -219,8 +219,11 @@ std::string text_of(const Finding& found) {
     case Problem::normal_error:
       break;
   }
+  const auto summary =
+      found.problem == Problem::gap_error ? &FamilyGrade::gap : &FamilyGrade::normal;
+  const std::string unit = std::ranges::find(error_names(kind), summary, &ErrorName::summary)->unit;
   return equation(found) + truth + ": off by " + shown(found.error) +
-         (found.problem == Problem::gap_error ? " L" : "");
+         (unit == "1" ? "" : ' ' + unit);
 }
 
 std::string shown(double error) { return tables::rounded_text(error, 2); }
@@ -232,16 +235,16 @@ const CorpusReport& add(GradeReport& report, const CorpusGrade& grade) {
                       .run = grade.run,
                       .is_dead = grade.run && g.all.unanswered == g.all.rows,
                       .families = {},
-                      .whole = quantities(g, g.all),
+                      .whole = quantities(grade.kind, g, g.all),
                       .faults = g.faults,
                       .fault_count = g.fault_count};
   for (const FamilyGrade& family : g.families) {
-    corpus.families.push_back(quantities(g, family));
+    corpus.families.push_back(quantities(grade.kind, g, family));
     corpus.families.back().has_failed = fails_by_itself(family, report.thresholds);
   }
   if (!corpus.is_dead) add_faults(grade, corpus.families);
   for (const Finding& found : g.findings) {
-    if (found.problem == Problem::wrong) ++report.confusions[text_of(found)];
+    if (found.problem == Problem::wrong) ++report.confusions[text_of(found, grade.kind)];
   }
   for (const CorpusReport& earlier : report.corpora) {
     corpus.is_repeated |=

@@ -81,7 +81,7 @@ struct RowFault {
 const char* to_string(Problem problem);
 
 /// What is at fault, without the row: "relation = overlap, true is separate".
-std::string text_of(const Finding& finding);
+std::string text_of(const Finding& finding, CorpusKind kind);
 
 struct FamilyReport {
   std::string name;

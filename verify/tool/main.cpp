@@ -31,5 +31,6 @@ int main(int argc, char** argv) {
   add_grade(program);
   add_show(program);
   add_inputs(program);
+  add_hunt(program);
   return program.run(argc, argv);
 }

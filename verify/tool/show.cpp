@@ -85,24 +85,25 @@ std::string truth_of(const std::vector<Cells>& lines) {
 }
 
 // What is wrong; below it, how far off numbers are that no threshold is held against.
-std::string judgement(const Grade& grade, const Row& row) {
+std::string judgement(const Grade& grade, const Row& row, CorpusKind kind) {
   std::string wrong, errors;
   for (const Finding& found : grade.findings) {
     if (found.row != row.index) continue;
     const bool is_error =
         found.problem == Problem::gap_error || found.problem == Problem::normal_error;
     (is_error ? errors : wrong) +=
-        (is_error ? "  " : "  " + std::string(to_string(found.problem)) + ": ") + text_of(found) +
-        '\n';
+        (is_error ? "  " : "  " + std::string(to_string(found.problem)) + ": ") +
+        text_of(found, kind) + '\n';
   }
   return (wrong.empty() ? "nothing of it is wrong\n" : "wrong\n" + wrong) +
          (errors.empty() ? "" : "errors\n" + errors);
 }
 
-std::string answer_of(const std::vector<Cells>& lines, const Grade& grade, const Row& row) {
+std::string answer_of(const std::vector<Cells>& lines, const Grade& grade, const Row& row,
+                      CorpusKind kind) {
   std::string text;
   for (const Cells& line : lines) text += "answered\n" + table_of(line);
-  return (text.empty() ? "no answer\n" : text) + judgement(grade, row);
+  return (text.empty() ? "no answer\n" : text) + judgement(grade, row, kind);
 }
 
 Row row_of(const Options& options, const CorpusSource& source, const TruthTable& truth) {
@@ -188,11 +189,11 @@ std::string shown_row(const Options& options, const CorpusSource& source, const 
     } catch (const tables::Error& error) {  // no header
       text += "its answers cannot be read: " + std::string(error.what()) + '\n';
     }
-    text += answer_of(lines, grade(truth, answers, every_error), row);
+    text += answer_of(lines, grade(truth, answers, every_error), row, truth.kind);
   } else if (!options.answers.empty()) {
     require_readable(options.answers);
     text += answer_of(lines_about(tables::Reader(options.answers), row.index),
-                      grade(truth, options.answers, every_error), row);
+                      grade(truth, options.answers, every_error), row, truth.kind);
   }
   return text + all_codes(row);
 }
