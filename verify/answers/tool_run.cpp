@@ -22,12 +22,15 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* kShell = "/bin/sh";
 
 // Chosen: what is kept of standard error to find its last line in.
 constexpr std::size_t kLastWords = 2000;
@@ -119,7 +122,7 @@ pid_t start(const std::string& command, int input, int output, int error,
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
-  ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+  ::execl(kShell, "sh", "-c", command.c_str(), nullptr);
   ::_exit(127);
 }
 
@@ -259,6 +262,12 @@ std::string inputs_for_a_tool(std::string_view table) {
 }
 
 ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits) {
+  if (::access(kShell, X_OK) != 0) {
+    throw tables::Error({.file = "--tool",
+                         .rule = std::string("there is no ") + kShell +
+                                 " here, which starts a tool: run it elsewhere, and have its table "
+                                 "graded with --answers"});
+  }
   const tables::Descriptor table = in_memory(inputs_for_a_tool(inputs));
   ToolRun run{{}, false, {}, {}, 0};
   Pipe output, error;

@@ -33,7 +33,7 @@ std::string inputs_for_a_tool(std::string_view table);
 /// more, is kept: a tool waits for what it has started.
 /// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
 /// by a shell.
-/// Throws std::system_error where no process starts.
+/// Throws tables::Error where there is no /bin/sh, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits);
 
 }  // namespace tangency::inline v0::verify
