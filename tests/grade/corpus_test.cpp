@@ -126,7 +126,7 @@ TEST(Corpus, HoldsEveryRelationAndEveryType) {
     for (const TruthRow& row : truth.rows) {
       if (truth.kind == CorpusKind::pairs) pairs.insert(row.relation);
       if (truth.kind == CorpusKind::ellipses) ellipses.insert(row.relation);
-      if (truth.kind == CorpusKind::quadrics) types.insert(row.type);
+      if (truth.kind == CorpusKind::quadrics) types.insert(row.word);
     }
   }
   EXPECT_EQ(pairs.size(), 7U);

@@ -48,7 +48,7 @@ std::vector<TrueNormals> about_axis(const CoaxialGap& found) {
 
 }  // namespace
 
-std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
   const RealEllipsoid a = real(pair.a), b = real(pair.b);
   PairTruth truth{exact_relation(pair.a, pair.b), ascent::extent(separation(a, b)), 0, {}, {}};
   if (const auto coaxial = coaxial_gap(a, b)) {
@@ -64,7 +64,12 @@ std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
     std::ranges::sort(truth.normals, std::ranges::greater(), &TrueNormals::normal);
   }
   truth.gap = checked_gap(truth.gap, truth.relation.relation, truth.size);
-  truth.perram_wertheim = perram_wertheim(a, b);
+  return truth;
+}
+
+std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+  auto truth = common_normal_truth(pair);
+  if (truth) truth->perram_wertheim = perram_wertheim(real(pair.a), real(pair.b));
   return truth;
 }
 

@@ -37,6 +37,9 @@ struct PairTruth {
 /// where exact relation and gap do not fit each other.
 std::optional<PairTruth> pair_truth(const EllipsoidPair& pair);
 
+/// The same without the gaps by other definitions: `perram_wertheim` is left empty.
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair);
+
 struct EllipsePairTruth {
   ExactRelation relation;
   int crossings;  ///< -1 for equal ellipses

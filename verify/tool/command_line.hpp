@@ -14,5 +14,6 @@ enum ExitStatus : int {
 
 void add_generate(tables::Program& program);
 void add_grade(tables::Program& program);
+void add_hunt(tables::Program& program);
 
 }  // namespace tangency::inline v0::verify

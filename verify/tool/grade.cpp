@@ -6,21 +6,27 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
-#include <tangency/verify/grade/report.hpp>
+#include <tangency/verify/grade/outputs.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -51,8 +57,12 @@ The grade, family by family:
   with median, 99 %, largest and the row of the largest; then rows that are answered twice,
   that the corpus does not have, or that cannot be read.
 
-The last line is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every
-reason to fail has a line before it.
+The first ten rows of every family with a fault are named, with the line of NAME.csv where they
+stand, what was answered and what is true; `tangency-verify show` tells more of one. The last line
+is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every reason to fail has
+a line before it. Where GITHUB_ACTIONS is true, ten of these are GitHub's annotations, too.
+
+Files of a grade appear whole, once it has ended; SOURCE_DATE_EPOCH sets the date in them.
 
 Exit status: 0 every row answered, none wrong, every threshold kept; 1 answers are wrong,
 missing, faulty or beyond a threshold, worse than the baseline, a claimed bound is broken, a
@@ -65,7 +75,9 @@ Example:
 )";
 
 struct Options {
-  std::string answers, tool, corpora, json, html, baseline;
+  std::string answers, tool, baseline;
+  RowChoice rows;
+  std::array<std::string, 6> outputs;  // in the order of kOutputs
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
@@ -73,6 +85,23 @@ struct Options {
   double slack = 0;
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
+
+// What a grade is also written to.
+struct Output {
+  const char *option, *help;
+  std::string (*text)(const GradeReport& report);
+};
+
+constexpr std::array kOutputs{
+    Output{"--json", "Also write the grade as an array of {name, unit, value}", as_json},
+    Output{"--json-summary",
+           "The same with at most 40 values, errors in digits lost, for charts and their alerts",
+           as_json_summary},
+    Output{"--junit", "Also write it as JUnit's XML, a test case a family", as_junit},
+    Output{"--sarif", "Also write it as SARIF 2.1.0, a result a row at fault", as_sarif},
+    Output{"--summary-md", "Also write it as Markdown, for the summary of a step on GitHub",
+           as_markdown},
+    Output{"--html", "Also write it as a page with plots", as_page}};
 
 [[noreturn]] void refuse(const std::string& file, const std::string& rule) {
   throw tables::Error({.file = file, .rule = rule});
@@ -98,46 +127,116 @@ void require_readable(const std::string& path) {
   if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
 }
 
-// The inputs must be those that the truth is about.
-void require_rows(const CorpusTable& inputs, std::size_t rows) {
+// Where the rows stand.
+InputLines input_lines(const CorpusTable& inputs) {
+  InputLines found{inputs.file, {}};
   tables::Reader reader(inputs.named());
-  std::size_t found = 0;
-  tables::for_each_row(reader, [&](const tables::RowCursor&) { ++found; });
-  if (found != rows) {
-    refuse(inputs.file,
-           std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
-  }
+  tables::for_each_row(reader,
+                       [&](const tables::RowCursor& row) { found.lines.push_back(row.line()); });
+  return found;
 }
 
-CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+// The inputs must be those that the truth is about.
+void require_rows(const InputLines& inputs, std::size_t rows) {
+  if (inputs.lines.size() == rows) return;
+  refuse(inputs.file, std::to_string(inputs.lines.size()) + " rows: the truth beside it is of " +
+                          std::to_string(rows));
+}
+
+// Rows that are not judged as others are.
+struct SetAside {
+  std::vector<std::string> not_claimed;
+  ExpectedFailures expected;
+};
+
+CorpusGrade graded(const Options& options, const CorpusSource& source, const SetAside& aside,
+                   const std::string& name) {
   const CorpusTable table = source.truth(name);
-  const TruthTable truth =
+  TruthTable truth =
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
+  leave_out(aside.not_claimed, name, truth);
+  aside.expected.mark(name, truth);
   if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
+  const CorpusTable inputs = source.inputs(name);
+  InputLines lines = input_lines(inputs);
+  require_rows(lines, truth.rows.size());
   if (options.tool.empty()) {
     require_readable(options.answers);
-    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
+    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt,
+            std::move(lines)};
   }
   // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const CorpusTable inputs = source.inputs(name);
-  require_rows(inputs, truth.rows.size());
   const ToolRun run = run_tool(options.tool, inputs.text, {options.seconds, most_bytes});
   return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
-          RunNote{run.sound, run.ending, run.last_words, run.seconds}};
+          RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
 }
 
-std::unique_ptr<tables::OutputFile> opened(const std::string& path) {
-  return path.empty() ? nullptr : std::make_unique<tables::OutputFile>(path);
+// The files that are asked for, each with its place in kOutputs. What cannot be written is refused
+// before the first tool is started.
+class OutputFiles {
+ public:
+  explicit OutputFiles(const Options& options) {
+    for (std::size_t i = 0; i < kOutputs.size(); ++i) {
+      const std::string& path = options.outputs[i];
+      if (!path.empty()) files_[i] = std::make_unique<tables::OutputFile>(path);
+    }
+  }
+  void write(const GradeReport& report) {
+    for (std::size_t i = 0; i < kOutputs.size(); ++i) {
+      if (!files_[i]) continue;
+      files_[i]->write(kOutputs[i].text(report));
+      files_[i]->commit();
+    }
+  }
+
+ private:
+  std::array<std::unique_ptr<tables::OutputFile>, kOutputs.size()> files_;
+};
+
+// Now, or the moment that SOURCE_DATE_EPOCH names.
+std::string date() {
+  std::time_t moment = std::time(nullptr);
+  if (const char* given = std::getenv("SOURCE_DATE_EPOCH")) {
+    const std::string text = given;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), moment);
+    constexpr std::time_t kEndOfYear9999 = 253402300799;
+    if (problem != std::errc() || end != text.data() + text.size() || moment < 0 ||
+        moment > kEndOfYear9999) {
+      refuse("SOURCE_DATE_EPOCH", text + " is not a number of seconds since 1970");
+    }
+  }
+  std::tm parts{};
+  ::gmtime_r(&moment, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &parts);
+  return text.data();
 }
 
-void write(const std::unique_ptr<tables::OutputFile>& file, const std::string& text) {
-  if (!file) return;
-  file->write(text);
-  file->commit();
+std::string allowed(const std::optional<double>& most, const char* unit) {
+  return most ? tables::to_text(*most) + unit : "any";
+}
+
+GradeReport begun(const Options& options, const CorpusSource& source) {
+  const Thresholds& limits = options.thresholds;
+  const bool is_tool = !options.tool.empty();
+  GradeReport report{.title = is_tool ? options.tool : options.answers,
+                     .program_version = TANGENCY_VERSION_STRING,
+                     .date = date(),
+                     .facts = {},
+                     .thresholds = limits};
+  report.facts = {{is_tool ? "tool" : "answers", report.title},
+                  {"definition", options.definition},
+                  {"wrong answers allowed", std::to_string(limits.wrong)},
+                  {"largest gap error allowed", allowed(limits.gap_error, " L")},
+                  {"largest normal error allowed", allowed(limits.normal_error, "")},
+                  {"tangency-verify", report.program_version},
+                  {"date", report.date + 'Z'}};
+  for (const auto& fact : facts_of(options.rows, source)) report.facts.push_back(fact);
+  return report;
 }
 
 // The first of them; of the others how many there are.
@@ -167,31 +266,68 @@ std::string differences(const Comparison& beside, const std::string& file) {
   return text;
 }
 
+// How to look at the first row that is at fault.
+std::string hint(const GradeReport& report, const Options& options) {
+  for (const CorpusReport& corpus : report.corpora) {
+    for (const FamilyReport& family : corpus.families) {
+      if (!family.has_failed || family.faults.empty()) continue;
+      return "to look at a row: tangency-verify show " + corpus.name + ' ' +
+             std::to_string(family.faults.front().row) +
+             (options.rows.folder.empty() ? "" : " --corpora " + options.rows.folder) + '\n';
+    }
+  }
+  return {};
+}
+
+// Expected failures that are none any more.
+std::string mended(const GradeReport& report, const std::string& expected) {
+  std::vector<std::string> rows, lines;
+  for (const CorpusReport& corpus : report.corpora) {
+    for (const std::size_t row : corpus.mended) {
+      rows.push_back(corpus.name + ',' + std::to_string(row));
+    }
+  }
+  append_named(lines, "BETTER than " + expected + " expects, which it need not name: ", rows);
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+std::string closing(const GradeReport& report, const Options& options) {
+  std::string text;
+  for (const std::string& confusion : commonest_confusions(report))
+    text += "wrong answers: " + confusion + '\n';
+  for (const Reason& reason : report.reasons) text += "FAILED " + reason.text + '\n';
+  text += mended(report, options.rows.expected);
+  if (!report.has_passed()) text += hint(report, options);
+  const char* runner = std::getenv("GITHUB_ACTIONS");
+  if (runner && std::string_view(runner) == "true") text += as_annotations(report);
+  return text + report.verdict + '\n';
+}
+
 ExitStatus run(const Options& options) {
-  const CorpusSource source =
-      options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
+  const CorpusSource source = source_of(options.rows);
+  const SetAside aside{not_claimed(options.rows),
+                       options.rows.expected.empty()
+                           ? ExpectedFailures()
+                           : ExpectedFailures(options.rows.expected, source)};
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
-  // What cannot be written is refused before the first tool is started.
-  const auto json = opened(options.json), html = opened(options.html);
+  OutputFiles outputs(options);
   tables::OutputFile screen("-");
-  std::vector<CorpusGrade> grades;
+  GradeReport report = begun(options, source);
   for (const std::string& name : source.chosen(options.names)) {
-    grades.push_back(graded(options, source, name));
-    screen.write(as_table(grades.back()) + '\n');
+    screen.write(as_table(add(report, graded(options, source, aside, name))) + '\n');
   }
-  std::vector<std::string> failed_by = failures(grades, options.thresholds);
+  std::vector<std::string> further;
   if (!options.baseline.empty()) {
-    const Comparison beside = compare(grades, baseline, options.slack);
+    const Comparison beside = compare(report.corpora, baseline, options.slack);
     screen.write(differences(beside, options.baseline));
-    append_named(failed_by, "worse than the baseline: ", beside.worse);
+    append_named(further, "worse than the baseline: ", beside.worse);
   }
-  for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
-  const std::string judged = verdict(grades, options.thresholds, failed_by.empty());
-  write(json, as_json(grades));
-  write(html,
-        as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by, judged));
-  screen.write(judged + '\n');
-  return failed_by.empty() ? passed : failed;
+  judge(report, further);
+  outputs.write(report);
+  screen.write(closing(report, options));
+  return report.has_passed() ? passed : failed;
 }
 
 std::string check_definition(const std::string& name) {
@@ -251,11 +387,7 @@ void add_grade(tables::Program& program) {
       .option("--corpus", options->names,
               "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       .type_name("NAME");
-  command
-      .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
-      .not_empty()
-      .type_name("DIR");
+  add_row_options(command, options->rows);
   command
       .option("--definition", options->definition,
               "What gap and normal mean: common-normal (default), perram-wertheim, "
@@ -293,13 +425,12 @@ void add_grade(tables::Program& program) {
               "Share of the baseline's errors by which they may differ (default: 0)")
       .check(number(true))
       .type_name("X");
-  command.option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
-      .not_empty()
-      .type_name("FILE");
-  command.option("--html", options->html, "Also write it as a page with plots")
-      .not_empty()
-      .type_name("FILE");
-  command.footer(kHelp);
+  for (std::size_t i = 0; i < kOutputs.size(); ++i) {
+    command.option(kOutputs[i].option, options->outputs[i], kOutputs[i].help)
+        .not_empty()
+        .type_name("FILE");
+  }
+  command.footer(help_on_rows() + kHelp);
   command.runs([options, max_wrong] {
     require_fitting(*options);
     options->demands_words = max_wrong.given();

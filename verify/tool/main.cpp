@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+
 #include <tangency/verify/tool/command_line.hpp>
 #include <tangency/version.hpp>
 
@@ -24,12 +26,14 @@ Exit status:
 
 int main(int argc, char** argv) {
   using namespace tangency::verify;
-  tangency::tables::Program program("tangency-verify", kProgramDescription,
-                                    TANGENCY_VERSION_STRING);
+  tangency::tables::Program program(
+      "tangency-verify", kProgramDescription,
+      TANGENCY_VERSION_STRING ", corpora " + std::string(built_in_version()));
   program.footer(kProgramHelp);
+  add_grade(program);
 #ifdef TANGENCY_HAS_ORACLES
   add_generate(program);
+  add_hunt(program);
 #endif
-  add_grade(program);
   return program.run(argc, argv);
 }
