@@ -71,12 +71,15 @@ struct ContactColumns {
 struct ContactLaws {
   std::size_t types = 0;        ///< number of particle types
   std::vector<ContactLaw> law;  ///< types x types, row by row
+  /// Does an impulse turn a body? Else its turns have no share in how a contact is damped.
+  bool bodies_turn = true;
 
   /// The law between types a and b.
   const ContactLaw& between(std::size_t a, std::size_t b) const { return law[a * types + b]; }
   /// The largest stiffness of any law, normal or shear.
   double largest_stiffness() const;
   bool bear_shear() const;  ///< does any?
+  bool dissipate() const;   ///< does the approach of any lose energy?
   bool are_hertz() const;   ///< then all are
 };
 
@@ -161,6 +164,11 @@ class Contacts {
   /// order, its contact is seen from the other side. Resultants and sums wait for the next update.
   std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
+  /// Follows a cell that is described anew: the pairs that the contacts are now of, in ascending
+  /// order. The contacts keep their bits; one of a particle with its own image may be seen from the
+  /// other side. Resultants and sums wait for add_up().
+  std::vector<Pair> follow(const std::vector<Pair>& pairs, const Reset& reset);
+
   /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds them up.
   void restore(ContactColumns columns, const Particles& particles, const NeighbourList& list);
 
@@ -194,6 +202,8 @@ class Contacts {
 
  private:
   struct Step;
+  struct MovedPair;
+  std::vector<Pair> reorder(std::vector<MovedPair> moved);
   struct BlockTimes;
   void refresh(const Particles& particles, Profile* profile);
   void update_blocks(const Step& step, Profile* profile);

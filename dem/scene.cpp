@@ -155,13 +155,15 @@ class Reader {
   ContactLaw law_of(const Section& section, std::size_t a, std::size_t b) const {
     const double friction = section.real("friction_coefficient");
     const double cohesion = section.real("cohesion");
+    const double damping = damping_ratio_of(section.real("restitution"));
     if (section.text("law") == "linear") {
       for (const char* key : {"young_modulus", "poisson_ratio", "largest_overlap"})
         section.forbid(key, "with law = \"hertz\" alone");
       if (!section.has("normal_stiffness")) section.fail_missing("normal_stiffness");
       const double normal = section.real("normal_stiffness");
-      return {normal, section.optional_real("shear_stiffness").value_or(normal), friction,
-              cohesion};
+      return {normal,   section.optional_real("shear_stiffness").value_or(normal),
+              friction, cohesion,
+              {},       damping};
     }
     if (scene_.dimensions == 2)
       section.fail("law", "with dimensions = 2 linear: Hertz has no overlap of disks");
@@ -172,8 +174,9 @@ class Reader {
     const double smaller = std::min(radius_of(a), radius_of(b));
     const HertzContact most =
         stiffest(shape_of(a), shape_of(b), section.real("largest_overlap") * smaller, material);
-    return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]), friction,
-            cohesion, material};
+    return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]),
+            friction,       cohesion,
+            material,       damping};
   }
 
   /// The index of a type, of "wall" in a walled cell the one after them.

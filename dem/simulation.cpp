@@ -118,6 +118,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
     }
     compare(pair, "friction_coefficient", was.friction_coefficient, is.friction_coefficient);
     compare(pair, "cohesion", was.cohesion, is.cohesion);
+    compare(pair, "restitution", was.restitution(), is.restitution());
   }
   return text;
 }
@@ -164,6 +165,7 @@ const Stage& Simulation::stage() const {
 
 void Simulation::prepare_stage() {
   laws_ = scene_.laws;
+  laws_.bodies_turn = scene_.rotation != Rotation::none;
   if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
@@ -243,6 +245,7 @@ double Simulation::kinetic_energy_now() const {
 void Simulation::step() {
   assert(!finished());
   if (state_.stage_cycle == 0) state_.cell.reference_edges = state_.cell.edges;
+  describe_cell_anew();
   if (grows_now()) grow();
   const double dt = time_step();
   state_.cell.rate = next_rate(dt);
@@ -257,6 +260,20 @@ void Simulation::step() {
   if (profile_ == nullptr) return;
   ++profile_->cycles;
   profile_->listed_pairs += static_cast<std::int64_t>(state_.list.pairs().size());
+}
+
+/// A cell in simple shear is described by its least skewed edges: thin ones would need more images.
+void Simulation::describe_cell_anew() {
+  const Reset reset = state_.cell.reset();
+  if (reset.is_none()) return;
+  Cell& cell = state_.cell;
+  for (Mat3* edges : {&cell.edges, &cell.reference_edges}) *edges = reset.edges(*edges);
+  NeighbourList::Reference reference = state_.list.reference();
+  reference.edges = reset.edges(reference.edges);
+  for (Vec3& at : reference.reduced_position) at = reset.reduced(at);
+  std::vector<Pair> pairs = state_.contacts.follow(state_.list.pairs(), reset);
+  state_.list.restore(std::move(reference), std::move(pairs));
+  state_.contacts.add_up(state_.particles, state_.list);
 }
 
 void Simulation::move_particles(double dt) {
@@ -304,6 +321,7 @@ void Simulation::update_contacts(double dt) {
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;
+  state_.energy.viscous += work.viscous;
 }
 
 void Simulation::keep_list_current(double dt) {
@@ -343,6 +361,9 @@ bool Simulation::is_relaxed() const {
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
   const Balance balance = balance_of(state_.particles, state_.contacts, scene_.gravity);
+  // Where nothing presses, a body that touches nothing has not come down yet.
+  if (stage.loading.targets.empty() && !scene_.gravity.isZero(0.0) && balance.rattlers > 0)
+    return false;
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;

@@ -126,6 +126,7 @@ class Simulation {
   void prepare_stage();
   void renew_loading();
   void sort_in_space();
+  void describe_cell_anew();
   bool anything_turns() const;
   bool grows_now() const;
   bool is_relaxed() const;

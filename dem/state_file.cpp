@@ -20,7 +20,9 @@ namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::string_view kMagic = "TANGSTAT";
-constexpr std::uint32_t kFormatVersion = 5;
+/// Of a state with all that a scene may ask for, and of one that has none of what came last
+/// (pass_latest()): scenes that do not use it have files and hashes as before.
+constexpr std::uint32_t kFormatVersion = 6, kPlainVersion = 5;
 
 // One description of the format for both ways: each function passes every number of its argument
 // to the archive, a StateWriter or a StateReader.
@@ -181,6 +183,18 @@ void pass_plain(Archive& archive, S& state) {
     archive(*x);
 }
 
+/// Does a state have anything of pass_latest()?
+bool has_latest(const State& state) {
+  return state.laws.dissipate() || state.energy.viscous != 0.0;
+}
+
+/// What the format of kFormatVersion has behind that of kPlainVersion.
+template <class Archive, class S>
+void pass_latest(Archive& archive, S& state) {
+  for (auto& law : state.laws.law) archive(law.damping_ratio);
+  archive(state.energy.viscous);
+}
+
 template <class Archive, class R>
 void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.edges);
@@ -204,6 +218,7 @@ void write(StateWriter& archive, const State& state) {
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
   pass_contacts(archive, state.contacts);
+  if (has_latest(state)) pass_latest(archive, state);
 }
 
 void pass_contacts(StateReader& archive, ContactColumns& columns, std::size_t pairs) {
@@ -219,11 +234,12 @@ struct Read {
   ContactColumns contacts;
 };
 
-void read(StateReader& archive, Read& found) {
+void read(StateReader& archive, Read& found, std::uint32_t version) {
   pass_plain(archive, found.state);
   pass_reference(archive, found.reference);
   pass(archive, found.pairs);
   pass_contacts(archive, found.contacts, found.pairs.size());
+  if (version == kFormatVersion) pass_latest(archive, found.state);
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
@@ -284,11 +300,11 @@ State state_of(Read found) {
 }
 
 /// @throws Damaged
-State state_in(StateReader& file) {
+State state_in(StateReader& file, std::uint32_t version) {
   Read found;
   const char* damage = nullptr;
   try {
-    read(file, found);
+    read(file, found, version);
   } catch (const Damaged& damaged) {
     damage = damaged.why;
   }
@@ -310,6 +326,10 @@ std::optional<std::uint32_t> version_in(StateReader& file) {
   return version;
 }
 
+bool is_readable(std::uint32_t version) {
+  return version == kPlainVersion || version == kFormatVersion;
+}
+
 std::string_view view_of(const auto& number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
@@ -329,7 +349,7 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   WholeFile out(file);
   out.write(kMagic);
-  out.write(view_of(kFormatVersion));
+  out.write(view_of(has_latest(state) ? kFormatVersion : kPlainVersion));
   StateWriter archive(&out);
   write(archive, state);
   const std::uint64_t hash = archive.finish();
@@ -340,7 +360,8 @@ void save_state(const State& state, const std::filesystem::path& file) {
 std::optional<std::int64_t> cycle_of_state(const std::filesystem::path& file) {
   try {
     StateReader in(file);
-    if (version_in(in) != kFormatVersion) return std::nullopt;
+    if (const auto version = version_in(in); !version || !is_readable(*version))
+      return std::nullopt;
     State state;
     pass_plain(in, state);
     return state.cycle;
@@ -356,10 +377,10 @@ State load_state(const std::filesystem::path& file) {
     StateReader in(file);
     const auto version = version_in(in);
     if (!version) fail("no state of tangency-dem: final.state or checkpoint.state of a run");
-    if (*version != kFormatVersion)
+    if (!is_readable(*version))
       fail("state of version " + std::to_string(*version) + ": this program reads version " +
-           std::to_string(kFormatVersion));
-    return state_in(in);
+           std::to_string(kPlainVersion) + " or " + std::to_string(kFormatVersion));
+    return state_in(in, *version);
   } catch (const ReadError& error) {
     throw StateError(error.what());
   } catch (const Damaged& damaged) {

@@ -115,6 +115,13 @@ logarithmic and count from the start of the stage:
   boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
                         Pa, from the forces on the walls and through the periodic faces: the
                         stress, but for what particles out of balance, or weights, make of it
+  viscous_loss          J since the start: lost at contacts with a restitution below 1
+  p q                   Pa: the mean stress again, and the deviator sqrt(3/2 s':s') of the stress
+                        less its mean, s1 - s3 in a triaxial test; with dimensions = 2
+                        (s1 - s2) / 2
+  mechanical_coordination
+                        mean number of contacts of the particles that have two or more, under
+                        gravity one or more
 
 More keys of summary.json:
   particles, cycles, threads

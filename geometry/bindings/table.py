@@ -109,6 +109,7 @@ ENUMS = (
     Enum("status", "What is known of a gap, distance or clearance.", (
         ("ok", "the global answer, proven"),
         ("local", "a stationary answer; that none is better elsewhere is not proven"),
+        ("beyond", "above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0"),
     ), "GapStatus", "Status"),
     Enum("gap_tier", "Which method gave the answer, the cheapest first.", (
         ("fast", ""), ("safeguarded", ""), ("factored", ""), ("search", ""),
@@ -185,7 +186,8 @@ STRUCTS = (
         Field("of_size", "double", "1", "tolerance in parts of the size of the pair, >= 0"),
         Field("length", "double", "length", "tolerance, >= 0"),
         Field("normals", "int", "", "not 0: normals and points to rounding too"),
-        _RESERVED,
+        Field("has_cutoff", "int", "", "not 0: no answer is wanted of pairs whose gap is above cutoff"),
+        Field("cutoff", "double", "length", ">= 0; not read where has_cutoff is 0"),
     )),
     Struct("contact_columns", "Answers of tangency_contacts().", _GAP + (
         _POINT,

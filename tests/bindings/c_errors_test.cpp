@@ -118,7 +118,9 @@ TEST(CErrors, OfPairsSeparationsAndNormals) {
   two.codes[0] = 7;
   expect_refused(tangency_gap_derivatives(two.bodies, two.pairs, 1, nullptr, two.normal, two.codes,
                                           &two.derivatives, 1),
-                 TANGENCY_BAD_ROW, 0, "statuses: row 0: status = 7: must be a tangency_status");
+                 TANGENCY_BAD_ROW, 0,
+                 "statuses: row 0: status = 7: must be "
+                 "TANGENCY_STATUS_OK or TANGENCY_STATUS_LOCAL");
 }
 
 TEST(CErrors, OfOtherThings) {
@@ -166,9 +168,12 @@ TEST(CErrors, OfSingleValues) {
                  kNoRow, "number = 2: must be a tangency_number");
   expect_refused(create(two.rows.data(), 2, TANGENCY_FORM_AXES, -1.0), TANGENCY_BAD_ARGUMENT,
                  kNoRow, "level = -1: must be finite and > 0");
-  const tangency_accuracy accuracy{sizeof accuracy, -1, 0, 0, 0};
+  const tangency_accuracy accuracy{sizeof accuracy, -1, 0, 0, 0, 0};
   expect_refused(two.contact(nullptr, nullptr, &accuracy), TANGENCY_BAD_ARGUMENT, kNoRow,
                  "accuracy.of_size = -1: must be >= 0");
+  const tangency_accuracy limited{sizeof limited, 0, 0, 0, 1, kNan};
+  expect_refused(two.contact(nullptr, nullptr, &limited), TANGENCY_BAD_ARGUMENT, kNoRow,
+                 "accuracy.cutoff = nan: must be >= 0");
   double level = 0;
   expect_refused(tangency_level_of_confidence(1.5, 3, &level), TANGENCY_BAD_ARGUMENT, kNoRow,
                  "confidence = 1.5: must be > 0 and < 1");

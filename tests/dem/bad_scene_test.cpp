@@ -268,6 +268,27 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
            "name = \"shear\"\nsave_strains = [0.1]\n",
        "scene.toml:22: stage[2].name = 'shear': a name of its own: two stages of that name keep "
        "states"},
+      {"simple shear with walls", walled("simple_shear_rate = [0.1, 0.0, 0.0]\n"),
+       "scene.toml:17: stage[1].simple_shear_rate = [ 0.1, 0.0, 0.0 ]: not in a cell with walls"},
+      {"two shears", servo("shear_rate = [0.1, 0.0, 0.0]\nsimple_shear_rate = [0.1, 0.0, 0.0]\n"),
+       "scene.toml:16: stage[1].shear_rate = [ 0.1, 0.0, 0.0 ]: not together with "
+       "simple_shear_rate"},
+      {"simple shear out of the plane",
+       with(with(servo("simple_shear_rate = [0.1, 0.0, 0.1]\n"), "[cell]\n",
+                 "[cell]\ndimensions = 2\n"),
+            "90.0]", "1.0]"),
+       "scene.toml:17: stage[1].simple_shear_rate = [ 0.1, 0.0, 0.1 ]: with dimensions = 2 of xy "
+       "alone"},
+      {"a relax that holds nothing",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nhold = \"components\"\n",
+       "scene.toml:19: stage[2].hold = 'components': with mean_stress alone"},
+      {"a bound of nothing",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nmax_strain_rate = 0.1\n",
+       "scene.toml:19: stage[2].max_strain_rate = 0.1: with mean_stress alone"},
+      {"a relax without a bound",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nmean_stress = 1e6\n",
+       "scene.toml:17: stage[2].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
+       "(1/s)"},
       {"holding without a bound", servo("mean_stress = 1e6\n"),
        "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
        "(1/s)"},
@@ -390,7 +411,7 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        with(scene_with("compress"), "[output]", "[contact.grain-grain.more]\n[output]"),
        "scene.toml:10: contact.grain-grain.more: no such key; allowed are law, normal_stiffness, "
        "shear_stiffness, friction_coefficient, young_modulus, poisson_ratio, largest_overlap, "
-       "cohesion"},
+       "cohesion, restitution"},
   };
   for (const Combination& one : all) EXPECT_EQ(refusal(one.scene), one.message) << one.what;
 }

@@ -39,18 +39,11 @@ constexpr std::size_t kLastWords = 2000;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// The table without its comments, from its start.
-tables::Descriptor without_comments(std::string_view inputs) {
-  std::string kept;
-  while (!inputs.empty()) {
-    const std::string_view line = inputs.substr(0, inputs.find('\n'));
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
-    inputs.remove_prefix(std::min(line.size() + 1, inputs.size()));
-  }
+// From its start.
+tables::Descriptor in_memory(std::string_view text) {
   tables::Descriptor table(::memfd_create("inputs", MFD_CLOEXEC));
   if (!table.is_open()) fail("no file in memory");
-  if (!tables::write_all(table.get(), kept)) fail("inputs cannot be kept in memory");
+  if (!tables::write_all(table.get(), text)) fail("inputs cannot be kept in memory");
   ::lseek(table.get(), 0, SEEK_SET);
   return table;
 }
@@ -257,6 +250,17 @@ class Watch {
 
 }  // namespace
 
+std::string inputs_for_a_tool(std::string_view table) {
+  std::string kept;
+  while (!table.empty()) {
+    const std::string_view line = table.substr(0, table.find('\n'));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
+    table.remove_prefix(std::min(line.size() + 1, table.size()));
+  }
+  return kept;
+}
+
 ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits) {
   if (::access(kShell, X_OK) != 0) {
     throw tables::Error({.file = "--tool",
@@ -264,7 +268,7 @@ ToolRun run_tool(const std::string& command, std::string_view inputs, const Tool
                                  " here, which starts a tool: run it elsewhere, and have its table "
                                  "graded with --answers"});
   }
-  const tables::Descriptor table = without_comments(inputs);
+  const tables::Descriptor table = in_memory(inputs_for_a_tool(inputs));
   ToolRun run{{}, false, {}, {}, 0};
   Pipe output, error;
   const HeldSignals signals;

@@ -24,6 +24,9 @@ struct ToolRun {
   double seconds;
 };
 
+/// The table without its comment lines: what a tool reads.
+std::string inputs_for_a_tool(std::string_view table);
+
 /// `sh -c COMMAND` in a process group of its own, with the table `inputs` on standard input, its
 /// comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
 /// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then, and no

@@ -32,18 +32,18 @@ struct Maximiser {
   std::optional<std::array<double, 3>> axis;
 };
 
-/// How an answer to a row is counted (claims.hpp).
-enum class Standing {
-  judged,
-  not_claimed,       ///< the tool has opted out of it: no answer is judged
-  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
-};
-
 /// A pair of the neighbours of body i, whose row this is of.
 struct TrueNeighbour {
   std::size_t j = 0;
   std::array<int, 3> image{};
   auto operator<=>(const TrueNeighbour&) const = default;
+};
+
+/// How an answer to a row is counted (claims.hpp).
+enum class Standing {
+  judged,
+  not_claimed,       ///< the tool has opted out of it: no answer is judged
+  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
 };
 
 /// What is true of an input; which members count depends on the kind.

@@ -43,30 +43,6 @@ std::string equation(const Finding& found) {
   return found.column + " = " + (found.answered.empty() ? "nothing" : found.answered);
 }
 
-std::string text_of(const Finding& found, CorpusKind kind) {
-  const std::string truth = ", true is " + (found.truth.empty() ? "nothing" : found.truth);
-  switch (found.problem) {
-    case Problem::wrong:
-      return equation(found) + truth;
-    case Problem::missing:
-      if (found.column.empty()) return "no answer";
-      if (found.answered.empty()) return "no " + found.column;
-      return equation(found) + ", which cannot be read";
-    case Problem::broken_bound:
-      return equation(found) + ", but the error is " + found.truth;
-    case Problem::reversed:
-      return equation(found) + truth + ": the other way";
-    case Problem::gap_error:
-    case Problem::normal_error:
-      break;
-  }
-  const auto summary =
-      found.problem == Problem::gap_error ? &FamilyGrade::gap : &FamilyGrade::normal;
-  const std::string unit = std::ranges::find(error_names(kind), summary, &ErrorName::summary)->unit;
-  return equation(found) + truth + ": off by " + shown(found.error) +
-         (unit == "1" ? "" : ' ' + unit);
-}
-
 void add_faults(const CorpusGrade& grade, std::vector<FamilyReport>& families) {
   std::map<std::pair<std::size_t, Problem>, std::size_t> named;
   for (const Finding& found : grade.grade.findings) {
@@ -233,6 +209,30 @@ const char* to_string(Problem problem) {
   constexpr std::array kWords{"wrong-answer",    "missing-answer", "broken-bound",
                               "reversed-normal", "gap-error",      "normal-error"};
   return kWords[static_cast<std::size_t>(problem)];
+}
+
+std::string text_of(const Finding& found, CorpusKind kind) {
+  const std::string truth = ", true is " + (found.truth.empty() ? "nothing" : found.truth);
+  switch (found.problem) {
+    case Problem::wrong:
+      return equation(found) + truth;
+    case Problem::missing:
+      if (found.column.empty()) return "no answer";
+      if (found.answered.empty()) return "no " + found.column;
+      return equation(found) + ", which cannot be read";
+    case Problem::broken_bound:
+      return equation(found) + ", but the error is " + found.truth;
+    case Problem::reversed:
+      return equation(found) + truth + ": the other way";
+    case Problem::gap_error:
+    case Problem::normal_error:
+      break;
+  }
+  const auto summary =
+      found.problem == Problem::gap_error ? &FamilyGrade::gap : &FamilyGrade::normal;
+  const std::string unit = std::ranges::find(error_names(kind), summary, &ErrorName::summary)->unit;
+  return equation(found) + truth + ": off by " + shown(found.error) +
+         (unit == "1" ? "" : ' ' + unit);
 }
 
 std::string shown(double error) { return tables::rounded_text(error, 2); }

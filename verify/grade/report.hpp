@@ -80,6 +80,9 @@ struct RowFault {
 /// A word for rules and classes: "wrong-answer".
 const char* to_string(Problem problem);
 
+/// What is at fault, without the row: "relation = overlap, true is separate".
+std::string text_of(const Finding& finding, CorpusKind kind);
+
 struct FamilyReport {
   std::string name;
   std::vector<Count> counts;  ///< the size first

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <tangency/verify/corpus/corpus.hpp>
+#include <tangency/verify/tool/asking.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -72,11 +73,7 @@ void add_seed_options(tables::Command& command, RowChoice& choice) {
 }
 
 void add_row_options(tables::Command& command, RowChoice& choice) {
-  command
-      .option("--corpora", choice.folder,
-              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
-      .not_empty()
-      .type_name("DIR");
+  add_corpora_option(command, choice.folder);
   add_seed_options(command, choice);
   command
       .option("--not-claimed", choice.not_claimed,
@@ -100,9 +97,7 @@ void require_seed(const RowChoice& choice) {
 
 CorpusSource source_of(const RowChoice& choice) {
   require_seed(choice);
-  if (choice.seed == 0) {
-    return choice.folder.empty() ? CorpusSource() : CorpusSource(choice.folder);
-  }
+  if (choice.seed == 0) return corpus_source(choice.folder);
   if (!choice.folder.empty()) {
     throw tables::UsageError("--seed draws rows, --corpora reads them: give one of the two");
   }
@@ -112,15 +107,16 @@ CorpusSource source_of(const RowChoice& choice) {
   return fresh(choice);
 }
 
-std::vector<std::string> not_claimed(const RowChoice& choice) {
-  std::vector<std::string> chosen = words(choice.not_claimed);
-  for (const std::string& word : chosen) {
+SetAside set_aside(const RowChoice& choice, const CorpusSource& source) {
+  SetAside aside{words(choice.not_claimed), {}};
+  for (const std::string& word : aside.not_claimed) {
     if (std::ranges::find(features(), word, &Feature::name) != features().end()) continue;
     std::string rule = word + " is not a feature; these are:";
     for (const Feature& feature : features()) rule += ' ' + std::string(feature.name);
     refuse("--not-claimed", rule);
   }
-  return chosen;
+  if (!choice.expected.empty()) aside.expected = ExpectedFailures(choice.expected, source);
+  return aside;
 }
 
 Facts facts_of(const RowChoice& choice, const CorpusSource& source) {
@@ -139,7 +135,7 @@ Facts facts_of(const RowChoice& choice, const CorpusSource& source) {
   return facts;
 }
 
-std::string help_on_rows() {
+std::string help_on_features() {
   std::string text = "\nFeatures, for --not-claimed:\n";
   for (const Feature& feature : features()) {
     std::string name(feature.name);

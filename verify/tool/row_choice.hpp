@@ -39,13 +39,19 @@ void require_seed(const RowChoice& choice);
 /// @throws tables::Error       a folder that cannot be read
 CorpusSource source_of(const RowChoice& choice);
 
-/// The names in --not-claimed. @throws tables::Error  one that is no feature
-std::vector<std::string> not_claimed(const RowChoice& choice);
+/// Rows that are not judged as others are.
+struct SetAside {
+  std::vector<std::string> not_claimed;  ///< features
+  ExpectedFailures expected;
+};
+
+/// @throws tables::Error  a word that is no feature; what ExpectedFailures refuses
+SetAside set_aside(const RowChoice& choice, const CorpusSource& source);
 
 /// What of this a reader has to know to take the same grade again.
 Facts facts_of(const RowChoice& choice, const CorpusSource& source);
 
-/// What --help says of it.
-std::string help_on_rows();
+/// What --help says of them.
+std::string help_on_features();
 
 }  // namespace tangency::inline v0::verify

@@ -104,6 +104,8 @@ void ask_contacts(const tangency_bodies& bodies, const Pairs& pairs, const doubl
   const std::size_t count = pairs.size();
   if (bodies.by_matrices()) {
     if (previous != nullptr) refuse("previous_normals", "must be NULL for bodies by matrices");
+    if (wanted.cutoff < std::numeric_limits<double>::infinity())
+      refuse("accuracy.has_cutoff", "must be 0 for bodies by matrices");
     if (to.normal_bound || to.arm_a_bound || to.arm_b_bound) {
       refuse("answers",
              "normal_bound, arm_a_bound and arm_b_bound are not known of bodies by "

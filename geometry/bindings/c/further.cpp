@@ -178,7 +178,8 @@ int tangency_gap_derivatives(const tangency_bodies* bodies, const unsigned* pair
     if (statuses == nullptr && count > 0) refuse("statuses", "must not be NULL");
     for (std::size_t k = 0; k < count; ++k) {
       if (statuses[k] != TANGENCY_STATUS_OK && statuses[k] != TANGENCY_STATUS_LOCAL) {
-        refuse_row("statuses", k, "status", statuses[k], "must be a tangency_status");
+        refuse_row("statuses", k, "status", statuses[k],
+                   "must be TANGENCY_STATUS_OK or TANGENCY_STATUS_LOCAL");
       }
     }
     const std::vector<Ellipsoid>& all = bodies->prepared().ellipsoids;

@@ -137,7 +137,9 @@ enum tangency_status {
   /** the global answer, proven */
   TANGENCY_STATUS_OK = 0,
   /** a stationary answer; that none is better elsewhere is not proven */
-  TANGENCY_STATUS_LOCAL = 1
+  TANGENCY_STATUS_LOCAL = 1,
+  /** above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0 */
+  TANGENCY_STATUS_BEYOND = 2
 };
 
 /** Which method gave the answer, the cheapest first. */
@@ -268,8 +270,10 @@ typedef struct tangency_accuracy {
   double length;
   /** not 0: normals and points to rounding too */
   int normals;
-  /** 0 */
-  int reserved;
+  /** not 0: no answer is wanted of pairs whose gap is above cutoff */
+  int has_cutoff;
+  /** >= 0; not read where has_cutoff is 0 (unit: length) */
+  double cutoff;
 } tangency_accuracy;
 
 /** Answers of tangency_contacts(). */

@@ -83,6 +83,8 @@ module tangency
   integer(c_int), parameter :: TANGENCY_STATUS_OK = 0
   ! a stationary answer; that none is better elsewhere is not proven
   integer(c_int), parameter :: TANGENCY_STATUS_LOCAL = 1
+  ! above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0
+  integer(c_int), parameter :: TANGENCY_STATUS_BEYOND = 2
 
   ! Which method gave the answer, the cheapest first.
   integer(c_int), parameter :: TANGENCY_GAP_TIER_FAST = 0
@@ -182,15 +184,17 @@ module tangency
   ! How good a gap has to be. Sign, status and gap_error are proven at any; 0 everywhere, and
   ! NULL, is the gap to rounding and its normal to some 1e-8 rad.
   type, bind(c) :: tangency_accuracy
-    integer(c_size_t) :: size = 32_c_size_t
+    integer(c_size_t) :: size = 40_c_size_t
     ! tolerance in parts of the size of the pair, >= 0
     real(c_double) :: of_size = 0.0_c_double
     ! tolerance, >= 0 (unit: length)
     real(c_double) :: length = 0.0_c_double
     ! not 0: normals and points to rounding too
     integer(c_int) :: normals = 0_c_int
-    ! 0
-    integer(c_int) :: reserved = 0_c_int
+    ! not 0: no answer is wanted of pairs whose gap is above cutoff
+    integer(c_int) :: has_cutoff = 0_c_int
+    ! >= 0; not read where has_cutoff is 0 (unit: length)
+    real(c_double) :: cutoff = 0.0_c_double
   end type tangency_accuracy
 
   ! Answers of tangency_contacts().
