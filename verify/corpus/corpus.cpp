@@ -190,7 +190,7 @@ struct Drawing {
 
 CorpusText started(const CorpusInfo& corpus, const Drawing& drawing) {
   const std::string name(corpus.name);
-  const std::string licence = "# SPDX-License-Identifier: GPL-3.0-or-later\n";
+  const std::string licence = "# SPDX-License-Identifier: CC0-1.0\n";
   const std::string made = "# Made by `tangency-verify generate " + name + drawing.options() + "`.";
   std::string truth;
   switch (corpus.kind) {

@@ -195,6 +195,9 @@ std::string verdict_of(const GradeReport& report) {
                                    std::pair("expected failures", " failed as expected")}) {
     const std::size_t aside = number(sum, name);
     if (aside > 0) text += ", " + std::to_string(aside) + what;
+    const auto features = std::ranges::find(report.facts, "not claimed", &Facts::value_type::first);
+    if (aside > 0 && std::string_view(name) == "rows not claimed" && features != report.facts.end())
+      text += " (" + features->second + ')';
   }
   for (const Errors& errors : sum.errors) {
     if (errors.summary.count == 0) continue;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kHelp = R"(
 Writes DIR/NAME.csv, the inputs, and DIR/NAME.truth.csv, what is true of them: the same
-bytes every time. The larger corpora take half a minute.
+bytes every time. The larger corpora take half a minute. --seed draws other rows.
 
 Exit status: 0 written; 2 refused command line, or a failed write.
 
