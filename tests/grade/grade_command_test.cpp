@@ -419,7 +419,8 @@ TEST(GradeCommand, RefusesWhatItCannotGrade) {
   EXPECT_NE(
       refusal({"--answers", "/none/x.csv", "--corpus", "near"}).find("/none/x.csv: cannot be read"),
       std::string::npos);
-  EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"}).find("chord is not a definition"),
+  EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"})
+                .find("--definition: chord not in {common-normal,perram-wertheim"),
             std::string::npos);
   for (const auto& [option, values, allowed] :
        std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
