@@ -46,11 +46,9 @@ std::vector<TrueNormals> about_axis(const CoaxialGap& found) {
   return normals;
 }
 
-}  // namespace
-
-std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
-  const RealEllipsoid a = real(pair.a), b = real(pair.b);
-  PairTruth truth{exact_relation(pair.a, pair.b), ascent::extent(separation(a, b)), 0, {}, {}};
+std::optional<PairTruth> truth_of(const ExactRelation& relation, const RealEllipsoid& a,
+                                  const RealEllipsoid& b) {
+  PairTruth truth{relation, ascent::extent(separation(a, b)), 0, {}, {}};
   if (const auto coaxial = coaxial_gap(a, b)) {
     truth.gap = coaxial->gap;
     truth.normals = about_axis(*coaxial);
@@ -66,6 +64,16 @@ std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
   truth.gap = checked_gap(truth.gap, truth.relation.relation, truth.size);
   truth.perram_wertheim = perram_wertheim(a, b);
   return truth;
+}
+
+}  // namespace
+
+std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
+}
+
+std::optional<PairTruth> pair_truth(const MatrixPair& pair) {
+  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
 }
 
 EllipsePairTruth ellipse_truth(const EllipsePair& pair) {
