@@ -139,6 +139,12 @@ Reader::Reader(const std::string& path) {
   read_header();
 }
 
+Reader::Reader(const NamedText& table)
+    : name_(table.name), text_(table.text), total_bytes_(table.text.size()) {
+  skip_byte_order_mark();
+  read_header();
+}
+
 void Reader::fail(std::string rule, std::size_t line) const {
   throw Error({.file = name_, .line = line, .rule = std::move(rule)});
 }
@@ -168,6 +174,11 @@ void Reader::cancel() noexcept {
 }
 
 std::size_t Reader::read_some(char* to, std::size_t size) {
+  if (text_) {
+    const std::size_t got = text_->copy(to, size);
+    text_->remove_prefix(got);
+    return got;
+  }
   while (!cancelled_) {
     if (wake_.is_open()) {
       std::array<pollfd, 2> events{{{input_.get(), POLLIN, 0}, {wake_.get(), POLLIN, 0}}};

@@ -103,6 +103,12 @@ struct Block {
   std::string_view text() const noexcept { return {storage.data(), size}; }
 };
 
+/// A table in memory, which the owner of the text keeps.
+struct NamedText {
+  std::string name;  ///< what messages call it
+  std::string_view text;
+};
+
 /// A file that is being read, or standard input. Blocks come as soon as they hold one whole row,
 /// so that a program that writes rows to a pipe and waits for answers gets them.
 class Reader {
@@ -110,6 +116,9 @@ class Reader {
   /// Opens the file, `-` or nothing for standard input, and reads its header.
   /// @throws Error  the file cannot be opened, is a directory, has no header, or a bad one
   explicit Reader(const std::string& path);
+  /// The same of a table in memory.
+  /// @throws Error  it has no header, or a bad one
+  explicit Reader(const NamedText& table);
 
   const Header& header() const noexcept { return *header_; }
   /// Size of a regular file, in bytes.
@@ -133,6 +142,7 @@ class Reader {
   [[noreturn]] void fail_reading(int problem) const;
 
   std::string name_;
+  std::optional<std::string_view> text_;  // of a table in memory: what is left of it
   Descriptor input_;
   Descriptor wake_;  // an eventfd, readable after cancel()
   std::atomic<bool> cancelled_ = false;

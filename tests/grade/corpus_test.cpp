@@ -17,6 +17,7 @@
 
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/tests/tool/process.hpp>
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/coaxial.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
@@ -99,6 +100,17 @@ TEST(Corpus, WholeFilesAreWrittenByteForByte) {
   }
 }
 
+TEST(Corpus, TheProgramHoldsEveryFileByteForByte) {
+  const CorpusSource inside, folder{std::filesystem::path(kFolder)};
+  EXPECT_EQ(inside.names(), folder.names());
+  ASSERT_FALSE(inside.names().empty());
+  for (const std::string& name : folder.names()) {
+    EXPECT_EQ(inside.inputs(name).text, folder.inputs(name).text) << name;
+    EXPECT_EQ(inside.truth(name).text, folder.truth(name).text) << name;
+    EXPECT_EQ(inside.kind(name), folder.kind(name)) << name;
+  }
+}
+
 TEST(Corpus, AllTogetherStayBelowFourMebibytes) {
   std::uintmax_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(kFolder)) bytes += file.file_size();
@@ -110,7 +122,8 @@ TEST(Corpus, HoldsEveryRelationTypeResultAndStatus) {
   std::map<CorpusKind, std::set<std::string>> words;
   for (const CorpusInfo& corpus : corpora()) {
     const TruthTable truth =
-        read_truth(kFolder + std::string(corpus.name) + ".truth.csv", Definition::common_normal);
+        read_truth(tables::Reader(kFolder + std::string(corpus.name) + ".truth.csv"),
+                   Definition::common_normal);
     EXPECT_EQ(truth.kind, corpus.kind);
     for (const TruthRow& row : truth.rows) {
       relations[truth.kind].insert(row.relation);
@@ -141,7 +154,8 @@ TEST(Corpus, EveryTrueNormalReachesTheGapAndNoneOfAGridExceedsIt) {
     if (corpus.kind != CorpusKind::pairs && corpus.kind != CorpusKind::floats) continue;
     const double unit = corpus.kind == CorpusKind::floats ? 0x1p24 : 1;
     const std::string path = kFolder + std::string(corpus.name);
-    const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+    const TruthTable truth =
+        read_truth(tables::Reader(path + ".truth.csv"), Definition::common_normal);
     tables::Reader reader(path + ".csv");
     tables::for_each_row(reader, [&](const tables::RowCursor& line) {
       if (line.index() % 5 != 0) return;
@@ -186,7 +200,8 @@ Real support(const RawEllipse& e, const std::array<Real, 2>& n) {
 // flat body at its end: up to the aspect ratio squared, 1e12, of the size.
 TEST(Corpus, EveryTrueNormalOfEllipsesReachesTheGapAndNoneOfAGridExceedsIt) {
   const std::string path = kFolder + "ellipses";
-  const TruthTable truth = read_truth(path + ".truth.csv", Definition::common_normal);
+  const TruthTable truth =
+      read_truth(tables::Reader(path + ".truth.csv"), Definition::common_normal);
   tables::Reader reader(path + ".csv");
   std::size_t ties = 0;
   tables::for_each_row(reader, [&](const tables::RowCursor& line) {

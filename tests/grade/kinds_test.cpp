@@ -43,7 +43,8 @@ struct Inputs {
 
 template <class Use>
 void for_each_row(const std::string& corpus, const Use& use) {
-  const TruthTable truth = read_truth(kFolder + corpus + ".truth.csv", Definition::common_normal);
+  const TruthTable truth =
+      read_truth(tables::Reader(kFolder + corpus + ".truth.csv"), Definition::common_normal);
   tables::Reader reader(kFolder + corpus + ".csv");
   std::size_t rows = 0;
   tables::for_each_row(reader, [&](const tables::RowCursor& line) {

@@ -202,6 +202,24 @@ TEST(CsvReader, ErrorCarriesItsParts) {
   });
 }
 
+TEST(CsvReader, ReadsTheSameRowsFromMemoryAsFromAFile) {
+  std::string text = "\xEF\xBB\xBFx,y\r\n# why\n\"1\",2\n";
+  for (int i = 0; i < 100000; ++i) text += std::to_string(i) + ",0x1p-3\n";
+  Reader reader(NamedText{"table", text});
+  EXPECT_EQ(reader.total_bytes(), text.size());
+  Rows rows;
+  for_each_row(reader, [&](const RowCursor& row) {
+    rows.push_back({row.number(Column{0}), row.number(Column{1})});
+  });
+  EXPECT_EQ(rows, read_x_y(text));
+  try {
+    const Reader empty(NamedText{"table", "# nothing\n"});
+    ADD_FAILURE() << "a table must have a header";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "table: a header line that names the columns is missing");
+  }
+}
+
 TEST(CsvReader, KeepsCountAcrossBlocks) {
   std::string text = "x,y\n";
   const std::size_t rows = 100'000;  // several blocks

@@ -18,17 +18,19 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* kShell = "/bin/sh";
 
 // Chosen: what is kept of standard error to find its last line in.
 constexpr std::size_t kLastWords = 2000;
@@ -37,34 +39,11 @@ constexpr std::size_t kLastWords = 2000;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-void write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno != EINTR) fail("answers cannot be kept in memory");
-    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-tables::Descriptor memory_file(const char* name) {
-  tables::Descriptor file(::memfd_create(name, MFD_CLOEXEC));
-  if (!file.is_open()) fail("no file in memory");
-  return file;
-}
-
-// The table without its comments, from its start.
-tables::Descriptor without_comments(const std::string& path) {
-  std::ifstream from(path, std::ios::binary);
-  if (!from) {
-    throw tables::Error({.file = path, .rule = "cannot be read: " + std::string(strerror(errno))});
-  }
-  tables::Descriptor table = memory_file("inputs");
-  std::string line, text;
-  while (std::getline(from, line)) {
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] != '#') text += line + '\n';
-    if (text.size() > (std::size_t{1} << 20)) write_all(table.get(), std::exchange(text, {}));
-  }
-  write_all(table.get(), text);
+// From its start.
+tables::Descriptor in_memory(std::string_view text) {
+  tables::Descriptor table(::memfd_create("inputs", MFD_CLOEXEC));
+  if (!table.is_open()) fail("no file in memory");
+  if (!tables::write_all(table.get(), text)) fail("inputs cannot be kept in memory");
   ::lseek(table.get(), 0, SEEK_SET);
   return table;
 }
@@ -143,7 +122,7 @@ pid_t start(const std::string& command, int input, int output, int error,
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
-  ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+  ::execl(kShell, "sh", "-c", command.c_str(), nullptr);
   ::_exit(127);
 }
 
@@ -240,7 +219,7 @@ class Watch {
     read_ += text.size();
     if (is_output) {
       bytes_ += text.size();
-      write_all(run_.output.get(), text);
+      run_.output += text;
     } else {
       words_ += text;
       if (words_.size() > kLastWords) words_.erase(0, words_.size() - kLastWords);
@@ -271,10 +250,26 @@ class Watch {
 
 }  // namespace
 
-ToolRun run_tool(const std::string& command, const std::string& inputs, const ToolLimits& limits) {
-  const tables::Descriptor table = without_comments(inputs);
-  ToolRun run{memory_file("answers"), {}, false, {}, {}, 0};
-  run.output_path = "/proc/self/fd/" + std::to_string(run.output.get());
+std::string inputs_for_a_tool(std::string_view table) {
+  std::string kept;
+  while (!table.empty()) {
+    const std::string_view line = table.substr(0, table.find('\n'));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
+    table.remove_prefix(std::min(line.size() + 1, table.size()));
+  }
+  return kept;
+}
+
+ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits) {
+  if (::access(kShell, X_OK) != 0) {
+    throw tables::Error({.file = "--tool",
+                         .rule = std::string("there is no ") + kShell +
+                                 " here, which starts a tool: run it elsewhere, and have its table "
+                                 "graded with --answers"});
+  }
+  const tables::Descriptor table = in_memory(inputs_for_a_tool(inputs));
+  ToolRun run{{}, false, {}, {}, 0};
   Pipe output, error;
   const HeldSignals signals;
   const pid_t tool = start(command, table.get(), output.theirs.get(), error.theirs.get(), signals);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/answers/truth_table.hpp>
 
+#include <mpfr.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,9 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/oracles/classification.hpp>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -35,17 +35,17 @@ constexpr std::array<std::pair<const char*, CorpusKind>, 9> kOwnColumns{
      {"float.size", CorpusKind::floats},
      {"ix", CorpusKind::neighbours}}};
 
-CorpusKind kind_of(const tables::Header& header) {
-  const auto* const own = std::ranges::find_if(
-      kOwnColumns, [&](const auto& column) { return header.find(column.first).has_value(); });
-  return own == kOwnColumns.end() ? CorpusKind::pairs : own->second;
-}
-
 TwoDoubles two_doubles(const RowCursor& row, Column column) {
   const double high = row.number(column);
   const std::string text(row.text(column));
   if (text.find_first_of("xX") != std::string::npos) return {high, 0};
-  return {high, Real(Real(text) - high).convert_to<double>()};
+  mpfr_t number;
+  mpfr_init2(number, 256);  // chosen: 40 digits and their exponent with 100 bits to spare
+  mpfr_set_str(number, text.c_str(), 10, MPFR_RNDN);
+  mpfr_sub_d(number, number, high, MPFR_RNDN);
+  const double low = mpfr_get_d(number, MPFR_RNDN);
+  mpfr_clear(number);
+  return {high, low};
 }
 
 std::array<double, 3> unit_vector(const RowCursor& row, Column first,
@@ -377,11 +377,14 @@ std::optional<Relation> relation_named(std::string_view word) {
   return std::nullopt;
 }
 
-CorpusKind kind_of_truth(const std::string& path) { return kind_of(tables::Reader(path).header()); }
+CorpusKind kind_of_truth(const tables::Header& header) {
+  const auto* const own = std::ranges::find_if(
+      kOwnColumns, [&](const auto& column) { return header.find(column.first).has_value(); });
+  return own == kOwnColumns.end() ? CorpusKind::pairs : own->second;
+}
 
-TruthTable read_truth(const std::string& path, Definition definition) {
-  tables::Reader file(path);
-  TableReader reader(file.header(), kind_of(file.header()));
+TruthTable read_truth(tables::Reader&& file, Definition definition) {
+  TableReader reader(file.header(), kind_of_truth(file.header()));
   const LineReader read = line_reader(file.header(), definition, reader.table());
   tables::for_each_row(file, [&](const RowCursor& line) {
     const bool again = reader.enter(line);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -38,6 +39,13 @@ struct TrueNeighbour {
   auto operator<=>(const TrueNeighbour&) const = default;
 };
 
+/// How an answer to a row is counted (claims.hpp).
+enum class Standing {
+  judged,
+  not_claimed,       ///< the tool has opted out of it: no answer is judged
+  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
+};
+
 /// What is true of an input; which members count depends on the kind.
 struct TruthRow {
   std::size_t family = 0;
@@ -52,6 +60,7 @@ struct TruthRow {
   /// Of a ray: t1 and t2. Of a time: between which the first contact lies.
   std::array<std::optional<TwoDoubles>, 2> times{};
   std::size_t first_neighbour = 0, neighbours = 0;  ///< in TruthTable::neighbours
+  Standing standing = Standing::judged;
 };
 
 struct TruthTable {
@@ -64,12 +73,11 @@ struct TruthTable {
 };
 
 /// By the columns (verify/corpus/corpus.hpp), of which each kind but pairs has one of its own.
-/// Throws tables::Error.
-CorpusKind kind_of_truth(const std::string& path);
+CorpusKind kind_of_truth(const tables::Header& header);
 
 /// `definition` is for pairs, matrices and floats; it changes nothing else. Throws tables::Error: a
 /// table that cannot be read, lacks a column, skips a row or returns to one.
-TruthTable read_truth(const std::string& path, Definition definition);
+TruthTable read_truth(tables::Reader&& file, Definition definition);
 
 /// `relation` says the interiors meet.
 constexpr bool interiors_meet(Relation relation) {

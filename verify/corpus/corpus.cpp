@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <tangency/verify/corpus/formats.hpp>
 #include <tangency/verify/corpus/neighbour_truth.hpp>
 #include <tangency/verify/families/families.hpp>
+#include <tangency/verify/oracles/newton_ascent.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -130,9 +132,42 @@ CorpusText neighbour_tables(const CorpusInfo& corpus) {
   return text;
 }
 
+// A row of which no more is known than the relation.
+std::string relation_alone(const EllipsoidPair& pair) {
+  const Real size = ascent::extent(separation(real(pair.a), real(pair.b)));
+  return relation_cells(exact_relation(pair.a, pair.b)) + ',' + rounded_hex(size) +
+         std::string(std::ranges::count(PairFormat::truth, ',') - 2, ',');
+}
+
 }  // namespace
 
 std::span<const CorpusInfo> corpora() { return kCorpora; }
+
+std::string_view pair_columns() { return PairFormat::inputs; }
+std::string pair_cells(const EllipsoidPair& pair) { return PairFormat::input(pair); }
+
+CorpusText corpus_of(std::span<const NamedPair> pairs, std::string_view comment) {
+  const std::string head = "# " + std::string(comment) + '\n';
+  CorpusText text{head + std::string(PairFormat::inputs) + '\n',
+                  head + "row,family," + std::string(PairFormat::truth) + '\n'};
+  for (std::size_t row = 0; row < pairs.size(); ++row) {
+    const auto& [family, note, pair] = pairs[row];
+    TruthLines lines;
+    try {
+      lines = PairFormat::lines(pair);
+    } catch (const std::exception&) {
+      // An ascent of the oracle that did not arrive.
+    }
+    if (lines.empty()) lines = {relation_alone(pair)};
+    const std::string above = "# row " + std::to_string(row) + ": " + note + '\n';
+    text.inputs += above + PairFormat::input(pair) + '\n';
+    text.truth += above;
+    for (const std::string& line : lines) {
+      text.truth += std::to_string(row) + ',' + family + ',' + line + '\n';
+    }
+  }
+  return text;
+}
 
 CorpusText generate(std::string_view name, std::size_t most_per_family) {
   const auto found = std::ranges::find(kCorpora, name, &CorpusInfo::name);

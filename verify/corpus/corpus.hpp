@@ -44,6 +44,8 @@
 #include <string>
 #include <string_view>
 
+#include <tangency/verify/families/pair.hpp>
+
 namespace tangency::inline v0::verify {
 
 enum class CorpusKind {
@@ -93,5 +95,21 @@ inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 /// Of neighbours always whole. Throws std::invalid_argument for a name that corpora() does not
 /// list.
 CorpusText generate(std::string_view name, std::size_t most_per_family = kWholeFamily);
+
+/// The header of a table of pairs, and the cells of one.
+std::string_view pair_columns();
+std::string pair_cells(const EllipsoidPair& pair);
+
+/// A row of a corpus that is made by hand or found.
+struct NamedPair {
+  std::string family;  ///< of letters, digits, spaces and .+-
+  std::string note;    ///< one line, a comment above the row in both tables
+  EllipsoidPair pair;
+};
+
+/// A corpus of these pairs in this order. Where the oracle does not prove the gap a row has its
+/// relation alone.
+/// @param comment  one line, at the head of both tables
+CorpusText corpus_of(std::span<const NamedPair> pairs, std::string_view comment);
 
 }  // namespace tangency::inline v0::verify

@@ -12,12 +12,6 @@
 namespace tangency::inline v0::verify {
 namespace {
 
-std::string relation_cells(const ExactRelation& exact) {
-  std::string cells(name(exact.relation));
-  cells += exact.inner == Inner::a ? ",a" : exact.inner == Inner::b ? ",b" : ",";
-  return cells;
-}
-
 // normals, nx, ny, nz, ax, ay, az.
 std::string normal_cells(const TrueNormals& n) {
   using Set = TrueNormals::Set;
@@ -46,6 +40,12 @@ TruthLines pair_lines(const std::optional<PairTruth>& truth, double unit) {
 }
 
 }  // namespace
+
+std::string relation_cells(const ExactRelation& exact) {
+  std::string cells(name(exact.relation));
+  cells += exact.inner == Inner::a ? ",a" : exact.inner == Inner::b ? ",b" : ",";
+  return cells;
+}
 
 void append_body(std::string& line, const RawEllipsoid& body) {
   append_hex(line, body.centre);

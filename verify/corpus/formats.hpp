@@ -9,12 +9,15 @@
 #include <vector>
 
 #include <tangency/verify/families/families.hpp>
+#include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency::inline v0::verify {
 
 /// None where the oracles prove nothing, and another input is drawn.
 using TruthLines = std::vector<std::string>;
 
+/// Cells of relation and inner.
+std::string relation_cells(const ExactRelation& exact);
 /// The cells of a body by centre, semi-axes and quaternion.
 void append_body(std::string& line, const RawEllipsoid& body);
 

@@ -62,18 +62,28 @@ std::optional<PairTruth> truth_of(const ExactRelation& relation, const RealEllip
     std::ranges::sort(truth.normals, std::ranges::greater(), &TrueNormals::normal);
   }
   truth.gap = checked_gap(truth.gap, truth.relation.relation, truth.size);
-  truth.perram_wertheim = perram_wertheim(a, b);
+  return truth;
+}
+
+std::optional<PairTruth> with_other_gaps(std::optional<PairTruth> truth, const RealEllipsoid& a,
+                                         const RealEllipsoid& b) {
+  if (truth) truth->perram_wertheim = perram_wertheim(a, b);
   return truth;
 }
 
 }  // namespace
 
-std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
   return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
 }
 
+std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+  return with_other_gaps(common_normal_truth(pair), real(pair.a), real(pair.b));
+}
+
 std::optional<PairTruth> pair_truth(const MatrixPair& pair) {
-  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
+  const RealEllipsoid a = real(pair.a), b = real(pair.b);
+  return with_other_gaps(truth_of(exact_relation(pair.a, pair.b), a, b), a, b);
 }
 
 EllipsePairTruth ellipse_truth(const EllipsePair& pair) {

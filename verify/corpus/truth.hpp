@@ -38,6 +38,9 @@ struct PairTruth {
 std::optional<PairTruth> pair_truth(const EllipsoidPair& pair);
 std::optional<PairTruth> pair_truth(const MatrixPair& pair);
 
+/// The same without the gaps by other definitions: `perram_wertheim` is left empty.
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair);
+
 struct EllipsePairTruth {
   ExactRelation relation;
   int crossings;  ///< -1 for equal ellipses

@@ -31,6 +31,9 @@
 ///      reading, which is named too.
 /// (10) Whatever is counted above, but for touches, has a finding, which says what was answered and
 ///      what is true; so has an error above what the demands allow.
+/// (11) Rows that are not claimed (TruthRow::standing) are in no count, error, finding and fault but
+///      in not_claimed; an expected failure that fails is in no other than expected_failures, and
+///      one that is answered rightly is judged as every row, and named.
 #pragma once
 
 #include <array>
@@ -41,6 +44,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::inline v0::verify {
@@ -63,7 +67,7 @@ inline constexpr std::size_t kErrorKinds = 4;
 
 struct FamilyGrade {
   std::string name;
-  std::size_t rows = 0;
+  std::size_t rows = 0;  ///< that are judged
   std::size_t wrong = 0, first_wrong = kNoRow;
   std::size_t touches = 0;  ///< overlaps 1 on an external touch
   std::size_t missing = 0, first_missing = kNoRow;
@@ -72,6 +76,7 @@ struct FamilyGrade {
   std::size_t broken_bounds = 0, first_broken = kNoRow;
   std::size_t reversed = 0, first_reversed = kNoRow;  ///< normals
   ErrorSummary gap, normal, area, time;
+  std::size_t not_claimed = 0, expected_failures = 0;  ///< none of them in rows
 };
 
 /// What is said of an error: `gap error / L` in tables, `gap error` with its unit in JSON.
@@ -91,6 +96,7 @@ struct Grade {
   FamilyGrade all;                  ///< of the whole corpus
   std::vector<Finding> findings;    ///< all of them, in the order of the rows
   std::vector<std::size_t> family;  ///< of each row, in families
+  std::vector<std::size_t> mended;  ///< rows of expected failures that are answered rightly
   std::vector<std::string> faults;  ///< the first ten: duplicates, unknown rows, rubbish
   std::size_t fault_count = 0;
   bool judges_words = false;    ///< relation, overlaps, crossings or type were answered
@@ -106,7 +112,8 @@ struct Demands {
   std::optional<double> gap{}, normal{};
 };
 
-/// `answers` is a path. Never throws for what stands in it.
+/// `answers` is a path, or the table itself. Never throws for what stands in it.
 Grade grade(const TruthTable& truth, const std::string& answers, const Demands& demands);
+Grade grade(const TruthTable& truth, const tables::NamedText& answers, const Demands& demands);
 
 }  // namespace tangency::inline v0::verify

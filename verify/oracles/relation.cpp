@@ -348,12 +348,6 @@ IntegerMatrix ellipsoid_matrix(IntegerMatrix matrix) {
 
 }  // namespace
 
-std::string_view name(Relation relation) {
-  static constexpr std::array<std::string_view, 7> kNames{
-      "separate", "external_touch", "overlap", "internal_touch", "a_in_b", "b_in_a", "equal"};
-  return kNames[static_cast<std::size_t>(relation)];
-}
-
 ExactRelation exact_relation(const RawEllipsoid& a, const RawEllipsoid& b) {
   Forms forms = forms_of(a, b);
   if (const auto answer = verified_guess(a, b, forms)) return *answer;

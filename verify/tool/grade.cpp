@@ -6,27 +6,31 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
-#include <tangency/verify/grade/report.hpp>
+#include <tangency/verify/grade/outputs.hpp>
+#include <tangency/verify/tool/asking.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/output_files.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::string_view kTruthSuffix = ".truth.csv";
 
 constexpr const char* kHelp = R"(
 What is graded is a table with the column row, the number of the input row from 0, and
@@ -54,8 +58,12 @@ The grade, family by family:
   with median, 99 %, largest and the row of the largest; then rows that are answered twice,
   that the corpus does not have, or that cannot be read.
 
-The last line is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every
-reason to fail has a line before it.
+The first ten rows of every family with a fault are named, with the line of NAME.csv where they
+stand, what was answered and what is true; `tangency-verify show` tells more of one. The last line
+is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every reason to fail has
+a line before it. Where GITHUB_ACTIONS is true, ten of these are GitHub's annotations, too.
+
+Files of a grade appear whole, once it has ended; SOURCE_DATE_EPOCH sets the date in them.
 
 Exit status: 0 every row answered, none wrong, every threshold kept; 1 answers are wrong,
 missing, faulty or beyond a threshold, worse than the baseline, a claimed bound is broken, a
@@ -68,7 +76,8 @@ Example:
 )";
 
 struct Options {
-  std::string answers, tool, corpora, json, html, baseline;
+  std::string answers, tool, corpora, baseline;
+  OutputPaths outputs;
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
@@ -77,115 +86,48 @@ struct Options {
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
 
-[[noreturn]] void refuse(const std::string& file, const std::string& rule) {
-  throw tables::Error({.file = file, .rule = rule});
-}
-
-// Beside the installed tool, or in the source tree.
-fs::path default_corpora() {
-  std::error_code unknown;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  const fs::path installed = (folder / TANGENCY_INSTALLED_CORPORA).lexically_normal();
-  if (!unknown && fs::is_directory(installed, unknown)) return installed;
-  return (folder / TANGENCY_SOURCE_CORPORA).lexically_normal();
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::error_code problem;
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder, problem)) {
-    const std::string file = entry.path().filename().string();
-    if (file.ends_with(kTruthSuffix)) {
-      names.push_back(file.substr(0, file.size() - kTruthSuffix.size()));
-    }
+CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+  const CorpusTable table = source.truth(name);
+  const TruthTable truth =
+      read_truth(tables::Reader(table.named()), definition_named(options.definition));
+  if (truth.rows.empty()) {
+    throw tables::Error({.file = table.file, .rule = "a corpus must have rows"});
   }
-  if (problem) refuse(folder.string(), "cannot be read: " + problem.message());
-  std::ranges::sort(names);
-  return names;
-}
-
-std::string truth_of(const fs::path& folder, const std::string& name) {
-  return (folder / (name + std::string(kTruthSuffix))).string();
-}
-
-std::vector<std::string> chosen_corpora(const Options& options, const fs::path& folder) {
-  const std::vector<std::string> all = names_in(folder);
-  for (const std::string& name : options.names) {
-    if (std::ranges::count(options.names, name) > 1) {
-      refuse("--corpus", name + " is named more than once");
-    }
-    if (std::ranges::find(all, name) != all.end()) continue;
-    std::string rule = "there is no corpus " + name + " here; there are:";
-    for (const std::string& known : all) rule += ' ' + known;
-    refuse(folder.string(), rule);
-  }
-  if (!options.names.empty()) return options.names;
-  std::vector<std::string> pairs = all;
-  std::erase_if(pairs, [&](const std::string& name) {
-    return kind_of_truth(truth_of(folder, name)) != CorpusKind::pairs;
-  });
-  if (pairs.empty()) refuse(folder.string(), "there is no corpus of pairs here");
-  return pairs;
-}
-
-constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
-    {{"common-normal", Definition::common_normal},
-     {"perram-wertheim", Definition::perram_wertheim},
-     {"midpoint-potential", Definition::midpoint_potential},
-     {"centre-line", Definition::centre_line}}};
-
-Definition definition_named(std::string_view name) {
-  return std::ranges::find(kDefinitions, name, &std::pair<std::string_view, Definition>::first)
-      ->second;
-}
-
-void require_readable(const std::string& path) {
-  if (path == "-") return;
-  std::error_code none;
-  const int problem = ::access(path.c_str(), R_OK) != 0 ? errno
-                      : fs::is_directory(path, none)    ? EISDIR
-                                                        : 0;
-  if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
-}
-
-// The inputs must be those that the truth is about.
-void require_rows(const std::string& inputs, std::size_t rows) {
-  tables::Reader reader(inputs);
-  std::size_t found = 0;
-  tables::for_each_row(reader, [&](const tables::RowCursor&) { ++found; });
-  if (found != rows) {
-    refuse(inputs,
-           std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
-  }
-}
-
-CorpusGrade graded(const Options& options, const fs::path& folder, const std::string& name) {
-  const TruthTable truth = read_truth(truth_of(folder, name), definition_named(options.definition));
-  if (truth.rows.empty()) refuse(truth_of(folder, name), "a corpus must have rows");
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
+  const CorpusTable inputs = source.inputs(name);
+  InputLines lines = input_lines(inputs, truth.rows.size());
   if (options.tool.empty()) {
     require_readable(options.answers);
-    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
+    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt,
+            std::move(lines)};
   }
-  // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
-  const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const std::string inputs = (folder / (name + ".csv")).string();
-  require_rows(inputs, truth.rows.size());
-  const ToolRun run = run_tool(options.tool, inputs, {options.seconds, most_bytes});
-  return {name, truth.kind, grade(truth, run.output_path, demands),
-          RunNote{run.sound, run.ending, run.last_words, run.seconds}};
+  const ToolRun run = asked(options.tool, inputs, truth.rows.size(), options.seconds);
+  return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
+          RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
 }
 
-std::unique_ptr<tables::OutputFile> opened(const std::string& path) {
-  return path.empty() ? nullptr : std::make_unique<tables::OutputFile>(path);
+std::string allowed(const std::optional<double>& most, const char* unit) {
+  return most ? tables::to_text(*most) + unit : "any";
 }
 
-void write(const std::unique_ptr<tables::OutputFile>& file, const std::string& text) {
-  if (!file) return;
-  file->write(text);
-  file->commit();
+GradeReport begun(const Options& options) {
+  const Thresholds& limits = options.thresholds;
+  const bool is_tool = !options.tool.empty();
+  GradeReport report{.title = is_tool ? options.tool : options.answers,
+                     .program_version = TANGENCY_VERSION_STRING,
+                     .date = date_of_outputs(),
+                     .facts = {},
+                     .thresholds = limits};
+  report.facts = {{is_tool ? "tool" : "answers", report.title},
+                  {"definition", options.definition},
+                  {"wrong answers allowed", std::to_string(limits.wrong)},
+                  {"largest gap error allowed", allowed(limits.gap_error, " L")},
+                  {"largest normal error allowed", allowed(limits.normal_error, "")},
+                  {"tangency-verify", report.program_version},
+                  {"date", report.date + 'Z'}};
+  return report;
 }
 
 // The first of them; of the others how many there are.
@@ -216,38 +158,24 @@ std::string differences(const Comparison& beside, const std::string& file) {
 }
 
 ExitStatus run(const Options& options) {
-  const fs::path folder = options.corpora.empty() ? default_corpora() : fs::path(options.corpora);
+  const CorpusSource source = corpus_source(options.corpora);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
-  // What cannot be written is refused before the first tool is started.
-  const auto json = opened(options.json), html = opened(options.html);
+  OutputFiles outputs(options.outputs);
   tables::OutputFile screen("-");
-  std::vector<CorpusGrade> grades;
-  for (const std::string& name : chosen_corpora(options, folder)) {
-    grades.push_back(graded(options, folder, name));
-    screen.write(as_table(grades.back()) + '\n');
+  GradeReport report = begun(options);
+  for (const std::string& name : source.chosen(options.names)) {
+    screen.write(as_table(add(report, graded(options, source, name))) + '\n');
   }
-  std::vector<std::string> failed_by = failures(grades, options.thresholds);
+  std::vector<std::string> further;
   if (!options.baseline.empty()) {
-    const Comparison beside = compare(grades, baseline, options.slack);
+    const Comparison beside = compare(report.corpora, baseline, options.slack);
     screen.write(differences(beside, options.baseline));
-    append_named(failed_by, "worse than the baseline: ", beside.worse);
+    append_named(further, "worse than the baseline: ", beside.worse);
   }
-  for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
-  const std::string judged = verdict(grades, options.thresholds, failed_by.empty());
-  write(json, as_json(grades));
-  write(html,
-        as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by, judged));
-  screen.write(judged + '\n');
-  return failed_by.empty() ? passed : failed;
-}
-
-std::string check_definition(const std::string& name) {
-  for (const auto& [known, definition] : kDefinitions) {
-    if (name == known) return {};
-  }
-  return name +
-         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
-         "are";
+  judge(report, further);
+  outputs.write(report);
+  screen.write(closing_of(report, options.corpora));
+  return report.has_passed() ? passed : failed;
 }
 
 std::string check_whole_number(const std::string& text) {
@@ -298,18 +226,8 @@ void add_grade(tables::Program& program) {
       .option("--corpus", options->names,
               "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       .type_name("NAME");
-  command
-      .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: that of this program)")
-      .not_empty()
-      .type_name("DIR");
-  command
-      .option("--definition", options->definition,
-              "What gap and normal mean: common-normal (default), perram-wertheim, "
-              "midpoint-potential or centre-line (how far B moves along the line of centres "
-              "until both touch; normals are not graded)")
-      .check(check_definition)
-      .type_name("D");
+  add_corpora_option(command, options->corpora);
+  add_definition_option(command, options->definition);
   Thresholds& limits = options->thresholds;
   const tables::Option max_wrong =
       command
@@ -340,12 +258,7 @@ void add_grade(tables::Program& program) {
               "Share of the baseline's errors by which they may differ (default: 0)")
       .check(number(true))
       .type_name("X");
-  command.option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
-      .not_empty()
-      .type_name("FILE");
-  command.option("--html", options->html, "Also write it as a page with plots")
-      .not_empty()
-      .type_name("FILE");
+  add_output_options(command, options->outputs);
   command.footer(kHelp);
   command.runs([options, max_wrong] {
     require_fitting(*options);

@@ -27,7 +27,12 @@ int main(int argc, char** argv) {
   tangency::tables::Program program("tangency-verify", kProgramDescription,
                                     TANGENCY_VERSION_STRING);
   program.footer(kProgramHelp);
+#ifdef TANGENCY_HAS_ORACLES
   add_generate(program);
+  add_hunt(program);
+#endif
   add_grade(program);
+  add_show(program);
+  add_inputs(program);
   return program.run(argc, argv);
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Where golden corpora come from: this program, which holds those of verify/corpora, or a folder
+/// that has NAME.csv and NAME.truth.csv of each (verify/corpus/corpus.hpp).
+///
+/// A program needs no file of its own at run time: what it holds is the text of the files, byte for
+/// byte. All errors are tables::Error. Not for two threads at once, but for two sources.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tangency/geometry/tables/csv.hpp>
+#include <tangency/verify/corpus/corpus.hpp>
+
+namespace tangency::inline v0::verify {
+
+/// The files NAME.csv and NAME.truth.csv, as they are.
+struct BuiltInCorpus {
+  std::string_view name, inputs, truth;
+};
+
+/// Those in this program, sorted by name: written by corpora_inside.cmake when it is built.
+std::span<const BuiltInCorpus> built_in_corpora();
+
+/// A table of a corpus, owned.
+struct CorpusTable {
+  std::string file;  ///< its path, or its name where it is in this program
+  std::string text;
+
+  /// Of this table, which must outlive what reads it.
+  tables::NamedText named() const { return {file, text}; }
+};
+
+class CorpusSource {
+ public:
+  /// The corpora in this program.
+  CorpusSource();
+  /// Those of a folder. Throws where it cannot be read.
+  explicit CorpusSource(const std::filesystem::path& folder);
+
+  /// Sorted.
+  const std::vector<std::string>& names() const { return names_; }
+  /// Throws for a name that is not one of names(), naming those that are.
+  void require(const std::string& name) const;
+  /// `wanted` in its order, or where it is empty every corpus of kind pairs. Throws for an unknown
+  /// name, one that is named twice, and where there is no corpus of pairs.
+  std::vector<std::string> chosen(const std::vector<std::string>& wanted) const;
+
+  /// These three require one of names(), and throw for a file that cannot be read.
+  CorpusKind kind(const std::string& name) const;
+  CorpusTable inputs(const std::string& name) const;
+  CorpusTable truth(const std::string& name) const;
+
+ private:
+  CorpusTable table(const std::string& name, std::string_view BuiltInCorpus::*built_in,
+                    std::string_view suffix) const;
+  std::string place() const;
+
+  std::optional<std::filesystem::path> folder_;  // nothing: this program
+  std::vector<std::string> names_;
+};
+
+}  // namespace tangency::inline v0::verify

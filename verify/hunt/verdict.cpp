@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <tangency/verify/hunt/verdict.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include <tangency/verify/grade/judge.hpp>
+
+namespace tangency::inline v0::verify {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Chosen: badness counts decades from here.
+constexpr double kDecades = 20;
+
+// Decades of a share above 1e-20, 0 to 40.
+double decades(double share) {
+  return share > 0 ? std::clamp(std::log10(share) + kDecades, 0.0, 2 * kDecades) : 0;
+}
+
+std::string where(std::string_view said, Relation truth) {
+  return std::string(said) + " where " + std::string(name(truth));
+}
+
+// The kind of a wrong yes, no or word; nothing where it is right. External touches have no yes or
+// no.
+std::string word_fault(const Answer& answer, Relation truth) {
+  const bool touch = truth == Relation::external_touch, meet = interiors_meet(truth);
+  if (answer.relation && *answer.relation != truth) return where(name(*answer.relation), truth);
+  if (answer.overlaps && *answer.overlaps != meet && !(*answer.overlaps && touch)) {
+    return where(*answer.overlaps ? "overlaps 1" : "overlaps 0", truth);
+  }
+  if (answer.relation || answer.overlaps || !answer.gap || touch) return {};
+  if (*answer.gap > 0 && meet) return where("gap above 0", truth);
+  if (*answer.gap < 0 && !meet) return where("gap below 0", truth);
+  return {};
+}
+
+// A gap between two bounds, as its middle and half the distance of the bounds.
+struct KnownGap {
+  TwoDoubles middle;
+  double half;
+};
+
+TwoDoubles two_doubles(long double v) {
+  const auto high = static_cast<double>(v);
+  return {high, static_cast<double>(v - high)};
+}
+
+KnownGap known(const GapBracket& bracket) {
+  const long double middle = bracket.lower + (bracket.upper - bracket.lower) / 2;
+  const long double half = std::max(bracket.upper - middle, middle - bracket.lower);
+  // One unit more for the roundings here.
+  return {two_doubles(middle), static_cast<double>(half) * (1 + 0x1p-50) + 0x1p-104 * bracket.size};
+}
+
+KnownGap known(const PairTruth& truth) {
+  const double high = truth.gap.convert_to<double>();
+  return {{high, Real(truth.gap - high).convert_to<double>()},
+          0x1p-104 * truth.size.convert_to<double>()};
+}
+
+std::array<double, 3> plain(const Real3& v) {
+  return {v[0].convert_to<double>(), v[1].convert_to<double>(), v[2].convert_to<double>()};
+}
+
+// The true normals as judge_normal() takes them.
+struct KnownNormals {
+  TruthTable table;
+  explicit KnownNormals(const PairTruth& truth) : table{CorpusKind::pairs, {}, {{}}, {}, {}, true} {
+    TruthRow& row = table.rows.front();
+    for (const TrueNormals& n : truth.normals) {
+      row.every_normal |= n.set == TrueNormals::Set::all;
+      Maximiser one{plain(n.normal), std::nullopt};
+      if (n.set == TrueNormals::Set::circle) one.axis = plain(n.axis);
+      table.maximisers.push_back(one);
+    }
+    row.normals = table.maximisers.size();
+  }
+  KnownNormals(const std::array<double, 3>& one)
+      : table{CorpusKind::pairs, {}, {{}}, {{one, std::nullopt}}, {}, true} {
+    table.rows.front().normals = 1;
+  }
+  NormalVerdict judged(const std::array<double, 3>& n) const {
+    return judge_normal(table, table.rows.front(), n);
+  }
+};
+
+// The gap's or the certificate's part of a verdict, for a gap known to `gap.half`.
+class GapPart {
+ public:
+  GapPart(const Answer& answer, const KnownGap& gap, double size)
+      : answer_(answer), off_(excess(*answer.gap, gap.middle)), half_(gap.half), size_(size) {}
+
+  // (least, most) that the error over L may be.
+  double least() const { return std::max(0.0, std::abs(off_) - half_) / size_; }
+  double most() const { return (std::abs(off_) + half_) / size_; }
+  // Of the bound's breaking; a local one holds from above alone.
+  bool is_broken() const {
+    return breaks_bound(off_ > 0 ? std::max(0.0, off_ - half_) : std::min(0.0, off_ + half_),
+                        *answer_.gap_error, answer_.is_local);
+  }
+  bool may_be_broken() const {
+    return breaks_bound(off_ + half_, *answer_.gap_error, answer_.is_local) ||
+           breaks_bound(off_ - half_, *answer_.gap_error, answer_.is_local);
+  }
+  // The error over the bound.
+  double ratio() const {
+    if (answer_.is_local && off_ < 0) return 0;
+    return std::abs(off_) / std::max(*answer_.gap_error, std::numeric_limits<double>::min());
+  }
+
+ private:
+  const Answer& answer_;
+  double off_, half_, size_;
+};
+
+std::optional<PairTruth> full_truth(const EllipsoidPair& pair, OracleCounts& counts) {
+  ++counts.gaps;
+  try {
+    if (auto truth = common_normal_truth(pair)) return truth;
+  } catch (const std::exception&) {
+    // An ascent that did not arrive: the oracle says nothing.
+  }
+  ++counts.open;
+  return std::nullopt;
+}
+
+void judge_gap(const EllipsoidPair& pair, const Answer& answer, const GapBracket& bracket,
+               const Limits& limits, OracleCounts& counts, Verdict& verdict) {
+  if (!answer.gap) return void(verdict.fault = "no gap");
+  // Nothing between the bounds can tell on which side of the limit the error is.
+  const auto settled = [&](const GapPart& part) {
+    return part.most() <= limits.gap_error || part.least() > limits.gap_error;
+  };
+  std::optional<GapPart> part;
+  if (bracket.upper < kInfinity) part.emplace(answer, known(bracket), bracket.size);
+  if (!part || !settled(*part)) {
+    const auto truth = full_truth(pair, counts);
+    if (!truth) return;
+    part.emplace(answer, known(*truth), bracket.size);
+  }
+  verdict.error = part->most();
+  if (part->least() > limits.gap_error) verdict.fault = "gap off";
+  verdict.badness = decades(verdict.error);
+}
+
+void judge_certificate(const EllipsoidPair& pair, const Answer& answer, const GapBracket& bracket,
+                       OracleCounts& counts, Verdict& verdict) {
+  if (!answer.gap || !answer.gap_error) return void(verdict.fault = "no gap_error");
+  std::optional<GapPart> part;
+  // From above alone a local bound needs no upper end of the gap.
+  GapBracket ends = bracket;
+  if (answer.is_local && !(ends.upper < kInfinity)) {
+    if (static_cast<long double>(*answer.gap) - *answer.gap_error <= ends.lower) return;
+  }
+  if (ends.upper < kInfinity) part.emplace(answer, known(ends), ends.size);
+  if (!part || (part->may_be_broken() && !part->is_broken())) {
+    const auto truth = full_truth(pair, counts);
+    if (!truth) return;
+    part.emplace(answer, known(*truth), bracket.size);
+  }
+  verdict.error = part->ratio();
+  if (part->is_broken()) verdict.fault = "bound broken";
+  verdict.badness = decades(verdict.error);
+}
+
+void judge_normals(const EllipsoidPair& pair, const Answer& answer, const GapBracket& bracket,
+                   const Limits& limits, OracleCounts& counts, Verdict& verdict) {
+  if (!answer.normal) return void(verdict.fault = "no normal");
+  double open = bracket.normal_error + 0x1p-51;
+  std::optional<KnownNormals> normals;
+  if (open < limits.normal_error / 2) {
+    normals.emplace(bracket.normal);
+  } else {
+    const auto truth = full_truth(pair, counts);
+    if (!truth) return;
+    normals.emplace(*truth);
+    open = 0x1p-51;
+  }
+  const NormalVerdict found = normals->judged(*answer.normal);
+  verdict.error = found.error;
+  if (found.error - open > limits.normal_error) verdict.fault = "normal off";
+  if (found.reversed) verdict.fault = "normal reversed";
+  verdict.badness = decades(verdict.error);
+}
+
+}  // namespace
+
+Nearness nearness(const GapBracket& bracket) {
+  const auto gap = static_cast<double>(bracket.lower);
+  const auto finite = [](double v) { return std::isfinite(v); };
+  if (!std::ranges::all_of(bracket.normal, finite) || !finite(gap) || !finite(bracket.size)) {
+    return {};
+  }
+  return {bracket.normal, gap, bracket.size};
+}
+
+Verdict Judge::verdict(const EllipsoidPair& pair, const std::optional<Answer>& answer) {
+  const GapBracket bracket = gap_bracket(pair.a, pair.b);
+  Verdict verdict;
+  verdict.near = nearness(bracket);
+  if (bracket.relation) {
+    ++counts_.brackets;
+    verdict.truth = *bracket.relation;
+  } else {
+    ++counts_.relations;
+    verdict.truth = exact_relation(pair.a, pair.b).relation;
+  }
+  // Of a wrong word the worst is the one furthest from a touch; of right ones the nearest to it.
+  const double apart = decades(std::abs(verdict.near.gap) / verdict.near.size);
+  if (!answer) {
+    verdict.fault = "no answer";
+    return verdict;
+  }
+  verdict.fault = word_fault(*answer, verdict.truth);
+  verdict.badness = verdict.fault.empty() ? 2 * kDecades - apart : apart;
+  if (!verdict.fault.empty()) return verdict;
+  switch (goal_) {
+    case Goal::relation:
+      break;
+    case Goal::gap:
+      judge_gap(pair, *answer, bracket, limits_, counts_, verdict);
+      break;
+    case Goal::normal:
+      judge_normals(pair, *answer, bracket, limits_, counts_, verdict);
+      break;
+    case Goal::certificate:
+      judge_certificate(pair, *answer, bracket, counts_, verdict);
+      break;
+  }
+  return verdict;
+}
+
+}  // namespace tangency::inline v0::verify

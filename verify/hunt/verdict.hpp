@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// One answer beside the truth, which the oracles give: the cheap one where it proves what is
+/// asked (gap_bracket.hpp), else the exact relation, and gap and normals of 100 digits only for an
+/// answer that the goal needs them for and whose relation is right.
+///
+///  (1) A fault is proven. What the oracles leave open is none.
+///  (2) Faults by the rules of `grade`: an `overlaps` of 1 on an external touch is none. Where
+///      neither relation nor overlaps is answered the sign of the gap is the yes or no, and a gap
+///      of 0 is neither.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <tangency/verify/corpus/truth.hpp>
+#include <tangency/verify/hunt/moves.hpp>
+#include <tangency/verify/hunt/subject.hpp>
+#include <tangency/verify/oracles/gap_bracket.hpp>
+
+namespace tangency::inline v0::verify {
+
+/// What a hunt is for. Wrong relations are faults for every goal.
+enum class Goal {
+  relation,     ///< relation, overlaps, or the sign of the gap
+  gap,          ///< and an error of the gap above a limit
+  normal,       ///< and an error of the normal above a limit, or one that points the other way
+  certificate,  ///< and a gap that is further from the truth than its gap_error
+};
+
+struct Limits {
+  double gap_error = 1e-12;    ///< in L, the distance of the centres and both largest semi-axes
+  double normal_error = 1e-6;  ///< length of the difference to the nearest true normal
+};
+
+struct Verdict {
+  std::string fault;   ///< its kind, "overlap where separate"; empty for an answer that is right
+  double badness = 0;  ///< among faults of a kind, or among right answers: larger is worse
+  double error = 0;    ///< of the gap / L, of the normal, or of the gap / gap_error: the goal's
+  Nearness near;       ///< of the pair
+  Relation truth = Relation::separate;
+};
+
+/// Which oracle was asked, how often.
+struct OracleCounts {
+  std::size_t brackets = 0;   ///< the cheap one alone
+  std::size_t relations = 0;  ///< the exact relation
+  std::size_t gaps = 0;       ///< 100 digits
+  std::size_t open = 0;       ///< of those: not proven global, so that nothing is said of the gap
+};
+
+class Judge {
+ public:
+  Judge(Goal goal, const Limits& limits) : goal_(goal), limits_(limits) {}
+
+  Goal goal() const { return goal_; }
+  const Limits& limits() const { return limits_; }
+  const OracleCounts& counts() const { return counts_; }
+
+  Verdict verdict(const EllipsoidPair& pair, const std::optional<Answer>& answer);
+
+ private:
+  Goal goal_;
+  Limits limits_;
+  OracleCounts counts_;
+};
+
+/// Where the bodies are nearest, by the cheap oracle.
+Nearness nearness(const GapBracket& bracket);
+
+}  // namespace tangency::inline v0::verify
