@@ -29,7 +29,8 @@
 ///      reading, which is named too.
 /// (10) Whatever is counted above, but for touches, has a finding, which says what was answered and
 ///      what is true; so has an error above what the demands allow.
-/// (11) Rows that are not claimed (TruthRow::standing) are in no count, error, finding and fault but
+/// (11) Rows that are not claimed (TruthRow::standing) are in no count, error, finding and fault
+/// but
 ///      in not_claimed; an expected failure that fails is in no other than expected_failures, and
 ///      one that is answered rightly is judged as every row, and named.
 #pragma once
