@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/answers/truth_table.hpp>
 
+#include <mpfr.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,6 @@
 #include <utility>
 
 #include <tangency/verify/oracles/classification.hpp>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -38,7 +39,13 @@ TwoDoubles two_doubles(const RowCursor& row, Column column) {
   const double high = row.number(column);
   const std::string text(row.text(column));
   if (text.find_first_of("xX") != std::string::npos) return {high, 0};
-  return {high, Real(Real(text) - high).convert_to<double>()};
+  mpfr_t number;
+  mpfr_init2(number, 256);  // chosen: 40 digits and their exponent with 100 bits to spare
+  mpfr_set_str(number, text.c_str(), 10, MPFR_RNDN);
+  mpfr_sub_d(number, number, high, MPFR_RNDN);
+  const double low = mpfr_get_d(number, MPFR_RNDN);
+  mpfr_clear(number);
+  return {high, low};
 }
 
 std::array<double, 3> unit_vector(const RowCursor& row, Column first,

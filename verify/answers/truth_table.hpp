@@ -39,6 +39,13 @@ struct TrueNeighbour {
   auto operator<=>(const TrueNeighbour&) const = default;
 };
 
+/// How an answer to a row is counted (claims.hpp).
+enum class Standing {
+  judged,
+  not_claimed,       ///< the tool has opted out of it: no answer is judged
+  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
+};
+
 /// What is true of an input; which members count depends on the kind.
 struct TruthRow {
   std::size_t family = 0;
@@ -53,6 +60,7 @@ struct TruthRow {
   /// Of a ray: t1 and t2. Of a time: between which the first contact lies.
   std::array<std::optional<TwoDoubles>, 2> times{};
   std::size_t first_neighbour = 0, neighbours = 0;  ///< in TruthTable::neighbours
+  Standing standing = Standing::judged;
 };
 
 struct TruthTable {

@@ -113,6 +113,7 @@ class Grader {
   using Sort = JudgedColumns::Sort;
 
   void fault(const std::string& what) {
+    if (row_ != kNoRow && truth_.rows[row_].standing != Standing::judged) return;
     if (result_.fault_count++ < kMostNamedFaults) result_.faults.push_back(what);
   }
 
@@ -253,22 +254,52 @@ class Grader {
 
   void summarise() {
     if (truth_.kind == CorpusKind::neighbours) count_unlisted();
-    result_.families.resize(truth_.families.size());
-    std::vector<std::vector<std::size_t>> rows(truth_.families.size());
-    std::vector<std::size_t> every(verdicts_.size());
-    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
-      rows[truth_.rows[i].family].push_back(i);
-      every[i] = i;
-    }
-    for (std::size_t f = 0; f < rows.size(); ++f) {
-      result_.families[f] = summary(truth_.families[f], rows[f]);
-    }
-    result_.all = summary("all", every);
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       result_.family.push_back(truth_.rows[i].family);
       if (!verdicts_[i].seen) result_.findings.push_back({i, Problem::missing, {}, {}, {}});
     }
     std::ranges::stable_sort(result_.findings, {}, &Finding::row);
+    const std::vector<std::vector<std::size_t>> rows = judged_rows();
+    for (std::size_t f = 0; f < rows.size(); ++f) {
+      result_.families[f] = summary(truth_.families[f], rows[f]);
+    }
+    std::vector<std::size_t> every;
+    for (const auto& some : rows) every.insert(every.end(), some.begin(), some.end());
+    std::ranges::sort(every);
+    result_.all = summary("all", every);
+    count_set_aside();
+  }
+
+  bool is_set_aside(std::size_t row) const {
+    const Standing standing = truth_.rows[row].standing;
+    return standing == Standing::not_claimed ||
+           (standing == Standing::expected_failure && failed_[row]);
+  }
+
+  // Of each family; findings of all other rows are dropped.
+  std::vector<std::vector<std::size_t>> judged_rows() {
+    failed_.assign(verdicts_.size(), false);
+    for (const Finding& finding : result_.findings) failed_[finding.row] = true;
+    std::erase_if(result_.findings, [&](const Finding& one) { return is_set_aside(one.row); });
+    std::vector<std::vector<std::size_t>> rows(truth_.families.size());
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      if (!is_set_aside(i)) rows[truth_.rows[i].family].push_back(i);
+      if (truth_.rows[i].standing == Standing::expected_failure && !failed_[i]) {
+        result_.mended.push_back(i);
+      }
+    }
+    result_.families.resize(rows.size());
+    return rows;
+  }
+
+  void count_set_aside() {
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      if (!is_set_aside(i)) continue;
+      for (FamilyGrade* one : {&result_.families[truth_.rows[i].family], &result_.all}) {
+        const bool claimed = truth_.rows[i].standing != Standing::not_claimed;
+        ++(claimed ? one->expected_failures : one->not_claimed);
+      }
+    }
   }
 
   static void count(std::size_t more, std::size_t row, std::size_t& number, std::size_t& first) {
@@ -309,6 +340,7 @@ class Grader {
   Demands demands_;
   std::vector<RowVerdict> verdicts_;
   std::vector<bool> listed_;  // of the true neighbours
+  std::vector<bool> failed_;  // rows with a finding
   Grade result_;
   std::size_t row_ = kNoRow;  // that is being graded
 };

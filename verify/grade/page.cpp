@@ -28,6 +28,8 @@ th:first-child, td:first-child { text-align: left; }
 .verdict.failed { border-color: #b00020; background: #fbeef0; }
 .bad { color: #b00020; font-weight: bold; }
 ul { padding-left: 1.2em; overflow-wrap: anywhere; }
+th[colspan] { text-align: center; }
+svg { display: block; width: 100%; margin: 1em 0; }
 svg text { font: 12px sans-serif; fill: #222; }
 @media (max-width: 600px) { body { margin: 1em .7em; } h1 { font-size: 1.2em; } }
 </style></head><body>
@@ -37,12 +39,13 @@ std::string coordinate(double value) { return tables::formatted("%.1f", value); 
 
 // Chosen: what is below the first decade stands on it, what is above the last one on that.
 constexpr int kFirstDecade = -18, kLastDecade = 0;
-constexpr double kLeft = 190, kWidth = 520, kLine = 20, kTop = 34;
+constexpr double kWidth = 330, kLine = 20, kTop = 34, kRight = 24;
 
+// From the first decade on.
 double place(double error) {
   const double decade = error > 0 ? std::log10(error) : kFirstDecade;
   const double inside = std::clamp<double>(decade, kFirstDecade, kLastDecade);
-  return kLeft + kWidth * (inside - kFirstDecade) / (kLastDecade - kFirstDecade);
+  return kWidth * (inside - kFirstDecade) / (kLastDecade - kFirstDecade);
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text) {
@@ -60,23 +63,32 @@ std::string dot(double error, double y, const char* style, const std::string& hi
          style + "><title>" + escaped(hint) + "</title></circle>\n";
 }
 
+// Room for names at 12 pixels a letter's height.
+double width_of_names(const std::vector<FamilyReport>& families) {
+  std::size_t letters = 0;
+  for (const FamilyReport& family : families) letters = std::max(letters, family.name.size());
+  return 7.0 * static_cast<double>(letters) + 16;
+}
+
 // The i-th error by family: median hollow, 99 % grey, largest full.
 std::string plot(const std::vector<FamilyReport>& families, std::size_t i) {
   const std::string title = families.front().errors[i].title;
   const double height = kTop + kLine * static_cast<double>(families.size()) + 30;
-  std::string svg = "<div class=\"wide\"><svg width=\"740\" height=\"" + coordinate(height) +
-                    "\" role=\"img\" aria-label=\"" + escaped(title) + " by family\">\n";
-  svg += label(kLeft, 14, "start",
+  const double left = width_of_names(families), width = left + kWidth + kRight;
+  std::string svg = "<svg viewBox=\"" + coordinate(-left) + " 0 " + coordinate(width) + ' ' +
+                    coordinate(height) + "\" style=\"max-width: " + coordinate(width) +
+                    "px\" role=\"img\" aria-label=\"" + escaped(title) + " by family\">\n";
+  svg += label(0, 14, "start",
                escaped(title) + " by family: median &#9675;, 99 % grey, largest &#9679;");
   for (int decade = kFirstDecade; decade <= kLastDecade; decade += 3) {
-    const double x = kLeft + kWidth * (decade - kFirstDecade) / (kLastDecade - kFirstDecade);
+    const double x = kWidth * (decade - kFirstDecade) / (kLastDecade - kFirstDecade);
     svg += line(x, kTop - 10, x, height - 22, "stroke=\"#ddd\"");
     svg += label(x, height - 6, "middle", "1e" + std::to_string(decade));
   }
   double y = kTop;
   for (const FamilyReport& family : families) {
     const ErrorSummary& s = family.errors[i].summary;
-    svg += label(kLeft - 12, y + 4, "end", escaped(family.name));
+    svg += label(-12, y + 4, "end", escaped(family.name));
     if (s.count > 0) {
       svg += line(place(s.median), y, place(s.largest), y, "stroke=\"#888\"");
       svg += dot(s.median, y, "fill=\"#fff\" stroke=\"#1f5fa8\"", "median " + shown(s.median));
@@ -86,7 +98,7 @@ std::string plot(const std::vector<FamilyReport>& families, std::size_t i) {
     }
     y += kLine;
   }
-  return svg + "</svg></div>\n";
+  return svg + "</svg>\n";
 }
 
 std::string cell(const std::string& text, bool is_bad = false) {

@@ -24,7 +24,10 @@
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
 #include <tangency/verify/grade/outputs.hpp>
+#include <tangency/verify/tool/asking.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/output_files.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
 #include <tangency/version.hpp>
 
 namespace tangency::inline v0::verify {
@@ -74,8 +77,9 @@ Example:
 )";
 
 struct Options {
-  std::string answers, tool, corpora, baseline;
-  std::array<std::string, 6> outputs;  // in the order of kOutputs
+  std::string answers, tool, baseline;
+  RowChoice rows;
+  OutputPaths outputs;
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
@@ -84,137 +88,41 @@ struct Options {
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
 
-// What a grade is also written to.
-struct Output {
-  const char *option, *help;
-  std::string (*text)(const GradeReport& report);
-};
-
-constexpr std::array kOutputs{
-    Output{"--json", "Also write the grade as an array of {name, unit, value}", as_json},
-    Output{"--json-summary",
-           "The same with at most 40 values, errors in digits lost, for charts and their alerts",
-           as_json_summary},
-    Output{"--junit", "Also write it as JUnit's XML, a test case a family", as_junit},
-    Output{"--sarif", "Also write it as SARIF 2.1.0, a result a row at fault", as_sarif},
-    Output{"--summary-md", "Also write it as Markdown, for the summary of a step on GitHub",
-           as_markdown},
-    Output{"--html", "Also write it as a page with plots", as_page}};
-
-[[noreturn]] void refuse(const std::string& file, const std::string& rule) {
-  throw tables::Error({.file = file, .rule = rule});
-}
-
-constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
-    {{"common-normal", Definition::common_normal},
-     {"perram-wertheim", Definition::perram_wertheim},
-     {"midpoint-potential", Definition::midpoint_potential},
-     {"centre-line", Definition::centre_line}}};
-
-Definition definition_named(std::string_view name) {
-  return std::ranges::find(kDefinitions, name, &std::pair<std::string_view, Definition>::first)
-      ->second;
-}
-
-void require_readable(const std::string& path) {
-  if (path == "-") return;
-  std::error_code none;
-  const int problem = ::access(path.c_str(), R_OK) != 0           ? errno
-                      : std::filesystem::is_directory(path, none) ? EISDIR
-                                                                  : 0;
-  if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
-}
-
-// Where the rows stand.
-InputLines input_lines(const CorpusTable& inputs) {
-  InputLines found{inputs.file, {}};
-  tables::Reader reader(inputs.named());
-  tables::for_each_row(reader,
-                       [&](const tables::RowCursor& row) { found.lines.push_back(row.line()); });
-  return found;
-}
-
-// The inputs must be those that the truth is about.
-void require_rows(const InputLines& inputs, std::size_t rows) {
-  if (inputs.lines.size() == rows) return;
-  refuse(inputs.file, std::to_string(inputs.lines.size()) + " rows: the truth beside it is of " +
-                          std::to_string(rows));
-}
-
-CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+CorpusGrade graded(const Options& options, const CorpusSource& source, const SetAside& aside,
+                   const std::string& name) {
   const CorpusTable table = source.truth(name);
-  const TruthTable truth =
+  TruthTable truth =
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
-  if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
+  leave_out(aside.not_claimed, name, truth);
+  aside.expected.mark(name, truth);
+  if (truth.rows.empty()) {
+    throw tables::Error({.file = table.file, .rule = "a corpus must have rows"});
+  }
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
   const CorpusTable inputs = source.inputs(name);
-  InputLines lines = input_lines(inputs);
-  require_rows(lines, truth.rows.size());
+  InputLines lines = input_lines(inputs, truth.rows.size());
   if (options.tool.empty()) {
     require_readable(options.answers);
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt,
             std::move(lines)};
   }
-  // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
-  const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const ToolRun run = run_tool(options.tool, inputs.text, {options.seconds, most_bytes});
+  const ToolRun run = asked(options.tool, inputs, truth.rows.size(), options.seconds);
   return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
           RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
-}
-
-// The files that are asked for, each with its place in kOutputs. What cannot be written is refused
-// before the first tool is started.
-class OutputFiles {
- public:
-  explicit OutputFiles(const Options& options) {
-    for (std::size_t i = 0; i < kOutputs.size(); ++i) {
-      const std::string& path = options.outputs[i];
-      if (!path.empty()) files_[i] = std::make_unique<tables::OutputFile>(path);
-    }
-  }
-  void write(const GradeReport& report) {
-    for (std::size_t i = 0; i < kOutputs.size(); ++i) {
-      if (!files_[i]) continue;
-      files_[i]->write(kOutputs[i].text(report));
-      files_[i]->commit();
-    }
-  }
-
- private:
-  std::array<std::unique_ptr<tables::OutputFile>, kOutputs.size()> files_;
-};
-
-// Now, or the moment that SOURCE_DATE_EPOCH names.
-std::string date() {
-  std::time_t moment = std::time(nullptr);
-  if (const char* given = std::getenv("SOURCE_DATE_EPOCH")) {
-    const std::string text = given;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), moment);
-    constexpr std::time_t kEndOfYear9999 = 253402300799;
-    if (problem != std::errc() || end != text.data() + text.size() || moment < 0 ||
-        moment > kEndOfYear9999) {
-      refuse("SOURCE_DATE_EPOCH", text + " is not a number of seconds since 1970");
-    }
-  }
-  std::tm parts{};
-  ::gmtime_r(&moment, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &parts);
-  return text.data();
 }
 
 std::string allowed(const std::optional<double>& most, const char* unit) {
   return most ? tables::to_text(*most) + unit : "any";
 }
 
-GradeReport begun(const Options& options) {
+GradeReport begun(const Options& options, const CorpusSource& source) {
   const Thresholds& limits = options.thresholds;
   const bool is_tool = !options.tool.empty();
   GradeReport report{.title = is_tool ? options.tool : options.answers,
                      .program_version = TANGENCY_VERSION_STRING,
-                     .date = date(),
+                     .date = date_of_outputs(),
                      .facts = {},
                      .thresholds = limits};
   report.facts = {{is_tool ? "tool" : "answers", report.title},
@@ -224,6 +132,7 @@ GradeReport begun(const Options& options) {
                   {"largest normal error allowed", allowed(limits.normal_error, "")},
                   {"tangency-verify", report.program_version},
                   {"date", report.date + 'Z'}};
+  for (const auto& fact : facts_of(options.rows, source)) report.facts.push_back(fact);
   return report;
 }
 
@@ -254,39 +163,29 @@ std::string differences(const Comparison& beside, const std::string& file) {
   return text;
 }
 
-// How to look at the first row that is at fault.
-std::string hint(const GradeReport& report, const Options& options) {
+// Expected failures that are none any more.
+std::string mended(const GradeReport& report, const std::string& expected) {
+  std::vector<std::string> rows, lines;
   for (const CorpusReport& corpus : report.corpora) {
-    for (const FamilyReport& family : corpus.families) {
-      if (!family.has_failed || family.faults.empty()) continue;
-      return "to look at a row: tangency-verify show " + corpus.name + ' ' +
-             std::to_string(family.faults.front().row) +
-             (options.corpora.empty() ? "" : " --corpora " + options.corpora) + '\n';
+    for (const std::size_t row : corpus.mended) {
+      rows.push_back(corpus.name + ',' + std::to_string(row));
     }
   }
-  return {};
-}
-
-std::string closing(const GradeReport& report, const Options& options) {
+  append_named(lines, "BETTER than " + expected + " expects, which need not name it: ", rows);
   std::string text;
-  for (const std::string& confusion : commonest_confusions(report))
-    text += "wrong answers: " + confusion + '\n';
-  for (const Reason& reason : report.reasons) text += "FAILED " + reason.text + '\n';
-  if (!report.has_passed()) text += hint(report, options);
-  const char* runner = std::getenv("GITHUB_ACTIONS");
-  if (runner && std::string_view(runner) == "true") text += as_annotations(report);
-  return text + report.verdict + '\n';
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
 }
 
 ExitStatus run(const Options& options) {
-  const CorpusSource source =
-      options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
+  const CorpusSource source = source_of(options.rows);
+  const SetAside aside = set_aside(options.rows, source);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
-  OutputFiles outputs(options);
+  OutputFiles outputs(options.outputs);
   tables::OutputFile screen("-");
-  GradeReport report = begun(options);
+  GradeReport report = begun(options, source);
   for (const std::string& name : source.chosen(options.names)) {
-    screen.write(as_table(add(report, graded(options, source, name))) + '\n');
+    screen.write(as_table(add(report, graded(options, source, aside, name))) + '\n');
   }
   std::vector<std::string> further;
   if (!options.baseline.empty()) {
@@ -294,19 +193,11 @@ ExitStatus run(const Options& options) {
     screen.write(differences(beside, options.baseline));
     append_named(further, "worse than the baseline: ", beside.worse);
   }
+  screen.write(mended(report, options.rows.expected));
   judge(report, further);
   outputs.write(report);
-  screen.write(closing(report, options));
+  screen.write(closing_of(report, options.rows.folder));
   return report.has_passed() ? passed : failed;
-}
-
-std::string check_definition(const std::string& name) {
-  for (const auto& [known, definition] : kDefinitions) {
-    if (name == known) return {};
-  }
-  return name +
-         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
-         "are";
 }
 
 std::string check_whole_number(const std::string& text) {
@@ -357,18 +248,8 @@ void add_grade(tables::Program& program) {
       .option("--corpus", options->names,
               "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       .type_name("NAME");
-  command
-      .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
-      .not_empty()
-      .type_name("DIR");
-  command
-      .option("--definition", options->definition,
-              "What gap and normal mean: common-normal (default), perram-wertheim, "
-              "midpoint-potential or centre-line (how far B moves along the line of centres "
-              "until both touch; normals are not graded)")
-      .check(check_definition)
-      .type_name("D");
+  add_row_options(command, options->rows);
+  add_definition_option(command, options->definition);
   Thresholds& limits = options->thresholds;
   const tables::Option max_wrong =
       command
@@ -399,12 +280,8 @@ void add_grade(tables::Program& program) {
               "Share of the baseline's errors by which they may differ (default: 0)")
       .check(number(true))
       .type_name("X");
-  for (std::size_t i = 0; i < kOutputs.size(); ++i) {
-    command.option(kOutputs[i].option, options->outputs[i], kOutputs[i].help)
-        .not_empty()
-        .type_name("FILE");
-  }
-  command.footer(kHelp);
+  add_output_options(command, options->outputs);
+  command.footer(help_on_features() + kHelp);
   command.runs([options, max_wrong] {
     require_fitting(*options);
     options->demands_words = max_wrong.given();
