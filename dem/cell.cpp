@@ -91,7 +91,7 @@ Reset Cell::reset() const {
 
 Cell Cell::box(const Vec3& lengths, int dimensions, std::array<bool, 3> walled) {
   const Mat3 edges = lengths.asDiagonal();
-  return {edges, Mat3::Zero(), edges, dimensions, walled};
+  return {edges, Mat3::Zero(), edges, dimensions, walled, {}};
 }
 
 double Cell::volume() const {

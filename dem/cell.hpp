@@ -13,7 +13,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include <tangency/dem/plane_wall.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::dem {
@@ -42,6 +44,7 @@ struct Cell {
   Mat3 reference_edges = Mat3::Identity();  ///< where strain is measured from
   int dimensions = 3;                       ///< 2 or 3: the axes that strain
   std::array<bool, 3> walled{};             ///< axes that end at walls instead of images
+  std::vector<PlaneWall> planes = {};       ///< walls besides these faces, in front of which it is
 
   /// A box at rest.
   static Cell box(const Vec3& lengths, int dimensions = 3, std::array<bool, 3> walled = {});

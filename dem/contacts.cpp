@@ -20,9 +20,6 @@ namespace {
 
 static_assert(ContactBlock::kPairs == kPairBlock);
 
-/// Walls of a cell: their rows stand after those of the particles.
-constexpr std::size_t kWalls = 6;
-
 std::size_t blocks_of(std::size_t pairs) { return (pairs + kPairBlock - 1) / kPairBlock; }
 
 template <class T>
@@ -241,7 +238,7 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                   laws.dissipate()};
   may_have_shear_ = bear_shear;
   if (count_ != step.pairs.size()) resize(step.pairs.size());
-  refresh(particles, profile);
+  refresh(particles, cell, profile);
   update_blocks(step, profile);
   const PhaseTimer timer(profile, Phase::sums);
   add_up_particles(list, particles.size());
@@ -279,11 +276,16 @@ void Contacts::resize(std::size_t pairs) {
   block_sums_.resize(blocks);
 }
 
-void Contacts::refresh(const Particles& particles, Profile* profile) {
+void Contacts::refresh(const Particles& particles, const Cell& cell, Profile* profile) {
   const PhaseTimer timer(profile, Phase::bodies);
   const std::size_t count = particles.size();
   narrow_phase_.aim(particles);
-  motion_.resize(count + kWalls, {});
+  // Walls stand after the particles; the faces of the cell move with its strain.
+  motion_.resize(count + kCellFaces + cell.planes.size(), {});
+  for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+    const Vec3& v = cell.planes[k].velocity;
+    motion_[count + kCellFaces + k] = {{v[0], v[1], v[2]}, 0.0, {0.0, 0.0, 0.0}, 0.0};
+  }
   for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
     narrow_phase_.refresh(particles, first, last);
     for (std::size_t i = first; i < last; ++i) {
@@ -349,9 +351,23 @@ Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step,
     of_dashpots = dashpots.emplace(laws, step.particles, geometry, block.count, turns).columns();
     block.dashpots = &of_dashpots;
   }
+  const bool drives = !step.cell.planes.empty();
+  const double before = drives ? power_of_planes(step, first, block.count) : 0.0;
   contact_lanes(block);
+  if (drives)
+    block.sums->boundary += 0.5 * step.dt * (before + power_of_planes(step, first, block.count));
   if (is_timed) times.law = seconds_since(start);
   return times;
+}
+
+/// What the planes of a block's pairs give to the bodies, by the forces as they are.
+double Contacts::power_of_planes(const Step& step, std::size_t first, std::size_t count) const {
+  double power = 0.0;
+  const std::size_t planes = step.particles.size() + kCellFaces;
+  for (std::size_t k = first; k < first + count; ++k)
+    if (const auto b = static_cast<std::size_t>(step.pairs[k].b); b >= planes)
+      power -= force(k).dot(step.cell.planes[b - planes].velocity);
+  return power;
 }
 
 ContactWork Contacts::add_up_blocks() {
@@ -366,6 +382,16 @@ ContactWork Contacts::add_up_blocks() {
     work.viscous += block.viscous;
   }
   return work;
+}
+
+Contacts::Borne Contacts::borne_by(std::int32_t body, const NeighbourList& list) const {
+  Borne sum;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (list.pairs()[k].b != body || !touches(k)) continue;
+    sum.force += columns_.normal_force[k];
+    sum.stiffness += columns_.normal_stiffness[k];
+  }
+  return sum;
 }
 
 ContactTotals Contacts::totals() const {

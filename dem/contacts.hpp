@@ -195,6 +195,13 @@ class Contacts {
   /// Totals over the contacts as they are now.
   ContactTotals totals() const;
 
+  /// What a wall bears: of its contacts the force along their normals, and their stiffness.
+  struct Borne {
+    double force = 0.0, stiffness = 0.0;  ///< sums
+  };
+  /// @param body  of the wall in the pairs of the list (Pair)
+  Borne borne_by(std::int32_t body, const NeighbourList& list) const;
+
   /// Of the contacts as they are, those of two ellipsoids that the published scheme has no answer
   /// for (trace_contact.hpp): Branch::trace takes the certified one.
   std::int64_t unanswered(const Particles& particles, const Cell& cell,
@@ -205,8 +212,9 @@ class Contacts {
   struct MovedPair;
   std::vector<Pair> reorder(std::vector<MovedPair> moved);
   struct BlockTimes;
-  void refresh(const Particles& particles, Profile* profile);
+  void refresh(const Particles& particles, const Cell& cell, Profile* profile);
   void update_blocks(const Step& step, Profile* profile);
+  double power_of_planes(const Step& step, std::size_t first, std::size_t count) const;
   BlockTimes update_block(std::size_t index, const Step& step, bool is_timed);
   ContactBlock block_at(std::size_t index);
   void resize(std::size_t pairs);

@@ -59,6 +59,18 @@ constexpr std::array kKeys{
     Key{"cell", "walls", text, "-", "none", kNoRange, "none x y z xy xz yz xyz", "",
         "Axes whose two faces are plane walls; the others are periodic"},
 
+    Key{"wall", "point", real3, "m", "", kAnySign, "", "", "Of its face, at the start"},
+    Key{"wall", "normal", real3, "-", "", kAnySign, "", "",
+        "Out of the wall, to the side where the bodies are, of any length; 0 along axes without "
+        "walls in cell.walls"},
+    Key{"wall", "velocity", real3, "m/s", "(0)", kAnySign, "", "",
+        "Of the wall from the first cycle on; what is along the normal moves its face"},
+    Key{"wall", "stress", real, "Pa", "(not held)", kPositive, "", "",
+        "To bear: force of the bodies along the normal over the area of the face within the cell; "
+        "the wall comes and goes for it"},
+    Key{"wall", "max_speed", real, "m/s", "(needed to hold a stress)", kPositive, "", "",
+        "Largest speed of a wall that holds a stress, along its normal"},
+
     Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySign, "", "", "Acceleration"},
     Key{"motion", "rotation", text, "-", "full", kNoRange, "none simplified full", "",
         "Euler's equations: full, without their quadratic terms, or none at all"},
@@ -288,6 +300,7 @@ std::string choices_text(std::string_view choices) {
 std::string_view header_of(std::string_view section) {
   if (section == "particles") return "[particles.NAME]";
   if (section == "contact") return "[contact] for all pairs, [contact.NAME-NAME] for one";
+  if (section == "wall") return "[[wall]], planes inside a cell with walls, which no stage strains";
   if (section == "body") return "[[body]], of a place with arrangement = explicit";
   if (section == "stage") return "[[stage]], in the order of the run";
   if (section == "cell") return "[cell]";

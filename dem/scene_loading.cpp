@@ -181,6 +181,10 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
     section.fail_missing("max_strain_rate");
   loading.servo.gain = section.real("servo_gain");
   loading.servo.published_gain = section.optional_real("published_gain").value_or(0.0);
+  if (!scene.planes.empty() && (!loading.targets.empty() || !loading.strain_rate.isZero(0.0)))
+    section.fail("kind",
+                 "with [[wall]] a servo without rates and stresses, or a relax without "
+                 "mean_stress: these walls do not strain with the cell");
   const bool comes_to_rest = kind == "relax" || kind == "unload";
   loading.servo.integral = !comes_to_rest;
   if (!comes_to_rest || section.has("damping")) drive.damping = section.real("damping");

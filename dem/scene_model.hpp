@@ -93,6 +93,7 @@ struct Scene {
   int dimensions = 3;                        ///< 2 or 3
   std::array<bool, 3> walled{};              ///< along which edges the cell has walls
   std::optional<Vec3> cell_size;             ///< edges at the start, where the scene says so
+  std::vector<PlaneWall> planes = {};        ///< walls besides the faces, as they start
   Vec3 gravity = Vec3::Zero();               ///< length per time^2
   Rotation rotation = Rotation::full;        ///< which turns are followed
   Branch branch = Branch::follow;            ///< which gap of two bodies is a contact

@@ -99,6 +99,15 @@ void pass(Archive& archive, L& law) {
   pass_material(archive, law.hertz);
 }
 
+/// A held stress is the scene's, not the state's.
+template <class Archive, class W>
+requires std::is_same_v<std::remove_const_t<W>, PlaneWall>
+void pass(Archive& archive, W& wall) {
+  for (int k = 0; k < 3; ++k) archive(wall.normal[k]);
+  archive(wall.offset);
+  for (int k = 0; k < 3; ++k) archive(wall.velocity[k]);
+}
+
 template <class T>
 void pass(StateWriter& archive, const std::vector<T>& items) {
   archive(std::uint64_t{items.size()});
@@ -185,14 +194,16 @@ void pass_plain(Archive& archive, S& state) {
 
 /// Does a state have anything of pass_latest()?
 bool has_latest(const State& state) {
-  return state.laws.dissipate() || state.energy.viscous != 0.0;
+  return state.laws.dissipate() || state.energy.viscous != 0.0 || !state.cell.planes.empty();
 }
 
 /// What the format of kFormatVersion has behind that of kPlainVersion.
-template <class Archive, class S>
-void pass_latest(Archive& archive, S& state) {
+template <class Archive, class S, class R>
+void pass_latest(Archive& archive, S& state, R& reference) {
   for (auto& law : state.laws.law) archive(law.damping_ratio);
   archive(state.energy.viscous);
+  pass(archive, reference.planes);
+  pass(archive, state.cell.planes);
 }
 
 template <class Archive, class R>
@@ -218,7 +229,7 @@ void write(StateWriter& archive, const State& state) {
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
   pass_contacts(archive, state.contacts);
-  if (has_latest(state)) pass_latest(archive, state);
+  if (has_latest(state)) pass_latest(archive, state, state.list.reference());
 }
 
 void pass_contacts(StateReader& archive, ContactColumns& columns, std::size_t pairs) {
@@ -239,7 +250,7 @@ void read(StateReader& archive, Read& found, std::uint32_t version) {
   pass_reference(archive, found.reference);
   pass(archive, found.pairs);
   pass_contacts(archive, found.contacts, found.pairs.size());
-  if (version == kFormatVersion) pass_latest(archive, found.state);
+  if (version == kFormatVersion) pass_latest(archive, found.state, found.reference);
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
@@ -251,7 +262,7 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
       p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
       reference.orientation.size() != n || reference.semi_axes.size() != n ||
-      reference.skin.size() != n)
+      reference.skin.size() != n || reference.planes.size() != state.cell.planes.size())
     return false;
   std::vector<bool> seen(n);
   for (const std::int32_t id : p.id) {
@@ -262,7 +273,8 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   for (const Pair& pair : pairs) {
     if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.a) >= n) return false;
     const auto b = static_cast<std::size_t>(pair.b);
-    if (b >= n && (b >= n + 6 || !state.cell.walled[(b - n) / 2])) return false;
+    if (b >= n + kCellFaces + state.cell.planes.size()) return false;
+    if (b >= n && b < n + kCellFaces && !state.cell.walled[(b - n) / 2]) return false;
   }
   return true;
 }

@@ -419,7 +419,8 @@ TEST(GradeCommand, RefusesWhatItCannotGrade) {
   EXPECT_NE(
       refusal({"--answers", "/none/x.csv", "--corpus", "near"}).find("/none/x.csv: cannot be read"),
       std::string::npos);
-  EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"}).find("chord is not a definition"),
+  EXPECT_NE(refusal({"--tool", "true", "--definition", "chord"})
+                .find("--definition: chord not in {common-normal,perram-wertheim"),
             std::string::npos);
   for (const auto& [option, values, allowed] :
        std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
@@ -506,8 +507,9 @@ TEST(GradeCommand, NamesAMistypedSubcommandAndTheNearest) {
   const std::string end = " (`tangency-verify --help` says what is allowed)\n";
   EXPECT_EQ(run_tool({"garde", "--tool", "true"}).err,
             "tangency-verify: garde is no subcommand; the nearest is grade" + end);
-  EXPECT_EQ(run_tool({"fly"}).err,
-            "tangency-verify: fly is no subcommand; generate and grade are" + end);
+  EXPECT_EQ(
+      run_tool({"fly"}).err,
+      "tangency-verify: fly is no subcommand; generate, hunt, grade, show and inputs are" + end);
 }
 
 TEST(GenerateCommand, NamesEveryCorpusAndRefusesOthers) {

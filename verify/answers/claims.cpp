@@ -33,7 +33,8 @@ constexpr std::array<std::string_view, 3> kExtremeFamilies{"extreme", "extreme_s
 
 bool touches(const TruthRow& row) {
   return row.relation == Relation::external_touch || row.relation == Relation::internal_touch ||
-         (row.gap && *row.gap == TwoDoubles{});
+         (row.gap && *row.gap == TwoDoubles{}) || row.word == "grazing" ||
+         row.word == "touching_at_start";
 }
 
 bool is_nested(Relation relation) {
@@ -53,7 +54,8 @@ std::span<const Feature> features() { return kFeatures; }
 
 bool has_feature(std::string_view feature, std::string_view corpus, const TruthTable& truth,
                  const TruthRow& row) {
-  const double gap = row.gap ? row.gap->high / row.size : 0;
+  const double unit = truth.kind == CorpusKind::floats ? std::ldexp(row.size, 24) : row.size;
+  const double gap = row.gap ? row.gap->high / unit : 0;
   if (feature == "touching") return touches(row);
   if (feature == "near") return gap != 0 && std::abs(gap) <= kNear;
   if (feature == "nested") return is_nested(row.relation);

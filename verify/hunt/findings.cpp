@@ -23,17 +23,28 @@ std::string names_of(std::uint16_t set) {
   return text.empty() ? "plain" : text;
 }
 
-// Names, in the order of the search's archive, with fewest traits first.
-std::map<std::string, std::vector<std::pair<std::uint16_t, const Elite*>>> by_fault(
-    const Archive& archive) {
-  std::map<std::string, std::vector<std::pair<std::uint16_t, const Elite*>>> all;
-  for (const auto& [kind, elite] : archive) {
-    if (!kind.first.empty()) all[kind.first].emplace_back(kind.second, &elite);
+struct Places {
+  std::string fault;
+  std::size_t count;                                        // of its answers
+  std::vector<std::pair<std::uint16_t, const Elite*>> all;  // those with fewest traits first
+};
+
+// By kind of fault, the most frequent first.
+std::vector<Places> places_of(const Search& search) {
+  std::vector<Places> places;
+  for (const auto& [kind, elite] : search.archive()) {
+    const auto& [fault, set] = kind;
+    if (fault.empty()) continue;
+    if (places.empty() || places.back().fault != fault) {
+      places.push_back({fault, search.faults().at(fault).count, {}});
+    }
+    places.back().all.emplace_back(set, &elite);
   }
-  for (auto& [fault, places] : all) {
-    std::ranges::stable_sort(places, {}, [](const auto& one) { return std::popcount(one.first); });
+  for (Places& one : places) {
+    std::ranges::stable_sort(one.all, {}, [](const auto& at) { return std::popcount(at.first); });
   }
-  return all;
+  std::ranges::stable_sort(places, std::ranges::greater(), &Places::count);
+  return places;
 }
 
 std::string said_text(const Answer& answer) {
@@ -61,33 +72,41 @@ std::string family_name(std::string text) {
   return text;
 }
 
+// The `most` simplest of those of one kind that have traits of their own.
+std::vector<HuntFinding> of_a_kind(const Search& search, Subject& subject, const Places& places,
+                                   std::size_t most, std::size_t answers) {
+  // Chosen: a few more are made simple than are kept, since some stay as they are.
+  const std::size_t tried = std::min(places.all.size(), most + 1);
+  std::vector<HuntFinding> found;
+  for (std::size_t i = 0; i < tried; ++i) {
+    const auto& [set, elite] = places.all[i];
+    HuntFinding one{places.fault, elite->source, {}, elite->found, elite->pair, {}, true};
+    one.simple = shrunk(subject, search.judge(), elite->pair, places.fault, answers);
+    one.again = one.simple.verdict.fault == places.fault;
+    one.traits = names_of(one.again ? traits(one.simple.pair, one.simple.verdict.near) : set);
+    found.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(found, {},
+                           [](const HuntFinding& one) { return complexity(one.simple.pair); });
+  std::vector<HuntFinding> kept;
+  for (HuntFinding& one : found) {
+    const bool is_new = std::ranges::find(kept, one.traits, &HuntFinding::traits) == kept.end();
+    if (is_new && kept.size() < most) kept.push_back(std::move(one));
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<HuntFinding> findings(const Search& search, Subject& subject, std::size_t most,
                                   std::size_t answers) {
-  // Chosen: after so many pairs whose simple forms are known already, others will be too.
-  constexpr std::size_t kMostInVain = 4;
+  const std::vector<Places> places = places_of(search);
+  const std::size_t kinds = std::min(places.size(), most);
   std::vector<HuntFinding> all;
-  for (const auto& [fault, places] : by_fault(search.archive())) {
-    std::set<std::uint16_t> known;
-    std::size_t in_vain = 0;
-    for (const auto& [set, elite] : places) {
-      if (known.size() == most || in_vain == kMostInVain) break;
-      HuntFinding one{fault, elite->source, {}, elite->found, elite->pair, {}, true};
-      one.simple = shrunk(subject, search.judge(), elite->pair, fault, answers);
-      one.again = one.simple.verdict.fault == fault;
-      const auto now = one.again ? traits(one.simple.pair, one.simple.verdict.near) : set;
-      if (!known.insert(now).second) {
-        ++in_vain;
-        continue;
-      }
-      one.traits = names_of(now);
-      all.push_back(std::move(one));
-    }
-    const auto of_this = all.end() - static_cast<std::ptrdiff_t>(known.size());
-    std::stable_sort(of_this, all.end(), [](const HuntFinding& one, const HuntFinding& other) {
-      return complexity(one.simple.pair) < complexity(other.simple.pair);
-    });
+  for (std::size_t i = 0; i < kinds; ++i) {
+    const std::size_t each = std::clamp<std::size_t>(most / kinds, 1, 3);
+    std::ranges::move(of_a_kind(search, subject, places[i], each, answers),
+                      std::back_inserter(all));
   }
   return all;
 }

@@ -24,8 +24,9 @@ struct HuntFinding {
   bool again = true;  ///< asked again, the subject made the same fault
 };
 
-/// Of each kind of fault up to `most` pairs, the ones with the fewest traits first, of which each
-/// has, when it is simple, traits of its own. A fault that does not come again is one, unshrunk.
+/// Of the `most` most frequent kinds of fault one pair each, or up to three where the kinds are
+/// fewer: those with the fewest traits first, of which each has, when it is simple, traits of its
+/// own. A fault that does not come again is one, unshrunk.
 /// @param answers  to ask for at most, for one pair
 std::vector<HuntFinding> findings(const Search& search, Subject& subject, std::size_t most,
                                   std::size_t answers);

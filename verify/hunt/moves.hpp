@@ -27,7 +27,7 @@ struct Move {
   void (*change)(Draw& draw, EllipsoidPair& pair, const Nearness& near);
 };
 
-/// All of them, in an order that does not change within a version.
+/// All of them, in an order that does not change within a version; the first makes a near touch.
 std::span<const Move> moves();
 
 /// 10^from to 10^to, log-uniform, without a logarithm.

@@ -13,6 +13,10 @@ namespace {
 
 // Chosen: a slow tool is not kept for long, and a fast one is not started for a handful.
 constexpr std::size_t kFirst = 16, kLargest = 512;
+// Chosen: to begin a family may cost a thousand of its pairs, so that each is begun once in so many
+// generations, for so many pairs.
+constexpr std::size_t kEpoch = 256;
+constexpr int kDrawn = 100;
 constexpr const char* kFormat = "tangency-verify hunt 1";
 
 // SplitMix64: neighbouring seeds and generations have nothing in common.
@@ -21,6 +25,13 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
   z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
   return z ^ (z >> 31);
+}
+
+// FNV-1a: a family is known by its name, wherever it stands.
+std::uint64_t fnv(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
 }
 
 template <class Values>
@@ -69,13 +80,19 @@ Search::Search(Judge& judge, std::vector<Source> sources, std::uint64_t seed)
   assert(!sources_.empty());
 }
 
-Search::Candidate Search::fresh(Draw& draw) const {
+Search::Candidate Search::fresh(Draw& draw) {
   const Source& source = one_of(draw, sources_);
   const bool row = source.families.empty() || (!source.rows.empty() && draw.coin());
   if (row) return {one_of(draw, source.rows), source.name};
   const auto& family = one_of(draw, source.families);
-  const auto high = static_cast<std::uint64_t>(draw.integer(0, 0x7fffffff));
-  return {family.sequence(mixed(seed_, high))(), source.name};
+  Drawn& drawn = drawn_[&family];
+  const std::size_t epoch = generation_ / kEpoch;
+  if (!drawn.next || drawn.epoch != epoch) {
+    drawn = {epoch, family.sequence(mixed(seed_ + epoch, fnv(source.name + family.name))), {}};
+  }
+  const auto place = static_cast<std::size_t>(draw.integer(0, kDrawn - 1));
+  while (drawn.pairs.size() <= place) drawn.pairs.push_back(drawn.next());
+  return {drawn.pairs[place], source.name};
 }
 
 // One to three moves from one of the archive, wrong or right by chance.
@@ -89,10 +106,16 @@ Search::Candidate Search::moved(Draw& draw) const {
     one_of(draw, moves()).change(draw, next, elite.near);
     if (is_fair(next)) candidate.pair = next;
   }
+  // Half of them end near a touch, where a code has most to lose: the moves before have led away.
+  if (draw.coin()) {
+    EllipsoidPair next = candidate.pair;
+    moves().front().change(draw, next, nearness(gap_bracket(next.a, next.b)));
+    if (is_fair(next)) candidate.pair = next;
+  }
   return candidate;
 }
 
-std::vector<Search::Candidate> Search::generation() const {
+std::vector<Search::Candidate> Search::generation() {
   Draw draw(mixed(seed_, generation_));
   std::vector<Candidate> all(generation_ < 5 ? kFirst << generation_ : kLargest);
   for (Candidate& one : all) {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -67,9 +68,16 @@ class Search {
     std::string source;
   };
 
-  Candidate fresh(Draw& draw) const;
+  /// The first pairs of a family in this epoch; what is in it depends on nothing else.
+  struct Drawn {
+    std::size_t epoch = 0;
+    std::function<EllipsoidPair()> next;
+    std::vector<EllipsoidPair> pairs;
+  };
+
+  Candidate fresh(Draw& draw);
   Candidate moved(Draw& draw) const;
-  std::vector<Candidate> generation() const;
+  std::vector<Candidate> generation();
   void take(const Candidate& candidate, const Verdict& verdict);
   void refresh_picks();
 
@@ -77,6 +85,7 @@ class Search {
   std::vector<Source> sources_;
   std::uint64_t seed_;
   std::size_t generation_ = 0, answers_ = 0;
+  std::map<const InputFamily<EllipsoidPair>*, Drawn> drawn_;  // of sources_
   Archive archive_;
   std::vector<const Elite*> right_, wrong_;  // of the archive, for draws
   std::map<std::string, FaultCount> faults_;

@@ -7,8 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
 
@@ -27,13 +29,10 @@ constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
      {"midpoint-potential", Definition::midpoint_potential},
      {"centre-line", Definition::centre_line}}};
 
-std::string check_definition(const std::string& name) {
-  for (const auto& [known, definition] : kDefinitions) {
-    if (name == known) return {};
-  }
-  return name +
-         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
-         "are";
+std::vector<std::string> definition_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, definition] : kDefinitions) names.emplace_back(name);
+  return names;
 }
 
 }  // namespace
@@ -57,12 +56,11 @@ CorpusSource corpus_source(const std::string& folder) {
 
 void add_definition_option(tables::Command& command, std::string& name) {
   command
-      .option("--definition", name,
-              "What gap and normal mean: common-normal (default), perram-wertheim, "
-              "midpoint-potential or centre-line (how far B moves along the line of centres "
-              "until both touch; normals are not graded)")
-      .check(check_definition)
-      .type_name("D");
+      .option(
+          "--definition", name,
+          "What gap and normal mean (default: common-normal); centre-line: how far B moves along "
+          "the line of centres until both touch, and normals are not graded")
+      .one_of(definition_names());
 }
 
 void require_readable(const std::string& path) {

@@ -230,15 +230,15 @@ class Hunt {
 
   ExitStatus tell(const ToolSubject& searched) {
     // Chosen: a screen of findings; some seconds of most tools to make each of them simple.
-    constexpr std::size_t kMostOfAKind = 3, kMostAnswers = 8000;
+    constexpr std::size_t kMost = 12, kMostAnswers = 4000;
     std::atomic<bool> never = false;
     ToolSubject subject(options_.tool, options_.time_limit, never);
-    const std::vector<HuntFinding> found = findings(search_, subject, kMostOfAKind, kMostAnswers);
+    const std::vector<HuntFinding> found = findings(search_, subject, kMost, kMostAnswers);
     tables::OutputFile screen("-");
     for (std::size_t i = 0; i < found.size(); ++i) screen.write(finding_text(found[i], i + 1));
     for (const auto& [fault, count] : search_.faults()) {
-      screen.write(fault + ": " + std::to_string(count.count) + " answers, the first is answer " +
-                   std::to_string(count.first) + '\n');
+      screen.write("fault " + fault + ": " + std::to_string(count.count) +
+                   " answers, the first is answer " + std::to_string(count.first) + '\n');
     }
     if (!searched.last_trouble().empty()) screen.write(searched.last_trouble() + '\n');
     if (interrupted) screen.write("interrupted\n");

@@ -642,7 +642,7 @@ module tangency
       integer(c_int) :: code
     end function tangency_bodies_append
 
-    ! Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.
+    ! Other numbers, by axes, for the bodies from `first` on, as of bodies that move.
     !   bodies: as they were made
     !   first: from 0
     !   rows: the numbers of the first row, side by side
@@ -773,7 +773,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_overlaps
 
-    ! The same in bounded time: 2 where only integers would know.
+    ! The same in bounded time: 2 where only integers would know. Of bodies by matrices also
+    ! where their rounding to semi-axes leaves it open.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -816,7 +817,9 @@ module tangency
       integer(c_int) :: code
     end function tangency_relations
 
-    ! The gap by another definition, to tell a difference of definition from an error.
+    ! The gap by another definition, to tell a difference of definition from an error. Where a
+    ! body is by a matrix, gap_error is infinite: how far its rounding to semi-axes moves these
+    ! gaps is not bounded.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -862,7 +865,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_perram_wertheim_factors
 
-    ! First and second derivatives of the gap.
+    ! First and second derivatives of the gap. Of a body by a matrix those by its semi-axes are
+    ! NaN.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -964,9 +968,7 @@ module tangency
     !   separations: c_B - c_A in place of that of the centres, as for periodic images; NULL: of
     !   the centres (3 a row, unit: length)
     !   motions: of each body: velocity of the pivot, angular velocity in space (rad per time),
-    !   centre less pivot. Each of them, and what the first two cover within the horizon, is at
-    !   most 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a
-    !   row)
+    !   centre less pivot; finite (9 a row)
     !   horizon: finite, >= 0 (unit: time)
     !   tolerance: > 0 (unit: time)
     !   answers: each column count rows, or NULL: not asked for
@@ -1035,7 +1037,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_points
 
-    ! Contacts of bodies (A) and spheres (B).
+    ! Contacts of bodies (A) and spheres (B). Of bodies by matrices the sign is known where the
+    ! gap is beyond gap_error.
     !   bodies: as they were made
     !   balls: centre, and radius >= 0 (4 a row, unit: length)
     !   balls_count: how many balls
