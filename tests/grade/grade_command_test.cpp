@@ -507,8 +507,9 @@ TEST(GradeCommand, NamesAMistypedSubcommandAndTheNearest) {
   const std::string end = " (`tangency-verify --help` says what is allowed)\n";
   EXPECT_EQ(run_tool({"garde", "--tool", "true"}).err,
             "tangency-verify: garde is no subcommand; the nearest is grade" + end);
-  EXPECT_EQ(run_tool({"fly"}).err,
-            "tangency-verify: fly is no subcommand; generate and grade are" + end);
+  EXPECT_EQ(
+      run_tool({"fly"}).err,
+      "tangency-verify: fly is no subcommand; generate, hunt, grade, show and inputs are" + end);
 }
 
 TEST(GenerateCommand, NamesEveryCorpusAndRefusesOthers) {
