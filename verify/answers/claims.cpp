@@ -33,7 +33,8 @@ constexpr std::array<std::string_view, 3> kExtremeFamilies{"extreme", "extreme_s
 
 bool touches(const TruthRow& row) {
   return row.relation == Relation::external_touch || row.relation == Relation::internal_touch ||
-         (row.gap && *row.gap == TwoDoubles{});
+         (row.gap && *row.gap == TwoDoubles{}) || row.word == "grazing" ||
+         row.word == "touching_at_start";
 }
 
 bool is_nested(Relation relation) {

@@ -28,8 +28,12 @@
 ///             point, a line each: b is body j moved by the cell's lengths times (ix, iy, iz), and
 ///             i < j, or i = j and the image comes after 0 0 0. Empty of a body that is i of none
 ///
+/// Inputs of neighbours have the cell in every row, in columns cell.x cell.y cell.z; 0 is an open
+/// direction.
+///
 /// Identities: (1) the same bytes every time, on every machine with IEEE doubles; (2) the first k
-/// rows of a family do not depend on how many there are.
+/// rows of a family do not depend on how many there are, but for neighbours, whose truth is one of
+/// all rows.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +81,8 @@ constexpr std::optional<CorpusKind> kind_named(std::string_view word) {
 struct CorpusInfo {
   std::string_view name;
   CorpusKind kind;
-  std::string_view what;  ///< one line
+  std::string_view what;         ///< one line
+  std::array<double, 3> cell{};  ///< edges of a periodic one, of neighbours
 };
 
 std::span<const CorpusInfo> corpora();
@@ -90,7 +95,7 @@ inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 
 /// The committed rows, or with another seed than 0 others of the same families.
 /// @param rows  of every family; kWholeFamily: as many as the committed corpus has. A family of
-///              integers has no more than 300.
+///              integers has no more than 300. Of neighbours always as many as committed.
 /// Throws std::invalid_argument for a name that corpora() does not list.
 CorpusText generate(std::string_view name, std::size_t rows = kWholeFamily, std::uint64_t seed = 0);
 

@@ -6,7 +6,8 @@
 /// (judged_columns.hpp). Rows come in any order. What the table's header offers, and what is
 /// demanded, is asked of every row.
 ///
-///  (1) wrong: relation, crossings, type, result, status or yes/no differ from the truth.
+///  (1) wrong: relation, crossings, type, result, status or yes/no differ from the truth, or the
+///      sign of a point's gap does, unless that is 0.
 ///      `overlaps` 1 on an external touch is counted apart (`touches`) and never wrong; `contact`
 ///      for a time that grazes is right.
 ///  (2) missing: an answer that was asked for and is not there, or is no finite number or known
@@ -20,7 +21,8 @@
 ///  (6) t error, of rays: |t - truth| |direction| / L, of the worse of t1 and t2. time error: how
 ///      far `time` is from the true interval, in tolerances.
 ///  (7) broken bound: |gap - truth| > gap_error; on a `local` row: truth < gap - gap_error. A row
-///      without gap_error claims none. Of times: the bodies meet before `time`, or not by `latest`.
+///      without gap_error claims none. Of times: the bodies meet before `time`, or, of a contact,
+///      not by `latest`.
 ///  (8) Neighbours are a list, without `row`: of a pair (i, j, ix, iy, iz) that shares no point
 ///      body i is wrong, of one that is not listed it is missing; (j, i, -image) is the same pair.
 ///      Rows are bodies; both counts are of pairs.

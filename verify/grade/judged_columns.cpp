@@ -66,6 +66,15 @@ void judge_area(AnswerCells& cells, const FoundColumns& at, const TruthTable&,
     cells.verdict().error(ErrorKind::area) = std::abs(*area - row.area) / row.smaller_area;
 }
 
+// Of points: inside or outside is what the sign says. On the surface neither is wrong.
+void judge_side(AnswerCells& cells, const FoundColumns& at, const TruthTable&,
+                const TruthRow& row) {
+  double gap = 0;
+  if (tables::parse_number(cells.text(*at.judged[0]), gap)) return;  // missing, says judge_gap()
+  const double truth = row.gap->high;
+  if (truth != 0 && (gap > 0) != (truth > 0)) cells.wrong(*at.judged[0], tables::to_text(truth));
+}
+
 // Where the definition says nothing of the row nothing is asked.
 void judge_gap(AnswerCells& cells, const FoundColumns& at, const TruthTable&, const TruthRow& row) {
   if (!row.gap) return;
@@ -127,19 +136,21 @@ void judge_t(AnswerCells& cells, const FoundColumns& at, const TruthTable&, cons
   }
 }
 
-// The distance from the true interval. `latest` claims that the bodies have met by then, and not
-// before `time`.
+// The distance from the true interval. `latest` claims that the bodies have not met before `time`,
+// and of a contact that they have by then.
 void judge_time(AnswerCells& cells, const FoundColumns& at, const TruthTable&,
                 const TruthRow& row) {
   if (!row.times[0] || !row.times[1]) return;
   const auto time = cells.number(*at.judged[0]);
   if (!time) return;
   const double early = -excess(*time, *row.times[0]), late = excess(*time, *row.times[1]);
-  const double error = std::max({early, late, 0.0}) / row.size;
+  const double error = std::max({0.0, early, late}) / row.size;
   cells.verdict().error(ErrorKind::time) = error;
   if (!at.beside[0] || cells.text(*at.beside[0]).empty()) return;
   const auto latest = cells.number(*at.beside[0]);
-  if (!latest || !(late > 0 || excess(*latest, *row.times[0]) < 0)) return;
+  const bool claims_contact = !at.beside[1] || cells.text(*at.beside[1]) == "contact";
+  const bool too_soon = latest && claims_contact && excess(*latest, *row.times[0]) < 0;
+  if (!latest || !(late > 0 || too_soon)) return;
   cells.verdict().broken = true;
   cells.find(Problem::broken_bound, "latest", std::string(cells.text(*at.beside[0])),
              tables::to_text(row.times[0]->high) + " to " + tables::to_text(row.times[1]->high),
@@ -152,7 +163,7 @@ constexpr JudgedColumns kGap{Sort::gap, {"gap"}, {"gap_error", "status"}, judge_
 constexpr JudgedColumns kNormal{Sort::normal, {"nx", "ny", "nz"}, {}, judge_direction};
 
 constexpr std::array kOfPairs{kRelation, kOverlaps, kGap, kNormal};
-constexpr std::array kOfPoints{kGap, kNormal};
+constexpr std::array kOfPoints{JudgedColumns{Sort::word, {"gap"}, {}, judge_side}, kGap, kNormal};
 constexpr std::array kOfEllipses{kRelation,
                                  kOverlaps,
                                  JudgedColumns{Sort::word, {"crossings"}, {}, judge_crossings},
@@ -163,8 +174,9 @@ constexpr std::array kOfQuadrics{JudgedColumns{Sort::word, {"type"}, {}, judge_w
 constexpr std::array kOfRays{JudgedColumns{Sort::word, {"result"}, {}, judge_word},
                              JudgedColumns{Sort::number, {"t1"}, {}, judge_t<0>},
                              JudgedColumns{Sort::number, {"t2"}, {}, judge_t<1>}};
-constexpr std::array kOfTimes{JudgedColumns{Sort::word, {"status"}, {}, judge_status},
-                              JudgedColumns{Sort::number, {"time"}, {"latest"}, judge_time}};
+constexpr std::array kOfTimes{
+    JudgedColumns{Sort::word, {"status"}, {}, judge_status},
+    JudgedColumns{Sort::number, {"time"}, {"latest", "status"}, judge_time}};
 
 }  // namespace
 

@@ -15,6 +15,7 @@ namespace {
 
 struct Case {
   std::string name, failure_type{}, message{}, text{};  // no type: it has passed
+  bool is_skipped = false;                              // none of its rows was judged
 };
 
 struct Suite {
@@ -60,7 +61,10 @@ Suite suite_of(const CorpusReport& corpus) {
   if (corpus.run) suite.words = corpus.run->last_words;
   for (const FamilyReport& family : corpus.families) {
     Case one{family.name};
-    if (family.has_failed) {
+    if (family.rows() == 0) {
+      one.is_skipped = true;
+      one.message = summary(family);
+    } else if (family.has_failed) {
       one.failure_type =
           family.faults.empty() ? "failed" : to_string(family.faults.front().problem);
       one.message = summary(family);
@@ -88,6 +92,9 @@ Suite suite_of_the_rest(const GradeReport& report) {
 std::string xml(const Case& one, const std::string& suite) {
   std::string text = "    <testcase" + attribute("name", one.name) + attribute("classname", suite) +
                      attribute("time", seconds(0));
+  if (one.is_skipped) {
+    return text + "><skipped" + attribute("message", one.message) + "/></testcase>\n";
+  }
   if (one.failure_type.empty()) return text + "/>\n";
   return text + ">\n      <failure" + attribute("message", one.message) +
          attribute("type", one.failure_type) + ">" + escaped(one.text) +
@@ -97,11 +104,13 @@ std::string xml(const Case& one, const std::string& suite) {
 std::string xml(const Suite& suite, std::size_t id, const GradeReport& report) {
   const auto failures =
       std::ranges::count_if(suite.cases, [](const Case& one) { return !one.failure_type.empty(); });
+  const auto skipped = std::ranges::count_if(suite.cases, &Case::is_skipped);
   std::string text = "  <testsuite" + attribute("package", "tangency-verify") +
                      attribute("id", std::to_string(id)) + attribute("name", suite.name) +
                      attribute("timestamp", report.date) + attribute("hostname", "localhost") +
                      attribute("tests", std::to_string(suite.cases.size())) +
                      attribute("failures", std::to_string(failures)) + attribute("errors", "0") +
+                     attribute("skipped", std::to_string(skipped)) +
                      attribute("time", seconds(suite.seconds)) + ">\n    <properties>\n";
   for (const auto& [name, value] : report.facts) {
     text += "      <property" + attribute("name", name) + attribute("value", value) + "/>\n";

@@ -38,7 +38,8 @@ std::string as_json(const GradeReport& report);
 
 /// The same form with at most kMostSeries values, for a chart and an alert at a ratio: counts over
 /// all corpora, then wrong answers and the largest errors of every corpus, as many as fit. An error
-/// is in digits lost: log10(error / 1e-16), 0 where that is less, to two decimals.
+/// is in digits lost: log10(error / 1e-16), 0 where that is less, to two decimals; of floats and of
+/// times log10(error), whose units are 2^-24 and a tolerance.
 std::string as_json_summary(const GradeReport& report);
 inline constexpr std::size_t kMostSeries = 40;
 

@@ -51,9 +51,14 @@ void add_family(const std::string& corpus, const FamilyReport& family,
   }
 }
 
-// What rounding alone costs loses none.
-double digits_lost(double error) {
-  const double digits = std::log10(std::min(error, std::numeric_limits<double>::max())) + 16;
+// An error that loses no digit, in its unit: what rounding alone costs, or what is tolerated.
+double harmless_error(std::string_view unit) {
+  return unit.starts_with("2^-24") || unit == "tolerance" ? 1 : 1e-16;
+}
+
+double digits_lost(const Errors& errors) {
+  const double largest = std::min(errors.summary.largest, std::numeric_limits<double>::max());
+  const double digits = std::log10(largest) - std::log10(harmless_error(errors.unit));
   return std::round(100 * std::max(digits, 0.0)) / 100;
 }
 
@@ -83,7 +88,7 @@ std::vector<Json> series_of_errors(const GradeReport& report, const std::string&
       if (errors.title != title || errors.summary.count == 0) continue;
       series.push_back({{"name", corpus.name + '/' + errors.name},
                         {"unit", "digits lost"},
-                        {"value", digits_lost(errors.summary.largest)}});
+                        {"value", digits_lost(errors)}});
     }
   }
   return series;
@@ -133,7 +138,7 @@ std::string as_json_summary(const GradeReport& report) {
     if (errors.summary.count == 0) continue;
     series.push_back({{"name", "all/" + std::string(errors.name)},
                       {"unit", "digits lost"},
-                      {"value", digits_lost(errors.summary.largest)}});
+                      {"value", digits_lost(errors)}});
   }
   const auto add_if_it_fits = [&](const std::vector<Json>& more) {
     if (series.size() + more.size() > kMostSeries) return;

@@ -76,7 +76,7 @@ std::string family_name(std::string text) {
 std::vector<HuntFinding> of_a_kind(const Search& search, Subject& subject, const Places& places,
                                    std::size_t most, std::size_t answers) {
   // Chosen: a few more are made simple than are kept, since some stay as they are.
-  const std::size_t tried = std::min(places.all.size(), most + 3);
+  const std::size_t tried = std::min(places.all.size(), most + 1);
   std::vector<HuntFinding> found;
   for (std::size_t i = 0; i < tried; ++i) {
     const auto& [set, elite] = places.all[i];

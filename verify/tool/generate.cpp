@@ -27,11 +27,9 @@ Example:
 std::string list() {
   std::string text;
   for (const CorpusInfo& corpus : corpora()) {
-    const char* kind = corpus.kind == CorpusKind::pairs      ? "pairs     "
-                       : corpus.kind == CorpusKind::ellipses ? "ellipses  "
-                                                             : "quadrics  ";
-    std::string name(corpus.name);
-    name.resize(11, ' ');
+    std::string kind(verify::name(corpus.kind)), name(corpus.name);
+    kind.resize(12, ' ');
+    name.resize(21, ' ');
     text += name + kind + std::string(corpus.what) + '\n';
   }
   return text;

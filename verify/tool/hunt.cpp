@@ -230,7 +230,7 @@ class Hunt {
 
   ExitStatus tell(const ToolSubject& searched) {
     // Chosen: a screen of findings; some seconds of most tools to make each of them simple.
-    constexpr std::size_t kMost = 12, kMostAnswers = 8000;
+    constexpr std::size_t kMost = 12, kMostAnswers = 4000;
     std::atomic<bool> never = false;
     ToolSubject subject(options_.tool, options_.time_limit, never);
     const std::vector<HuntFinding> found = findings(search_, subject, kMost, kMostAnswers);

@@ -73,6 +73,13 @@ const tangency_bodies& required(const tangency_bodies* bodies) {
   return *bodies;
 }
 
+const tangency_bodies& by_axes(const tangency_bodies* bodies) {
+  if (required(bodies).by_matrices()) {
+    refuse("bodies", "must be by axes for this question, not by matrices");
+  }
+  return *bodies;
+}
+
 Pairs::Pairs(const tangency_bodies& bodies, const unsigned* pairs, std::size_t count,
              const double* separations) {
   if (pairs == nullptr) require_half(count, bodies.size(), "bodies");
@@ -96,12 +103,6 @@ Pairs::Pairs(std::size_t bodies, std::size_t others, const char* what, const uns
   require_indices(list_, {bodies, "bodies"}, {others, what});
 }
 
-Vec3 Pairs::separation(const tangency_bodies& bodies, std::size_t k) const noexcept {
-  if (separated()) return separations_[k];
-  const auto [a, b] = list_[k];
-  return bodies.matrix(b).ellipsoid().centre() - bodies.matrix(a).ellipsoid().centre();
-}
-
 void Pairs::take(const unsigned* pairs, std::size_t count, std::size_t first_b) {
   if (pairs != nullptr) {
     list_ = {reinterpret_cast<const IndexedPair*>(pairs), count};
@@ -117,10 +118,10 @@ Accuracy accuracy_of(const tangency_accuracy* accuracy) {
   const tangency_accuracy given = known(accuracy, "accuracy");
   if (!(given.of_size >= 0.0)) refuse_value("accuracy.of_size", given.of_size, "must be >= 0");
   if (!(given.length >= 0.0)) refuse_value("accuracy.length", given.length, "must be >= 0");
-  const Accuracy accuracy{given.of_size, given.length, given.normals != 0};
-  if (given.has_cutoff == 0) return accuracy;
+  const Accuracy every_pair{given.of_size, given.length, given.normals != 0};
+  if (given.has_cutoff == 0) return every_pair;
   if (!(given.cutoff >= 0.0)) refuse_value("accuracy.cutoff", given.cutoff, "must be >= 0");
-  return accuracy.up_to(given.cutoff);
+  return every_pair.up_to(given.cutoff);
 }
 
 GapColumns gap_columns(const tangency_contact_columns& columns, std::size_t count) {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tangency-verify hunt` on tools with one fault: it is found, made simple, and written down.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <tangency/tests/grade/report.hpp>
+
+namespace tangency::testing {
+namespace {
+
+std::string faulty(const std::string& fault) { return TANGENCY_FAULTY_TOOL " " + fault; }
+
+Finished hunt(const std::string& tool, std::vector<std::string> more) {
+  more.insert(more.begin(), {"hunt", "--tool", tool, "--seed", "20261201"});
+  return run_tool(more);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(HuntCommand, FindsNothingInTheKernel) {
+  const Finished run = hunt(kKernel, {"--answers", "250"});
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_EQ(run.out, "passed: 250 answers: no fault found\n");
+}
+
+// Gaps of 1e-9 are as good as none in every corpus but `near`.
+TEST(HuntCommand, WritesWhatItFindsAsACorpusThatTheToolFails) {
+  const TemporaryFolder folder;
+  const std::string tool = faulty("tolerance");
+  const Finished run =
+      hunt(tool, {"--from", "classes", "--answers", "300", "--out", folder.path("")});
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "overlaps 1 where separate")) << run.out;
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"hunt.csv", "hunt.truth.csv"}));
+  const Report of_tool = grade({"--tool", tool, "--corpora", folder.path(""), "--corpus", "hunt"});
+  EXPECT_EQ(of_tool.run.status, 1);
+  EXPECT_EQ(of_tool.value("hunt/all/wrong relations"), of_tool.value("hunt/all/pairs"));
+  const Report of_kernel =
+      grade({"--tool", kKernel, "--corpora", folder.path(""), "--corpus", "hunt"});
+  EXPECT_EQ(of_kernel.run.status, 0) << of_kernel.run.out;
+}
+
+TEST(HuntCommand, GoesOnFromItsStateAsIfThereHadBeenNoBreak) {
+  const TemporaryFolder folder;
+  const std::string tool = faulty("equal-axes"), state = folder.path("state.json");
+  const Finished whole = hunt(tool, {"--from", "symmetric", "--answers", "60"});
+  hunt(tool, {"--from", "symmetric", "--answers", "30", "--state", state});
+  const Finished resumed = hunt(tool, {"--from", "symmetric", "--answers", "60", "--state", state});
+  EXPECT_EQ(whole.status, 1) << whole.out;
+  EXPECT_EQ(resumed.out, whole.out);
+  const Finished other = hunt(tool, {"--from", "deep", "--answers", "60", "--state", state});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(has(other.err, "state.json: this is the state of another hunt: ")) << other.err;
+  EXPECT_TRUE(has(other.err, "--from symmetric")) << other.err;
+}
+
+TEST(HuntCommand, FindsBoundsThatAreClaimedTooSmall) {
+  const Finished run =
+      hunt(faulty("bound"), {"--goal", "certificate", "--from", "extreme", "--answers", "200"});
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_TRUE(has(run.out, "fault bound broken: ")) << run.out;
+}
+
+TEST(HuntCommand, APairThatEndsTheToolIsFoundAmongOthers) {
+  const Finished run = hunt(faulty("far"), {"--from", "extreme", "--answers", "30"});
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_TRUE(has(run.out, "finding 1: no answer (")) << run.out;
+  EXPECT_TRUE(has(run.out, "the tool was ended by signal 9")) << run.out;
+  EXPECT_TRUE(has(run.out, "1 kinds of faults")) << run.out;
+}
+
+TEST(HuntCommand, AnInterruptEndsTheSearchAndShowsWhatWasFound) {
+  const TemporaryFolder folder;
+  const std::string count = folder.path("count"), hang = make_pipe(folder.path("hang"));
+  make_pipe(folder.path("here"));
+  // The third batch stands still once it has told of itself.
+  const std::string tool = "n=$(cat " + count + " 2> /dev/null || echo 0); echo $((n + 1)) > " +
+                           count + "; " + faulty("equal-axes") +
+                           "; if [ $n = 2 ]; then echo here > " + folder.path("here") + "; cat " +
+                           hang + "; fi";
+  Process process({"hunt", "--tool", tool, "--from", "symmetric", "--seed", "20261201"});
+  const int here = process.meet_at(folder.path("here"), O_RDONLY);
+  EXPECT_EQ(read_to_end(here), "here\n");
+  process.send(SIGINT);
+  const Finished run = process.wait();
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "\ninterrupted\nFAILED: 48 answers: ")) << run.out;
+}
+
+TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
+  const Finished no_column = hunt(faulty("tolerance"), {"--goal", "normal", "--answers", "16"});
+  EXPECT_EQ(no_column.status, 2);
+  EXPECT_TRUE(has(no_column.err, "--tool: its answers have no column nx, ny, nz")) << no_column.err;
+  EXPECT_EQ(hunt(kKernel, {"--goal", "speed"}).status, 2);
+  EXPECT_EQ(hunt(kKernel, {"--from", "ellipses"}).status, 2);
+  const TemporaryFolder folder;
+  const Finished rubbish = hunt(kKernel, {"--state", folder.write("state.json", "[1]")});
+  EXPECT_EQ(rubbish.status, 2);
+  EXPECT_TRUE(has(rubbish.err, "state.json: this is no state of a hunt")) << rubbish.err;
+}
+
+}  // namespace
+}  // namespace tangency::testing
