@@ -8,13 +8,17 @@
 // cold on the 100,000 bodies of 50,000 pairs, bodies and pairs in random order, and "two_threads"
 // the same with half of the list for each of two; "plain" is two arrays of ellipsoids and whole
 // answers. "following_moving" is following of bodies by columns; the two refreshes, per body, are
-// what a simulator does after each step to have that, and to have "following".
+// what a simulator does after each step to have that, and to have "following". "listed" is cold on
+// pairs as a neighbour list has them, whose gaps are spread up to the smallest semi-axis; with
+// "up_to" no answer is wanted beyond an eighth of that, and "far_up_to" is of pairs that are all
+// beyond.
 #include <hwy/targets.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <random>
@@ -185,6 +189,64 @@ void add_family(const Pairs& p, std::int64_t level) {
   add_plain(p, "plain" + end, level);
 }
 
+/// Contacts of a class, B moved away along the normal: by `least` to `least` + 1 of the smallest
+/// semi-axis.
+std::unique_ptr<Pairs> moved_apart(const tangency::verify::ContactFamily& kind, double least) {
+  const auto contacts = contacts_of(kind, kInCache);
+  auto pairs = std::make_unique<Pairs>();
+  pairs->name = contacts->name;
+  std::mt19937_64 random(kSeed);
+  for (std::size_t i = 0; i < contacts->size(); ++i) {
+    const Ellipsoid &a = contacts->a(i), &b = contacts->b(i);
+    const double part = static_cast<double>(random() >> 11) * 0x1p-53;
+    const double way = (least + part) * contacts->smallest[i];
+    pairs->add(a, b.moved_to(b.centre() + way * signed_gap(a, b).normal));
+    pairs->truth.push_back(contacts->truth[i]);
+    pairs->truth.back().gap.high += way;
+  }
+  pairs->array.emplace(pairs->bodies);
+  return pairs;
+}
+
+/// What is said of pairs beyond a cutoff, held against the truth; the others against all answers.
+void require_cutoff(const Pairs& pairs, const Columns& limited, const Columns& all, double cutoff) {
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double truth = pairs.truth[i].gap.high;
+    if (limited.status[i] == tangency::GapStatus::beyond) {
+      ++beyond;
+      if (limited.gap[i] > cutoff && limited.gap[i] < truth * (1 + 1e-12)) continue;
+    } else if (limited.gap[i] == all.gap[i] && truth < cutoff * (1 + 1e-12)) {
+      continue;
+    }
+    std::fprintf(stderr, "up_to: pair %zu is wrong: no timing\n", i);
+    std::exit(1);
+  }
+  std::printf("%-28s beyond %zu of %zu\n", pairs.name.c_str(), beyond, pairs.size());
+}
+
+void add_listed(const Pairs& p, const std::string& name, std::int64_t level) {
+  const std::string end = "/" + p.name + "/" + hwy::TargetName(level);
+  const auto columns = std::make_shared<Columns>(p.size());
+  const double cutoff = 0.125 * p.smallest[0];
+  const auto ask = [&p, columns](tangency::Accuracy accuracy) {
+    signed_gaps(*p.array, {p.list, {}}, columns->usual(p.size()), accuracy);
+  };
+  const auto follow = [&p, columns, cutoff] {
+    follow_gaps(*p.array, {p.list, {}}, p.previous_normal, columns->usual(p.size()),
+                tangency::Accuracy::standard().up_to(cutoff));
+  };
+  const auto up_to = [ask, cutoff] { ask(tangency::Accuracy::standard().up_to(cutoff)); };
+  add_checked(name + end, level, p, *columns, [ask] { ask(tangency::Accuracy::standard()); });
+  const Columns all = *columns;
+  force_level(level);
+  up_to();
+  force_level(0);
+  require_cutoff(p, *columns, all, cutoff);
+  add(name + "_up_to" + end, level, p.size(), up_to);
+  add(name + "_following_up_to" + end, level, p.size(), follow);
+}
+
 void add_scattered(const Pairs& large, std::int64_t level) {
   const std::string end = std::string("/class1/") + hwy::TargetName(level);
   const auto columns = std::make_shared<Columns>(large.size());
@@ -205,11 +267,15 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Pairs>> families;
   for (const auto& kind : tangency::verify::contact_classes())
     families.push_back(contacts_of(kind, kInCache));
+  const auto listed = moved_apart(tangency::verify::contact_classes()[0], 0.0);
+  const auto far = moved_apart(tangency::verify::contact_classes()[0], 0.25);
   const auto large = contacts_of(tangency::verify::contact_classes()[0], 50000);
   scatter(*large);
   add_inverse();
   for (const std::int64_t level : hwy::SupportedAndGeneratedTargets()) {
     for (const auto& family : families) add_family(*family, level);
+    add_listed(*listed, "listed", level);
+    add_listed(*far, "far", level);
     add_scattered(*large, level);
   }
   RatioReporter reporter;

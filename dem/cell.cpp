@@ -59,9 +59,39 @@ bool shorten(std::vector<Period>& basis) {
 
 }  // namespace
 
+Mat3 Reset::edges(const Mat3& before) const {
+  Mat3 now = before;
+  now.col(1) -= xy * now.col(0);
+  now.col(2) -= yz * now.col(1);
+  now.col(2) -= xz * now.col(0);
+  return now;
+}
+
+Image Reset::image(const Image& before) const {
+  return {before[0] + xy * before[1] + xz * before[2], before[1] + yz * before[2], before[2]};
+}
+
+Vec3 Reset::reduced(const Vec3& before) const {
+  return {before[0] + xy * before[1] + xz * before[2], before[1] + yz * before[2], before[2]};
+}
+
+Reset Cell::reset() const {
+  if (is_box() || edges(1, 0) != 0.0 || edges(2, 0) != 0.0 || edges(2, 1) != 0.0) return {};
+  // Beyond a half by more than rounding, lest two descriptions take turns.
+  const auto off = [](double along, double edge) {
+    constexpr double half = 0.5 + 0x1p-40;
+    return std::abs(along) > half * edge ? static_cast<std::int32_t>(std::round(along / edge)) : 0;
+  };
+  Reset reset;
+  reset.xy = off(edges(0, 1), edges(0, 0));
+  reset.yz = off(edges(1, 2), edges(1, 1));
+  reset.xz = off(edges(0, 2) - reset.yz * reset.edges(edges)(0, 1), edges(0, 0));
+  return reset;
+}
+
 Cell Cell::box(const Vec3& lengths, int dimensions, std::array<bool, 3> walled) {
   const Mat3 edges = lengths.asDiagonal();
-  return {edges, Mat3::Zero(), edges, dimensions, walled};
+  return {edges, Mat3::Zero(), edges, dimensions, walled, {}};
 }
 
 double Cell::volume() const {

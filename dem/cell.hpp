@@ -13,13 +13,29 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include <tangency/dem/plane_wall.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::dem {
 
 /// Which periodic image of a particle: how many edges it is moved by along each axis.
 using Image = std::array<std::int32_t, 3>;
+
+/// Another description of a cell's lattice: the edge along y less xy of that along x, and the edge
+/// along z less yz of the new one along y and xz of that along x.
+struct Reset {
+  std::int32_t xy = 0, yz = 0, xz = 0;  ///< in whole edges
+
+  /// Is it the same description?
+  bool is_none() const { return xy == 0 && yz == 0 && xz == 0; }
+  /// Edges as they are described now.
+  Mat3 edges(const Mat3& before) const;
+  /// The same image, and the same place in parts of the edges.
+  Image image(const Image& before) const;
+  Vec3 reduced(const Vec3& before) const;  ///< alike
+};
 
 /// A parallelepiped, periodic or walled along each of its edges.
 struct Cell {
@@ -28,6 +44,7 @@ struct Cell {
   Mat3 reference_edges = Mat3::Identity();  ///< where strain is measured from
   int dimensions = 3;                       ///< 2 or 3: the axes that strain
   std::array<bool, 3> walled{};             ///< axes that end at walls instead of images
+  std::vector<PlaneWall> planes = {};       ///< walls besides these faces, in front of which it is
 
   /// A box at rest.
   static Cell box(const Vec3& lengths, int dimensions = 3, std::array<bool, 3> walled = {});
@@ -62,6 +79,11 @@ struct Cell {
 
   /// Logarithmic (Hencky) strain from the reference, ln(F F') / 2, extension positive.
   Mat3 logarithmic_strain() const;
+
+  /// What makes the edges of a cell in simple shear the least skewed ones: where one is off its
+  /// axis by more than half of another. The lattice stays. None of a cell whose edges along x and y
+  /// are not along x and in the plane of x and y, as a shear_rate makes them.
+  Reset reset() const;
 
   /// The smallest stretch of any line since the edges were `before`: at most 1 where one shrank.
   double least_stretch_since(const Mat3& before) const;

@@ -54,7 +54,7 @@ struct PackTurn {
 /// What the pairs of a pack give to the sums of their block.
 struct PackSums {
   PackVec3 column[3];  ///< of force times branch', column by column
-  Pack affine, sliding, boundary, branch;
+  Pack affine, sliding, boundary, branch, viscous;
 };
 
 /// Sums over a block. Pair k is added to place k modulo kPlaces of each, and the places at the end
@@ -66,6 +66,7 @@ class BlockSum {
       for (double& place : number) place = 0.0;
   }
 
+  template <bool damped>
   HWY_INLINE void add(const PackSums& pack, std::size_t i) {
     double* to = &sums_[0][i % kPlaces];
     const auto add_one = [&](const Pack& p) HWY_ATTR {
@@ -81,6 +82,7 @@ class BlockSum {
     add_one(pack.sliding);
     add_one(pack.boundary);
     add_one(pack.branch);
+    if constexpr (damped) add_one(pack.viscous);
   }
 
   HWY_INLINE void write(dem::BlockSums& to) const {
@@ -92,7 +94,7 @@ class BlockSum {
   }
 
  private:
-  static constexpr std::size_t kPlaces = 8, kNumbers = 13;
+  static constexpr std::size_t kPlaces = 8, kNumbers = 14;
   static_assert(sizeof(dem::BlockSums) == kNumbers * sizeof(double));
   HWY_ALIGN double sums_[kNumbers][kPlaces];
 };
@@ -223,8 +225,38 @@ HWY_INLINE Pack gained_by_curvature(const Pack& overlap_before, const Pack& ener
   return all(0.5) * (((energy - energy_before * power) + energy / power) - energy_before);
 }
 
+/// The part of a linear push, 1 of a Hertz one 2/3, that stiffness times overlap is.
+template <bool hertz>
+constexpr double kElasticShare = hertz ? 2.0 / 3.0 : 1.0;
+
+/// The push of a damped approach, >= 0. Velocities are those of half a step ago: what the push
+/// itself changes of them until now is in the denominator.
+/// @param elastic  push of the overlap
+/// @param approached  growth of the overlap during the step, by the velocities
+template <bool hertz>
+HWY_INLINE Pack damped_push(const ContactBlock& block, std::size_t i, const Pack& elastic,
+                            const Pack& stiffness, const Pack& overlap, const PackMask& touched,
+                            const Pack& approached) {
+  const Pack zero = all(0.0), one = all(1.0), half = all(0.5);
+  // Of a contact that begins: the step around now, from half a step ago on, of which the contact
+  // has been there for `since`. Else the damper, which sets in at once, acts too short or too long.
+  constexpr double least = 0x1p-20;  // chosen: then the overlap is as good as none
+  const PackMask comes = approached > zero;
+  const Pack ratio = overlap / chosen(comes, approached, one);
+  const Pack since = chosen(ratio < one, larger(ratio, all(least)), one);
+  const Pack until = since + half;
+  Pack share = until;
+  if constexpr (hertz) share = all(0.8) * until * root(root(until / since));
+  const Pack damped = load(block.dashpots->viscosity + i) * root(stiffness);
+  const Pack viscosity = damped * chosen(touched, one, chosen(comes, share, one));
+  const double over_dt = block.dt > 0.0 ? 1.0 / block.dt : 0.0;
+  const Pack lag = all(0.5 * block.dt) * viscosity * load(block.dashpots->inverse_mass + i);
+  const Pack push = multiply_add(viscosity, approached * all(over_dt), elastic) / (one + lag);
+  return larger(push, zero);
+}
+
 /// One step of the pairs from i on.
-template <bool hertz, bool shear>
+template <bool hertz, bool shear, bool damped>
 HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_sum) {
   const ContactState& state = block.state;
   const Pack zero = all(0.0), half = all(0.5), gap = load(block.gap + i);
@@ -271,6 +303,16 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
     now.normal_force = now.stiffness * overlap;
     normal_energy = half * now.normal_force * overlap;
   }
+  Pack viscous = zero;
+  if constexpr (damped) {
+    const Pack elastic = now.normal_force;
+    now.normal_force = only(touches, damped_push<hertz>(block, i, elastic, now.stiffness, overlap,
+                                                        touched, -dot(moved, normal)));
+    const Pack elastic_before =
+        all(kElasticShare<hertz>) * load(state.normal_stiffness + i) * overlap_before;
+    const Pack along = (load(state.normal_force + i) - elastic_before) * dot(moved, normal_before);
+    viscous = -half * multiply_add(now.normal_force - elastic, dot(moved, normal), along);
+  }
   const Pack normal_energy_before = load(state.normal_energy + i);
   PackVec3 force_before = normal_before * load(state.normal_force + i);
   Pack energy = normal_energy, energy_before = normal_energy_before;
@@ -305,7 +347,8 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
   sums.boundary = -dot(mean_force, strained);
   const PackMask both = touches & touched;
   const PackMask elsewhere = both & (dot(normal_before, normal) < all(kSameBranchCosine));
-  const Pack gained = ((energy - energy_before) + sliding) + dot(mean_force, moved);
+  Pack gained = ((energy - energy_before) + sliding) + dot(mean_force, moved);
+  if constexpr (damped) gained = gained + viscous;
   Pack branch_work = only(elsewhere, gained);
   if constexpr (hertz) {
     branch_work = branch_work + only(without(both, elsewhere),
@@ -313,7 +356,8 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
                                                          overlap, normal_energy));
   }
   sums.branch = branch_work;
-  block_sum.add(sums, i);
+  sums.viscous = viscous;
+  block_sum.add<damped>(sums, i);
 
   store(normal, state.normal + 3 * i);
   store(branch, state.branch + 3 * i);
@@ -324,15 +368,18 @@ HWY_INLINE void step(const ContactBlock& block, std::size_t i, BlockSum& block_s
   store(normal_energy, state.normal_energy + i);
 }
 
-template <bool hertz, bool shear>
+template <bool hertz, bool shear, bool damped = false>
 HWY_INLINE void steps(const ContactBlock& block) {
   BlockSum sum;
-  for (std::size_t i = 0; i < block.count; i += pack_lanes()) step<hertz, shear>(block, i, sum);
+  for (std::size_t i = 0; i < block.count; i += pack_lanes())
+    step<hertz, shear, damped>(block, i, sum);
   sum.write(*block.sums);
 }
 
 HWY_ATTR void contact_lanes(const ContactBlock& block) {
-  if (block.hertz == nullptr)
+  if (block.dashpots != nullptr)
+    block.hertz == nullptr ? steps<false, true, true>(block) : steps<true, true, true>(block);
+  else if (block.hertz == nullptr)
     block.bears_shear ? steps<false, true>(block) : steps<false, false>(block);
   else
     block.bears_shear ? steps<true, true>(block) : steps<true, false>(block);
@@ -343,13 +390,13 @@ HWY_ATTR void restored_lanes(const ContactBlock& block) {
   BlockSum sum;
   for (std::size_t i = 0; i < block.count; i += pack_lanes()) {
     PackSums sums;
-    sums.sliding = sums.boundary = sums.branch = all(0.0);
+    sums.sliding = sums.boundary = sums.branch = sums.viscous = all(0.0);
     const PackContact contact{
         load_vectors(state.normal + 3 * i), load_vectors(state.branch + 3 * i),
         load_vectors(state.arm + 3 * i),    load_vectors(state.shear_force + 3 * i),
         load(state.normal_force + i),       load(state.normal_stiffness + i)};
     add_up(contact, force_of(contact), block, i, sums);
-    sum.add(sums, i);
+    sum.add<false>(sums, i);
   }
   sum.write(*block.sums);
 }

@@ -50,11 +50,17 @@ struct HertzColumns {
   const double* direction;  ///< x y z of each
 };
 
+/// How the approach of each pair is damped (contact_law.hpp); of pairs that do not touch finite.
+struct DashpotColumns {
+  const double* viscosity;     ///< damping force over approach and root of stiffness, >= 0
+  const double* inverse_mass;  ///< of the pair along its normal, >= 0
+};
+
 /// Sums over the contacts of a block, as the lanes write them (ContactSums, ContactWork).
 struct BlockSums {
-  double force_branch[9];            ///< column after column
-  double affine_stiffness;           ///< as ContactSums has it
-  double sliding, boundary, branch;  ///< energies, as ContactWork has them
+  double force_branch[9];                     ///< column after column
+  double affine_stiffness;                    ///< as ContactSums has it
+  double sliding, boundary, branch, viscous;  ///< energies, as ContactWork has them
 };
 
 /// Up to kPairs pairs. Every array has kPairs entries; those from `count` on are pairs of any
@@ -73,10 +79,11 @@ struct ContactBlock {
   /// of each pair, as Gap has them
   const double *gap, *normal, *branch, *arm;
 
-  LawColumns law;             ///< of each pair
-  const HertzColumns* hertz;  ///< null: the linear law
-  bool bears_shear;           ///< may any pair have a shear force, before or after?
-  ContactState state;         ///< from the last step's to this one's
+  LawColumns law;                  ///< of each pair
+  const HertzColumns* hertz;       ///< null: the linear law
+  const DashpotColumns* dashpots;  ///< null: nothing is damped
+  bool bears_shear;                ///< may any pair have a shear force, before or after?
+  ContactState state;              ///< from the last step's to this one's
 
   // Results for the bodies: the force of a on b and the moments of it on a and on b.
   double *force, *moment_a, *moment_b;  ///< x y z of each pair

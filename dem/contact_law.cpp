@@ -1,7 +1,55 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/contact_law.hpp>
 
+#include <cmath>
+#include <numbers>
+
+#include <tangency/dem/elementary.hpp>
+
 namespace tangency::inline v0::dem {
+namespace {
+
+/// Steps of a bisection after which its bounds are neighbours: 53 and those of the first exponent.
+constexpr int kBisections = 60;
+
+/// The place in [low, high] where a function that grows reaches `wanted`.
+template <class F>
+double bisected(double low, double high, double wanted, const F& f) {
+  for (int step = 0; step < kBisections; ++step) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < wanted ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+double damping_ratio_of(double restitution) {
+  if (!(restitution < 1.0)) return 0.0;
+  // -ln e is 2 t / tan t with zeta = cos t, from 0 at a right angle to 2 at 0; beyond it goes on as
+  // 2 h / tanh h with zeta = cosh h, here by w = exp h.
+  const double lost = -logarithm(restitution);
+  if (lost < 2.0) {
+    const double right = 0.5 * std::numbers::pi;
+    const double t = bisected(0.0, right, lost, [&](double complement) {
+      const CosineSine of = cosine_sine(right - complement);
+      return 2.0 * (right - complement) * of.cosine / of.sine;
+    });
+    return cosine_sine(right - t).cosine;
+  }
+  constexpr double largest = 16.0;  // -ln e is 5.6 there
+  const double w = bisected(1.0, largest, lost, [](double x) {
+    return 2.0 * logarithm(x) * (x * x + 1.0) / (x * x - 1.0);
+  });
+  return 0.5 * (w + 1.0 / w);
+}
+
+double ContactLaw::restitution() const {
+  const double z = damping_ratio;
+  if (z == 1.0) return std::exp(-2.0);
+  const double root = std::sqrt(std::abs((1.0 - z) * (1.0 + z)));
+  return std::exp(-2.0 * z * (z < 1.0 ? std::acos(z) : std::acosh(z)) / root);
+}
 
 NormalResponse ContactLaw::hertz_response(double overlap,
                                           const PrincipalCurvatures& relative) const {

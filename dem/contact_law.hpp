@@ -16,6 +16,15 @@
 /// (3) Without displacement, limit and change of stiffness its length is that of the old force.
 /// (4) The work done on the contact, -(old turned + new force)/2 . displacement, is the energy
 ///     stored plus what is lost to sliding.
+///
+/// A law may damp the approach: to the push of the overlap it adds 2 zeta sqrt(m S) times the rate
+/// at which the overlap grows, S the stiffness d force / d overlap, m the mass that the two bodies
+/// together show to an impulse along the normal at the contact, turns included; of a Hertz contact
+/// sqrt(5/6) of it [Tsuji1992]. The sum is never a pull: the push ends where it comes to 0, before
+/// the overlap does [SchwagerPoeschel2007]. zeta is given as the coefficient of restitution, which
+/// then does not depend on speed, mass or stiffness (docs/derivations/restitution.md):
+///
+/// (5) A head-on impact gives back restitution() times the approach, in the limit of short steps.
 #pragma once
 
 #include <optional>
@@ -51,6 +60,14 @@ struct ShearState {
   double energy = 0.0;        ///< stored by the shear displacement
 };
 
+/// Least coefficient of restitution of a law. Chosen: below it a damper, and not the spring, would
+/// decide how short the step has to be.
+inline constexpr double kLeastRestitution = 0.05;
+
+/// zeta with which a law shows a coefficient of restitution in [kLeastRestitution, 1]: 0 for 1. Its
+/// bits are the same on every machine.
+double damping_ratio_of(double restitution);
+
 /// The law of contacts between two types of particles.
 struct ContactLaw {
   double normal_stiffness;      ///< K_n > 0, force/length; of a Hertz contact: the largest expected
@@ -58,6 +75,12 @@ struct ContactLaw {
   double friction_coefficient;  ///< tan(phi) >= 0
   double cohesion;              ///< c >= 0, force: shear that a contact bears without a push
   std::optional<Material> hertz = {};  ///< instead of the linear law
+  double damping_ratio = 0.0;          ///< zeta >= 0 of the approach; 0: nothing is lost
+
+  /// Does an impact lose energy to the approach?
+  bool dissipates() const { return damping_ratio > 0.0; }
+  /// Of a head-on impact, in (0, 1].
+  double restitution() const;
 
   /// A law that bears no shear needs no shear history.
   bool bears_shear() const {

@@ -18,12 +18,14 @@ struct ContactWork {
   /// neighbours of those before, and where a Hertz contact rolled to other curvatures: its force
   /// does not feel that its energy changes with them.
   double branch = 0.0;
+  double viscous = 0.0;  ///< lost to the damped approach of contacts
 
   /// Adds term by term.
   ContactWork& operator+=(const ContactWork& other) {
     sliding += other.sliding;
     boundary += other.boundary;
     branch += other.branch;
+    viscous += other.viscous;
     return *this;
   }
 };

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,9 +19,6 @@ namespace tangency::inline v0::dem {
 namespace {
 
 static_assert(ContactBlock::kPairs == kPairBlock);
-
-/// Walls of a cell: their rows stand after those of the particles.
-constexpr std::size_t kWalls = 6;
 
 std::size_t blocks_of(std::size_t pairs) { return (pairs + kPairBlock - 1) / kPairBlock; }
 
@@ -122,6 +121,43 @@ class BlockHertz {
   BlockColumn<Vec3> direction_;
 };
 
+/// How the approach of a block's pairs that touch is damped.
+class BlockDashpots {
+ public:
+  BlockDashpots(const BlockLaws& laws, const Particles& particles, const BlockGeometry& block,
+                std::size_t count, bool turns) {
+    // Of a Hertz contact: with it the damping has the same shape as the linear one
+    // (docs/derivations/restitution.md).
+    const double of_law = 2.0 * (laws.law[0]->hertz ? std::sqrt(5.0 / 6.0) : 1.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!(block.gap[k] < 0.0) || !laws.law[k]->dissipates()) continue;
+      const IndexedPair& pair = block.pairs[k];
+      const Vec3 &normal = block.normal[k], &arm = block.arm[k];
+      double inverse = inverse_mass(particles, pair.a, arm, normal, turns);
+      if (pair.b < particles.size())
+        inverse += inverse_mass(particles, pair.b, arm - block.branch[k], normal, turns);
+      inverse_mass_[k] = inverse;
+      viscosity_[k] = of_law * laws.law[k]->damping_ratio / std::sqrt(inverse);
+    }
+  }
+
+  DashpotColumns columns() const { return {viscosity_.data(), inverse_mass_.data()}; }
+
+ private:
+  /// Velocity along the normal that an impulse of 1 along it gives to a body where it acts.
+  static double inverse_mass(const Particles& particles, std::size_t i, const Vec3& arm,
+                             const Vec3& normal, bool turns) {
+    const double mass = particles.mass[i];
+    const Vec3& axes = particles.semi_axes[i];
+    if (!turns || (axes[0] == axes[1] && axes[1] == axes[2])) return 1.0 / mass;
+    const Vec3 moment = particles.orientation[i].conjugate() * arm.cross(normal);
+    const Vec3 inertia = principal_inertia(mass, axes, particles.dimensions);
+    return 1.0 / mass + moment.cwiseAbs2().cwiseQuotient(inertia).sum();
+  }
+
+  BlockColumn<double> viscosity_{}, inverse_mass_{};
+};
+
 }  // namespace
 
 void ContactColumns::resize(std::size_t entries) {
@@ -139,6 +175,11 @@ double ContactLaws::largest_stiffness() const {
 bool ContactLaws::bear_shear() const {
   return std::any_of(law.begin(), law.end(),
                      [](const ContactLaw& one) { return one.bears_shear(); });
+}
+
+bool ContactLaws::dissipate() const {
+  return std::any_of(law.begin(), law.end(),
+                     [](const ContactLaw& one) { return one.dissipates(); });
 }
 
 bool ContactLaws::are_hertz() const { return law.front().hertz.has_value(); }
@@ -165,7 +206,7 @@ struct Contacts::Step {
   const ContactLaws& laws;
   double dt;
   Branch branch;
-  bool bears_shear, hertz;
+  bool bears_shear, hertz, damped;
 };
 
 /// What a block took, in seconds, and which of its pairs took another way than most.
@@ -186,12 +227,18 @@ ContactWork Contacts::update(const Particles& particles, const Cell& cell,
                              const NeighbourList& list, const ContactLaws& laws, double dt,
                              Branch branch, Profile* profile) {
   const bool bear_shear = laws.bear_shear();
-  const Step step{
-      particles,       cell, list.pairs(), laws, dt, branch, bear_shear || may_have_shear_,
-      laws.are_hertz()};
+  const Step step{particles,
+                  cell,
+                  list.pairs(),
+                  laws,
+                  dt,
+                  branch,
+                  bear_shear || may_have_shear_,
+                  laws.are_hertz(),
+                  laws.dissipate()};
   may_have_shear_ = bear_shear;
   if (count_ != step.pairs.size()) resize(step.pairs.size());
-  refresh(particles, profile);
+  refresh(particles, cell, profile);
   update_blocks(step, profile);
   const PhaseTimer timer(profile, Phase::sums);
   add_up_particles(list, particles.size());
@@ -229,11 +276,16 @@ void Contacts::resize(std::size_t pairs) {
   block_sums_.resize(blocks);
 }
 
-void Contacts::refresh(const Particles& particles, Profile* profile) {
+void Contacts::refresh(const Particles& particles, const Cell& cell, Profile* profile) {
   const PhaseTimer timer(profile, Phase::bodies);
   const std::size_t count = particles.size();
   narrow_phase_.aim(particles);
-  motion_.resize(count + kWalls, {});
+  // Walls stand after the particles; the faces of the cell move with its strain.
+  motion_.resize(count + kCellFaces + cell.planes.size(), {});
+  for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+    const Vec3& v = cell.planes[k].velocity;
+    motion_[count + kCellFaces + k] = {{v[0], v[1], v[2]}, 0.0, {0.0, 0.0, 0.0}, 0.0};
+  }
   for_ranges(count, kParallelThreshold, [&](std::size_t first, std::size_t last) {
     narrow_phase_.refresh(particles, first, last);
     for (std::size_t i = first; i < last; ++i) {
@@ -286,16 +338,36 @@ Contacts::BlockTimes Contacts::update_block(std::size_t index, const Step& step,
   block.arm = geometry.arm[0].data();
   block.law = laws.columns();
   block.bears_shear = step.bears_shear;
+  std::optional<BlockHertz> hertz;
+  HertzColumns of_hertz;
   if (step.hertz) {
-    const BlockHertz hertz(laws, narrow_phase_, geometry, block.count);
-    const HertzColumns columns = hertz.columns();
-    block.hertz = &columns;
-    contact_lanes(block);
-  } else {
-    contact_lanes(block);
+    of_hertz = hertz.emplace(laws, narrow_phase_, geometry, block.count).columns();
+    block.hertz = &of_hertz;
   }
+  std::optional<BlockDashpots> dashpots;
+  DashpotColumns of_dashpots;
+  if (step.damped) {
+    const bool turns = step.laws.bodies_turn;
+    of_dashpots = dashpots.emplace(laws, step.particles, geometry, block.count, turns).columns();
+    block.dashpots = &of_dashpots;
+  }
+  const bool drives = !step.cell.planes.empty();
+  const double before = drives ? power_of_planes(step, first, block.count) : 0.0;
+  contact_lanes(block);
+  if (drives)
+    block.sums->boundary += 0.5 * step.dt * (before + power_of_planes(step, first, block.count));
   if (is_timed) times.law = seconds_since(start);
   return times;
+}
+
+/// What the planes of a block's pairs give to the bodies, by the forces as they are.
+double Contacts::power_of_planes(const Step& step, std::size_t first, std::size_t count) const {
+  double power = 0.0;
+  const std::size_t planes = step.particles.size() + kCellFaces;
+  for (std::size_t k = first; k < first + count; ++k)
+    if (const auto b = static_cast<std::size_t>(step.pairs[k].b); b >= planes)
+      power -= force(k).dot(step.cell.planes[b - planes].velocity);
+  return power;
 }
 
 ContactWork Contacts::add_up_blocks() {
@@ -307,8 +379,19 @@ ContactWork Contacts::add_up_blocks() {
     work.sliding += block.sliding;
     work.boundary += block.boundary;
     work.branch += block.branch;
+    work.viscous += block.viscous;
   }
   return work;
+}
+
+Contacts::Borne Contacts::borne_by(std::int32_t body, const NeighbourList& list) const {
+  Borne sum;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (list.pairs()[k].b != body || !touches(k)) continue;
+    sum.force += columns_.normal_force[k];
+    sum.stiffness += columns_.normal_stiffness[k];
+  }
+  return sum;
 }
 
 ContactTotals Contacts::totals() const {
@@ -343,15 +426,18 @@ void Contacts::carry_over(const std::vector<Pair>& before, const std::vector<Pai
   for (const auto column : ContactColumns::kNumbers) keep(old.*column, columns_.*column);
 }
 
+/// A pair under its new name, and where its contact is.
+struct Contacts::MovedPair {
+  Pair pair;
+  std::size_t from;
+  bool turned;  ///< its bodies have changed their places
+
+  bool operator<(const MovedPair& other) const { return pair < other.pair; }
+};
+
 std::vector<Pair> Contacts::renumber(const std::vector<Pair>& pairs,
                                      std::span<const std::uint32_t> place) {
-  struct Moved {
-    Pair pair;
-    std::size_t from;
-    bool turned;
-    bool operator<(const Moved& other) const { return pair < other.pair; }
-  };
-  std::vector<Moved> moved;
+  std::vector<MovedPair> moved;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     Pair pair = pairs[k];
     const bool wall = static_cast<std::size_t>(pair.b) >= place.size();
@@ -364,6 +450,23 @@ std::vector<Pair> Contacts::renumber(const std::vector<Pair>& pairs,
     }
     moved.push_back({pair, k, turned});
   }
+  return reorder(std::move(moved));
+}
+
+std::vector<Pair> Contacts::follow(const std::vector<Pair>& pairs, const Reset& reset) {
+  std::vector<MovedPair> moved;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Pair pair = pairs[k];
+    pair.image = reset.image(pair.image);
+    const bool turned = pair.a == pair.b && pair.image < Image{};
+    if (turned)
+      for (std::int32_t& edges : pair.image) edges = -edges;
+    moved.push_back({pair, k, turned});
+  }
+  return reorder(std::move(moved));
+}
+
+std::vector<Pair> Contacts::reorder(std::vector<MovedPair> moved) {
   std::sort(moved.begin(), moved.end());
   const ContactColumns old = columns_;
   std::vector<Pair> now;

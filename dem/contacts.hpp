@@ -71,12 +71,15 @@ struct ContactColumns {
 struct ContactLaws {
   std::size_t types = 0;        ///< number of particle types
   std::vector<ContactLaw> law;  ///< types x types, row by row
+  /// Does an impulse turn a body? Else its turns have no share in how a contact is damped.
+  bool bodies_turn = true;
 
   /// The law between types a and b.
   const ContactLaw& between(std::size_t a, std::size_t b) const { return law[a * types + b]; }
   /// The largest stiffness of any law, normal or shear.
   double largest_stiffness() const;
   bool bear_shear() const;  ///< does any?
+  bool dissipate() const;   ///< does the approach of any lose energy?
   bool are_hertz() const;   ///< then all are
 };
 
@@ -161,6 +164,11 @@ class Contacts {
   /// order, its contact is seen from the other side. Resultants and sums wait for the next update.
   std::vector<Pair> renumber(const std::vector<Pair>& pairs, std::span<const std::uint32_t> place);
 
+  /// Follows a cell that is described anew: the pairs that the contacts are now of, in ascending
+  /// order. The contacts keep their bits; one of a particle with its own image may be seen from the
+  /// other side. Resultants and sums wait for add_up().
+  std::vector<Pair> follow(const std::vector<Pair>& pairs, const Reset& reset);
+
   /// Takes over saved contacts: each column has an entry a pair, or is filled up. Adds them up.
   void restore(ContactColumns columns, const Particles& particles, const NeighbourList& list);
 
@@ -187,6 +195,13 @@ class Contacts {
   /// Totals over the contacts as they are now.
   ContactTotals totals() const;
 
+  /// What a wall bears: of its contacts the force along their normals, and their stiffness.
+  struct Borne {
+    double force = 0.0, stiffness = 0.0;  ///< sums
+  };
+  /// @param body  of the wall in the pairs of the list (Pair)
+  Borne borne_by(std::int32_t body, const NeighbourList& list) const;
+
   /// Of the contacts as they are, those of two ellipsoids that the published scheme has no answer
   /// for (trace_contact.hpp): Branch::trace takes the certified one.
   std::int64_t unanswered(const Particles& particles, const Cell& cell,
@@ -194,9 +209,12 @@ class Contacts {
 
  private:
   struct Step;
+  struct MovedPair;
+  std::vector<Pair> reorder(std::vector<MovedPair> moved);
   struct BlockTimes;
-  void refresh(const Particles& particles, Profile* profile);
+  void refresh(const Particles& particles, const Cell& cell, Profile* profile);
   void update_blocks(const Step& step, Profile* profile);
+  double power_of_planes(const Step& step, std::size_t first, std::size_t count) const;
   BlockTimes update_block(std::size_t index, const Step& step, bool is_timed);
   ContactBlock block_at(std::size_t index);
   void resize(std::size_t pairs);

@@ -109,7 +109,7 @@ MeasuredPairs NarrowPhase::measure(std::span<const Pair> pairs, const Particles&
   if (!walls) return measured;
   for (std::size_t k = 0; k < count; ++k)
     if (const std::size_t b = at(pairs[k].b); b >= particles.size()) {
-      measure_wall(k, Wall(b - particles.size()), particles, cell, block);
+      measure_wall(k, b - particles.size(), particles, cell, block);
       block.pairs[k].b = static_cast<std::uint32_t>(b);
     }
   return measured;
@@ -170,15 +170,15 @@ std::int64_t NarrowPhase::trace(std::size_t count, const Particles& particles,
   return unanswered;
 }
 
-void NarrowPhase::measure_wall(std::size_t k, const Wall& wall, const Particles& particles,
+void NarrowPhase::measure_wall(std::size_t k, std::size_t wall, const Particles& particles,
                                const Cell& cell, BlockGeometry& block) const {
   const std::size_t i = block.pairs[k].a;
-  const double height = wall.height_of(particles.position[i], cell);
+  const auto [normal, height] = WallFace(wall, particles.position[i], cell);
   block.gap[k] = kFarApart;
   block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
   if (height >= particles.semi_axes[i].maxCoeff()) return;
   // Seen from the particle's centre the wall is the half-space normal . x <= -height.
-  const WallGap found = signed_gap(ellipsoid_of(particles, i), Plane{wall.normal(), -height});
+  const WallGap found = signed_gap(ellipsoid_of(particles, i), Plane{normal, -height});
   block.gap[k] = found.gap;
   block.normal[k] = found.normal;
   block.arm[k] = 0.5 * (found.arm_body + found.arm_wall);

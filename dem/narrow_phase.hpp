@@ -91,7 +91,7 @@ class NarrowPhase {
   std::int64_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
                                   BlockGeometry& block) const;
   std::int64_t trace(std::size_t count, const Particles& particles, BlockGeometry& block) const;
-  void measure_wall(std::size_t k, const Wall& wall, const Particles& particles, const Cell& cell,
+  void measure_wall(std::size_t k, std::size_t wall, const Particles& particles, const Cell& cell,
                     BlockGeometry& block) const;
 
   Kind kind_ = Kind::spheres;

@@ -77,11 +77,25 @@ double turn_between(const Quaternion& p, const Quaternion& q) {
 
 }  // namespace
 
+WallFace::WallFace(std::size_t k, const Vec3& x, const Cell& cell) {
+  if (k >= kCellFaces) {
+    const PlaneWall& plane = cell.planes[k - kCellFaces];
+    normal = plane.normal;
+    height = plane.height_of(x);
+    return;
+  }
+  const int axis = static_cast<int>(k / 2);
+  const bool far = k % 2 == 1;
+  normal = (far ? -1.0 : 1.0) * Vec3::Unit(axis);
+  height = far ? cell.edges(axis, axis) - x[axis] : x[axis];
+}
+
 void NeighbourList::build(const Particles& particles, const Cell& cell, double skin_ratio,
                           double dt) {
   const std::size_t count = particles.size();
   Reference reference{cell.edges, std::vector<double>(count), std::vector<Vec3>(count),
                       particles.orientation, particles.semi_axes};
+  for (const PlaneWall& plane : cell.planes) reference.planes.push_back(plane.offset);
   std::vector<double> reaches(count);
   for (std::size_t i = 0; i < count; ++i) {
     reference.reduced_position[i] = cell.reduced(particles.position[i]);
@@ -107,10 +121,10 @@ void NeighbourList::build(const Particles& particles, const Cell& cell, double s
 
 void NeighbourList::list_walls(const Particles& particles, const Cell& cell, std::size_t i) {
   const Ellipsoid body = ellipsoid_of(particles, i);
-  for (std::size_t k = 0; k < 6; ++k) {
-    if (!cell.walled[k / 2]) continue;
-    const Wall wall(k);
-    const double gap = wall.height_of(particles.position[i], cell) - body.support(wall.normal());
+  for (std::size_t k = 0; k < kCellFaces + cell.planes.size(); ++k) {
+    if (k < kCellFaces && !cell.walled[k / 2]) continue;
+    const WallFace wall(k, particles.position[i], cell);
+    const double gap = wall.height - body.support(wall.normal);
     if (gap <= skins_[i].thickness)
       pairs_.push_back(
           {static_cast<std::int32_t>(i), static_cast<std::int32_t>(particles.size() + k), Image{}});
@@ -127,8 +141,12 @@ bool NeighbourList::is_current(const Particles& particles, const Cell& cell) con
 
 double NeighbourList::least_slack(const Particles& particles, const Cell& cell, std::size_t first,
                                   std::size_t last) const {
-  if (skins_.size() != particles.size()) return -std::numeric_limits<double>::infinity();
+  if (skins_.size() != particles.size() || reference_.planes.size() != cell.planes.size())
+    return -std::numeric_limits<double>::infinity();
   const double strain = strain_since(inverse_edges_, cell.edges) + kRounding;
+  double walls = 0.0;  // how far one has come
+  for (std::size_t k = 0; k < cell.planes.size(); ++k)
+    walls = std::max(walls, std::abs(cell.planes[k].offset - reference_.planes[k]));
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = first; i < last; ++i) {
     const Skin& skin = skins_[i];
@@ -139,7 +157,8 @@ double NeighbourList::least_slack(const Particles& particles, const Cell& cell, 
       turned = skin.spread *
                std::min(1.0, turn_between(reference_.orientation[i], particles.orientation[i]));
     const double grown = (particles.semi_axes[i] - reference_.semi_axes[i]).maxCoeff();
-    const double left = skin.thickness - moved - turned - std::max(0.0, grown) - strain * skin.ball;
+    const double left =
+        skin.thickness - walls - moved - turned - std::max(0.0, grown) - strain * skin.ball;
     if (!(left >= least)) least = left;  // what is no number stays
   }
   return least;

@@ -28,7 +28,7 @@
 namespace tangency::inline v0::dem {
 
 /// Particle `a` and the image of particle `b`; a <= b, and for a == b the image is positive in
-/// lexicographic order. Or, with b = number of particles + k, particle `a` and wall k (Wall).
+/// lexicographic order. Or, with b = number of particles + k, particle `a` and wall k (WallFace).
 struct Pair {
   std::int32_t a, b;  ///< indices of particles; of a wall and a particle, b is the particle
   Image image;        ///< the image of b
@@ -37,19 +37,17 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
-/// Wall k of a cell: the face at the origin's end (even k) or at the far end (odd k) of axis k / 2.
-struct Wall {
-  int axis;  ///< the wall is normal to this edge
-  bool far;  ///< is it the wall at the end of the edge?
+/// Faces of a cell that may be walls; after them its planes are counted.
+inline constexpr std::size_t kCellFaces = 6;
 
-  /// Wall k of six, in the order near and far of each edge.
-  explicit Wall(std::size_t k) : axis(static_cast<int>(k / 2)), far(k % 2 == 1) {}
-  /// Unit, out of the wall and into the cell.
-  Vec3 normal() const { return (far ? -1.0 : 1.0) * Vec3::Unit(axis); }
-  /// How far x is in front of it; < 0 behind.
-  double height_of(const Vec3& x, const Cell& cell) const {
-    return far ? cell.edges(axis, axis) - x[axis] : x[axis];
-  }
+/// Wall k as a body at x sees it: the face at the origin's end (even k) or at the far end (odd k)
+/// of axis k / 2, from kCellFaces on a plane of the cell.
+struct WallFace {
+  Vec3 normal;    ///< unit, out of the wall
+  double height;  ///< how far x is in front of it; < 0 behind
+
+  /// Of wall k, which the cell has to have.
+  WallFace(std::size_t k, const Vec3& x, const Cell& cell);
 };
 
 /// From a's centre to the centre of b's image. Not for walls.
@@ -112,6 +110,7 @@ class NeighbourList {
     std::vector<Vec3> reduced_position;   ///< in parts of the cell's edges
     std::vector<Quaternion> orientation;  ///< one a particle
     std::vector<Vec3> semi_axes;          ///< one a particle, length
+    std::vector<double> planes = {};      ///< offsets of the cell's planes
   };
   /// What the list was built from.
   const Reference& reference() const { return reference_; }

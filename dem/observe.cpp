@@ -28,8 +28,8 @@ double standard_deviation(const std::vector<std::int32_t>& counts, double mean) 
 
 /// Over the particles of a chunk.
 struct Unbalanced {
-  double sum = 0.0, force = 0.0, moment = 0.0;  ///< of forces, and the largest
-  std::int64_t with_contacts = 0, rattlers = 0;
+  double sum = 0.0, force = 0.0, moment = 0.0;                  ///< of forces, and the largest
+  std::int64_t with_contacts = 0, rattlers = 0, of_others = 0;  ///< contacts of no rattlers
 
   Unbalanced& operator+=(const Unbalanced& other) {
     sum += other.sum;
@@ -37,6 +37,7 @@ struct Unbalanced {
     moment = std::max(moment, other.moment);
     with_contacts += other.with_contacts;
     rattlers += other.rattlers;
+    of_others += other.of_others;
     return *this;
   }
 };
@@ -79,6 +80,14 @@ Stress stress_of(const Contacts& contacts, const Cell& cell) {
   const double volume = cell.volume();
   return {0.5 / volume * (sums.force_branch + sums.force_branch.transpose()),
           sums.affine_stiffness / (cell.dimensions * volume), cell.dimensions};
+}
+
+double deviator_of(const Mat3& stress, int dimensions) {
+  const auto part = stress.topLeftCorner(dimensions, dimensions);
+  const double mean = part.trace() / dimensions;
+  const double squares =
+      (part - mean * Mat3::Identity().topLeftCorner(dimensions, dimensions)).squaredNorm();
+  return std::sqrt(dimensions == 3 ? 1.5 * squares : 0.5 * squares);
 }
 
 double asymmetry_of(const Contacts& contacts, const Cell& cell) {
@@ -133,7 +142,9 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
       sum_by_chunks<Unbalanced>(particles.size(), [&](std::size_t first, std::size_t last) {
         Unbalanced some;
         for (std::size_t i = first; i < last; ++i) {
-          some.rattlers += resultants.contacts[i] < least_contacts ? 1 : 0;
+          const bool rattles = resultants.contacts[i] < least_contacts;
+          some.rattlers += rattles ? 1 : 0;
+          some.of_others += rattles ? 0 : resultants.contacts[i];
           if (resultants.contacts[i] == 0) continue;
           const double force = (resultants.force[i] + particles.mass[i] * gravity).norm();
           some.sum += force;
@@ -146,6 +157,9 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
       });
   Balance balance;
   balance.rattlers = all.rattlers;
+  if (const auto others = static_cast<std::int64_t>(particles.size()) - all.rattlers; others > 0)
+    balance.mechanical_coordination =
+        static_cast<double>(all.of_others) / static_cast<double>(others);
   balance.largest_unbalanced_ratio = all.force;
   balance.largest_unbalanced_moment_ratio = all.moment;
   const ContactTotals totals = contacts.totals();
@@ -261,7 +275,11 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"boundary_s_zz", b(2, 2)},
           {"boundary_s_xy", b(0, 1)},
           {"boundary_s_yz", b(1, 2)},
-          {"boundary_s_zx", b(2, 0)}};
+          {"boundary_s_zx", b(2, 0)},
+          {"viscous_loss", seen.account.viscous},
+          {"p", seen.stress.mean()},
+          {"q", deviator_of(s, seen.stress.dimensions)},
+          {"mechanical_coordination", seen.balance.mechanical_coordination}};
 }
 
 }  // namespace tangency::inline v0::dem

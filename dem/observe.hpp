@@ -38,6 +38,10 @@ struct Stress {
 /// Of all contacts, over the volume of the cell.
 Stress stress_of(const Contacts& contacts, const Cell& cell);
 
+/// The deviator q: sqrt(3/2 s':s') of the stress less its mean, s1 - s3 in a triaxial test; in the
+/// plane (s1 - s2) / 2.
+double deviator_of(const Mat3& stress, int dimensions = 3);
+
 /// |s - s'| over the mean stress, of the stress s before it is made symmetric: what moments that
 /// are out of balance make of it. 0 without a mean stress.
 double asymmetry_of(const Contacts& contacts, const Cell& cell);
@@ -72,6 +76,8 @@ struct Balance {
   /// Particles with fewer than two contacts, the fewest that can balance a force [Thornton2000];
   /// under gravity with none, since one can bear a weight.
   std::int64_t rattlers = 0;
+  /// Mean number of contacts of the particles that are no rattlers [Thornton2000]; 0 where all are.
+  double mechanical_coordination = 0.0;
 };
 /// @param particles  all of them
 /// @param contacts  the contacts
@@ -97,9 +103,12 @@ struct EnergyAccount {
   double branch = 0.0;    ///< gained by contacts that changed branch or curvature (ContactWork)
   double sliding = 0.0;   ///< lost to friction
   double damping = 0.0;   ///< lost to damping
+  double viscous = 0.0;   ///< lost to the damped approach of contacts
 
   /// What should be stored and move now.
-  double sum() const { return start + boundary + gravity + growth + branch - sliding - damping; }
+  double sum() const {
+    return start + boundary + gravity + growth + branch - sliding - damping - viscous;
+  }
 };
 
 /// One row of a history: everything but cycle, time, stage and its cycle.

@@ -47,6 +47,7 @@ class Reader {
   Scene read() {
     const Section top(source_, root_, "", "");
     read_cell();
+    read_planes();
     read_motion();
     read_particles();
     read_contacts();
@@ -73,6 +74,7 @@ class Reader {
     scene_.output = {output.integer("history_interval"),    output.integer("frame_interval"),
                      output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
                      output.integer("contact_interval"),    output.integer("micro_interval")};
+    scene_.output.contact_frames = output.boolean("contact_frames");
     scene_.output.polar = output.text("partition") == "polar";
     const std::int64_t usual = scene_.output.polar ? kRingsOfPolar : kClassesOfNearUniform;
     const std::int64_t classes = output.optional_integer("classes").value_or(usual);
@@ -92,6 +94,39 @@ class Reader {
       scene_.walled[k] = walls != "none" && walls.find("xyz"[k]) != walls.npos;
     if (scene_.dimensions == 2 && scene_.walled[2])
       cell.fail("walls", "with dimensions = 2 of x and y alone");
+  }
+
+  void read_planes() {
+    const toml::node* node = root_.get("wall");
+    if (!node) return;
+    const toml::array* list = node->as_array();
+    if (!list || !list->is_homogeneous<toml::table>())
+      source_.fail(node->source(), "wall = " + text_of(*node) + ": a list of [[wall]] tables");
+    if (!scene_.has_walls() || !scene_.cell_size)
+      source_.fail(node->source(), "wall: in a cell with a size and walls of its own, cell.walls");
+    for (std::size_t k = 0; k < list->size(); ++k)
+      scene_.planes.push_back(read_plane(
+          Section(source_, *list->get(k)->as_table(), "wall[" + std::to_string(k) + "]", "wall")));
+  }
+
+  PlaneWall read_plane(const Section& section) const {
+    const Vec3 normal = *section.optional_real3("normal");
+    if (normal.isZero(0.0)) section.fail("normal", "3 finite numbers, not all 0");
+    for (int k = 0; k < 3; ++k)
+      if (!scene_.walled[static_cast<std::size_t>(k)] && normal[k] != 0.0)
+        section.fail("normal", "0 along axes without walls in cell.walls");
+    PlaneWall plane{normal.normalized(), 0.0,
+                    section.optional_real3("velocity").value_or(Vec3::Zero())};
+    plane.offset = plane.normal.dot(*section.optional_real3("point"));
+    if (scene_.dimensions == 2 && plane.velocity[2] != 0.0)
+      section.fail("velocity", "with dimensions = 2 none along z");
+    if (!section.has("stress")) {
+      section.forbid("max_speed", "with stress alone");
+      return plane;
+    }
+    if (!section.has("max_speed")) section.fail_missing("max_speed");
+    plane.held = {section.real("stress"), section.real("max_speed")};
+    return plane;
   }
 
   void read_motion() {
@@ -155,13 +190,15 @@ class Reader {
   ContactLaw law_of(const Section& section, std::size_t a, std::size_t b) const {
     const double friction = section.real("friction_coefficient");
     const double cohesion = section.real("cohesion");
+    const double damping = damping_ratio_of(section.real("restitution"));
     if (section.text("law") == "linear") {
       for (const char* key : {"young_modulus", "poisson_ratio", "largest_overlap"})
         section.forbid(key, "with law = \"hertz\" alone");
       if (!section.has("normal_stiffness")) section.fail_missing("normal_stiffness");
       const double normal = section.real("normal_stiffness");
-      return {normal, section.optional_real("shear_stiffness").value_or(normal), friction,
-              cohesion};
+      return {normal,   section.optional_real("shear_stiffness").value_or(normal),
+              friction, cohesion,
+              {},       damping};
     }
     if (scene_.dimensions == 2)
       section.fail("law", "with dimensions = 2 linear: Hertz has no overlap of disks");
@@ -172,8 +209,9 @@ class Reader {
     const double smaller = std::min(radius_of(a), radius_of(b));
     const HertzContact most =
         stiffest(shape_of(a), shape_of(b), section.real("largest_overlap") * smaller, material);
-    return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]), friction,
-            cohesion, material};
+    return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]),
+            friction,       cohesion,
+            material,       damping};
   }
 
   /// The index of a type, of "wall" in a walled cell the one after them.

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include <tangency/dem/contact_law.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
@@ -45,6 +46,8 @@ constexpr double kLargestTimeStepFactor = 0.3;
 constexpr std::string_view kStageKinds = "place compress grow relax unload shear servo";
 constexpr std::string_view kMovingKinds = "compress grow relax unload shear servo";
 constexpr std::string_view kIsotropicKinds = "compress grow relax unload";
+/// Those that have to hold one; relax may also leave the cell as it is.
+constexpr std::string_view kPressedKinds = "compress grow unload";
 
 constexpr std::array kKeys{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
@@ -55,6 +58,18 @@ constexpr std::array kKeys{
         "2: elliptic disks of unit thickness in the plane z = 0; a size then has 1 along z"},
     Key{"cell", "walls", text, "-", "none", kNoRange, "none x y z xy xz yz xyz", "",
         "Axes whose two faces are plane walls; the others are periodic"},
+
+    Key{"wall", "point", real3, "m", "", kAnySign, "", "", "Of its face, at the start"},
+    Key{"wall", "normal", real3, "-", "", kAnySign, "", "",
+        "Out of the wall, to the side where the bodies are, of any length; 0 along axes without "
+        "walls in cell.walls"},
+    Key{"wall", "velocity", real3, "m/s", "(0)", kAnySign, "", "",
+        "Of the wall from the first cycle on; what is along the normal moves its face"},
+    Key{"wall", "stress", real, "Pa", "(not held)", kPositive, "", "",
+        "To bear: force of the bodies along the normal over the area of the face within the cell; "
+        "the wall comes and goes for it"},
+    Key{"wall", "max_speed", real, "m/s", "(needed to hold a stress)", kPositive, "", "",
+        "Largest speed of a wall that holds a stress, along its normal"},
 
     Key{"motion", "gravity", real3, "m/s^2", "(0)", kAnySign, "", "", "Acceleration"},
     Key{"motion", "rotation", text, "-", "full", kNoRange, "none simplified full", "",
@@ -95,6 +110,10 @@ constexpr std::array kKeys{
         "hertz: overlap, of the smaller radius, up to which the time step is right"},
     Key{"contact", "cohesion", real, "N", "0.0", kNotNegative, "", "",
         "Coulomb limit without a normal force"},
+    Key{"contact", "restitution", real, "-", "1.0", between(kLeastRestitution, 1.0), "", "",
+        "Speed of parting over speed of approach, along the normal where two bodies meet, of an "
+        "impact; contacts are damped so that it comes out, to 1e-3 with a time_step_factor of "
+        "0.04"},
 
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,
@@ -129,8 +148,14 @@ constexpr std::array kKeys{
         "aligned, cone, plane: a direction of any length"},
     Key{"stage", "axes_cone_deg", real, "degrees", "(needed by cone)", above_to(0.0, 90.0), "",
         "place", "cone: the largest angle to axes_direction"},
-    Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kIsotropicKinds,
-        "Mean stress to reach (compress) or to hold (grow, relax, unload)"},
+    Key{"stage", "mean_stress", real, "Pa", "", kPositive, "", kPressedKinds,
+        "Mean stress to reach (compress) or to hold (grow, unload)"},
+    Key{"stage", "mean_stress", real, "Pa", "(not held)", kPositive, "", "relax",
+        "Mean stress to hold; without it the cell stays as it is, and bodies come to rest in it: "
+        "under gravity they settle"},
+    Key{"stage", "hold", text, "-", "mean", kNoRange, "mean components", "compress relax",
+        "What mean_stress holds: the mean alone, or each normal stress, which are else free to "
+        "differ"},
     Key{"stage", "mean_stress", real, "Pa", "(not held)", kPositive, "", "shear servo",
         "Mean stress to hold; a shear that holds none keeps its volume"},
     Key{"stage", "lateral_stress", real, "Pa", "(not held)", kPositive, "", "shear",
@@ -148,6 +173,10 @@ constexpr std::array kKeys{
         "Along x, y, z, compression positive; servos add to it"},
     Key{"stage", "shear_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
         "Components xy, yz, zx of the strain rate, of the same sign"},
+    Key{"stage", "simple_shear_rate", real3, "1/s", "(0)", kAnySign, "", "servo",
+        "Simple shear instead, which also turns: rates at which layers across y move along x, "
+        "across z along y, and across z along x, against the axis where > 0, so that s_xy, s_yz, "
+        "s_zx become > 0. The cell is described by its least skewed image"},
     Key{"stage", "stress_xx", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
     Key{"stage", "stress_yy", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
     Key{"stage", "stress_zz", real, "Pa", "(not held)", kNotNegative, "", "servo", "To hold"},
@@ -179,13 +208,13 @@ constexpr std::array kKeys{
         "Where mean_stress is reached, on the way of the first type's eccentricity"},
     Key{"stage", "max_inertial_fraction", real, "-", "0.01", above_to(0.0, 0.1), "", "grow",
         "What waits, and the end, wait for the inertial fraction to be at most this"},
-    Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kIsotropicKinds,
+    Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kPressedKinds,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", kPositive, "", "shear",
         "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
         "0.05, or axial_strain_rate where that is more"},
     Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", kPositive, "",
-        "servo", "The same"},
+        "relax servo", "The same"},
     Key{"stage", "servo_gain", real, "-", "0.5", kOpenUnitInterval, "", "shear servo",
         "Share of the stress error that the servo removes in a cycle"},
     Key{"stage", "servo_gain", real, "-", "0.2", kOpenUnitInterval, "", "relax unload",
@@ -223,6 +252,9 @@ constexpr std::array kKeys{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; the start and a stage's end have one too. With 0 there are none at "
         "all"},
+    Key{"output", "contact_frames", boolean, "-", "false", kNoRange, "", "",
+        "With each frame its contacts: contacts.pvd (points) and chains.pvd (lines between "
+        "centres) for ParaView, frames/CYCLE.bonds for OVITO"},
     Key{"output", "contact_interval", integer, "cycles", "0", between(0, kMostCycles), "", "",
         "Between two tables contacts/CYCLE.csv; the start and a stage's end have one too. With 0 "
         "there are none at all"},
@@ -265,30 +297,10 @@ std::string choices_text(std::string_view choices) {
   return text;
 }
 
-std::string_view type_text(KeyType type) {
-  switch (type) {
-    case integer:
-      return "integer";
-    case real:
-      return "number";
-    case real3:
-      return "3 numbers";
-    case real4:
-      return "4 numbers";
-    case reals:
-      return "numbers";
-    case boolean:
-      return "boolean";
-    case text:
-    case path:
-      return "text";
-  }
-  return "";
-}
-
 std::string_view header_of(std::string_view section) {
   if (section == "particles") return "[particles.NAME]";
   if (section == "contact") return "[contact] for all pairs, [contact.NAME-NAME] for one";
+  if (section == "wall") return "[[wall]], planes inside a cell with walls, which no stage strains";
   if (section == "body") return "[[body]], of a place with arrangement = explicit";
   if (section == "stage") return "[[stage]], in the order of the run";
   if (section == "cell") return "[cell]";
@@ -333,6 +345,27 @@ void print_section(std::ostream& out, std::span<const Key> keys) {
 }  // namespace
 
 std::span<const Key> scene_keys() { return kKeys; }
+
+std::string_view type_text(KeyType type) {
+  switch (type) {
+    case integer:
+      return "integer";
+    case real:
+      return "number";
+    case real3:
+      return "3 numbers";
+    case real4:
+      return "4 numbers";
+    case reals:
+      return "numbers";
+    case boolean:
+      return "boolean";
+    case text:
+    case path:
+      return "text";
+  }
+  return "";
+}
 
 bool is_among(std::string_view word, std::string_view words) {
   std::istringstream stream{std::string(words)};

@@ -20,7 +20,7 @@ enum class KeyType { integer, real, real3, real4, reals, boolean, text, path };
 
 /// The tables of a scene.
 inline constexpr std::string_view kSceneSections =
-    "cell motion particles body contact stage output";
+    "cell motion particles wall body contact stage output";
 
 /// The values a number may have, each bound included or not.
 struct Range {
@@ -62,6 +62,9 @@ std::span<const Key> scene_keys();
 
 /// Is `word` one of the blank-separated words?
 bool is_among(std::string_view word, std::string_view words);
+
+/// "integer", "number", "3 numbers", "boolean", "text" and so on.
+std::string_view type_text(KeyType type);
 
 /// "an integer from 1 to 1000000", "a number > 0 (m)", "one of place, compress, grow, relax".
 std::string allowed_values(const Key& key);

@@ -61,9 +61,18 @@ void read_servo(const Section& section, const Scene& scene, Drive& drive) {
     section.fail("shear_rate", "with dimensions = 2 of xy alone");
   Mat3 rate = strain.asDiagonal();
   for (int k = 0; k < 3; ++k) rate(k, (k + 1) % 3) = rate((k + 1) % 3, k) = shear[k];
+  if (const auto simple = section.optional_real3("simple_shear_rate")) {
+    if (plane && simple->tail<2>() != Vec2::Zero())
+      section.fail("simple_shear_rate", "with dimensions = 2 of xy alone");
+    for (const char* key : {"shear_rate", "major_direction"})
+      section.forbid(key, "not together with simple_shear_rate");
+    rate(0, 1) = (*simple)[0];
+    rate(1, 2) = (*simple)[1];
+    rate(0, 2) = (*simple)[2];
+  }
   loading.strain_rate = -rate;
   if (scene.has_walls())
-    for (const char* key : {"shear_rate", "major_direction"})
+    for (const char* key : {"shear_rate", "simple_shear_rate", "major_direction"})
       section.forbid(key, "not in a cell with walls");
   if (plane)
     for (const char* key : {"stress_zz", "plane_mean_stress"})
@@ -87,6 +96,26 @@ void read_servo(const Section& section, const Scene& scene, Drive& drive) {
   loading.targets.push_back(Target::intermediate_ratio(*ratio));
   if (!loading.is_independent())
     section.fail("intermediate_ratio", "not together with stresses that it follows from");
+}
+
+/// One stress to come to: its mean, or each normal component. Of a relax without it: none.
+void read_pressed(const Section& section, const std::string& kind, const Scene& scene,
+                  Drive& drive) {
+  if (kind == "relax" && !section.has("mean_stress")) {
+    for (const char* key :
+         {"hold", "stress_tolerance", "max_strain_rate", "servo_gain", "published_gain"})
+      section.forbid(key, "with mean_stress alone");
+    return;
+  }
+  const double stress = section.real("mean_stress");
+  drive.stress_tolerance = section.real("stress_tolerance");
+  const bool may_choose = kind == "compress" || kind == "relax";
+  if (!may_choose || section.text("hold") == "mean") {
+    drive.loading.targets = {Target::mean_stress(stress, scene.dimensions)};
+    return;
+  }
+  for (int axis = 0; axis < scene.dimensions; ++axis)
+    drive.loading.targets.push_back(Target::component(axis, stress));
 }
 
 /// A bound within which a shear's servo holds its stress: that of the stress, and at least the rate
@@ -129,7 +158,7 @@ void check_step(const Section& section, const Drive& stage, const Scene& scene) 
   if (!(servo.max_strain_rate < largest))
     refuse(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate");
   if (!(fastest < largest))
-    for (const char* key : {"axial_strain_rate", "strain_rate", "shear_rate"})
+    for (const char* key : {"axial_strain_rate", "strain_rate", "shear_rate", "simple_shear_rate"})
       if (section.has(key)) refuse(key);
 }
 
@@ -143,8 +172,7 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
   else if (kind == "shear")
     read_shear(section, scene, drive);
   else
-    loading.targets = {Target::mean_stress(section.real("mean_stress"), scene.dimensions)};
-  if (kind != "servo" && kind != "shear") drive.stress_tolerance = section.real("stress_tolerance");
+    read_pressed(section, kind, scene, drive);
   if (section.has("max_strain_rate"))
     loading.servo.max_strain_rate = section.real("max_strain_rate");
   else if (kind == "shear")
@@ -153,6 +181,10 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
     section.fail_missing("max_strain_rate");
   loading.servo.gain = section.real("servo_gain");
   loading.servo.published_gain = section.optional_real("published_gain").value_or(0.0);
+  if (!scene.planes.empty() && (!loading.targets.empty() || !loading.strain_rate.isZero(0.0)))
+    section.fail("kind",
+                 "with [[wall]] a servo without rates and stresses, or a relax without "
+                 "mean_stress: these walls do not strain with the cell");
   const bool comes_to_rest = kind == "relax" || kind == "unload";
   loading.servo.integral = !comes_to_rest;
   if (!comes_to_rest || section.has("damping")) drive.damping = section.real("damping");

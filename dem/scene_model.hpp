@@ -83,8 +83,9 @@ struct OutputIntervals {
   double checkpoint_seconds;                ///< of the clock on the wall; 0: not by time
   std::int64_t contacts = 0;                ///< cycles; 0: no tables of contacts
   std::int64_t micro = 0;                   ///< cycles; 0: no micro.csv
-  bool polar = false;  ///< micro.csv's partition of directions; else near-uniform
-  int classes = 0;     ///< its number N
+  bool polar = false;           ///< micro.csv's partition of directions; else near-uniform
+  int classes = 0;              ///< its number N
+  bool contact_frames = false;  ///< contacts in each frame too
 };
 
 /// A scene as it was read and checked.
@@ -92,6 +93,7 @@ struct Scene {
   int dimensions = 3;                        ///< 2 or 3
   std::array<bool, 3> walled{};              ///< along which edges the cell has walls
   std::optional<Vec3> cell_size;             ///< edges at the start, where the scene says so
+  std::vector<PlaneWall> planes = {};        ///< walls besides the faces, as they start
   Vec3 gravity = Vec3::Zero();               ///< length per time^2
   Rotation rotation = Rotation::full;        ///< which turns are followed
   Branch branch = Branch::follow;            ///< which gap of two bodies is a contact

@@ -60,6 +60,8 @@ void require_same_particles(const State& state, const Scene& scene) {
   require_equal("cell.dimensions", state.cell.dimensions, scene.dimensions);
   if (state.cell.walled != scene.walled)
     throw std::invalid_argument("a state with other cell.walls than the scene");
+  require_equal("wall tables", static_cast<double>(state.cell.planes.size()),
+                static_cast<double>(scene.planes.size()));
   const auto count = static_cast<std::int32_t>(types.size());
   std::vector<std::size_t> counts(types.size(), 0);
   for (const std::int32_t type : particles.type) {
@@ -118,6 +120,7 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
     }
     compare(pair, "friction_coefficient", was.friction_coefficient, is.friction_coefficient);
     compare(pair, "cohesion", was.cohesion, is.cohesion);
+    compare(pair, "restitution", was.restitution(), is.restitution());
   }
   return text;
 }
@@ -126,6 +129,8 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
 
 Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
   state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
+  state_.cell.planes = scene_.planes;
+  require_in_front();
   state_.particles.permute(spatial_order(state_.particles, state_.cell));
   state_.laws = scene_.laws;
   renew_list({}, 0.0);
@@ -149,6 +154,11 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
   require_same_particles(state_, scene_);
   changed_laws_ = difference_of_laws(state_.laws, scene_);
   state_.laws = scene_.laws;
+  for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
+    PlaneWall& plane = state_.cell.planes[k];
+    plane.held = scene_.planes[k].held;
+    if (!plane.held) plane.velocity = scene_.planes[k].velocity;
+  }
   prepare_stage();
   const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
   if (state_.stage_cycle == 0) state_.servos.assign(servos, {});  // a stage added after the last
@@ -164,6 +174,7 @@ const Stage& Simulation::stage() const {
 
 void Simulation::prepare_stage() {
   laws_ = scene_.laws;
+  laws_.bodies_turn = scene_.rotation != Rotation::none;
   if (!finished() && stage().drive->friction_coefficient)
     for (ContactLaw& law : laws_.law)
       law.friction_coefficient = *stage().drive->friction_coefficient;
@@ -243,6 +254,7 @@ double Simulation::kinetic_energy_now() const {
 void Simulation::step() {
   assert(!finished());
   if (state_.stage_cycle == 0) state_.cell.reference_edges = state_.cell.edges;
+  describe_cell_anew();
   if (grows_now()) grow();
   const double dt = time_step();
   state_.cell.rate = next_rate(dt);
@@ -259,11 +271,51 @@ void Simulation::step() {
   profile_->listed_pairs += static_cast<std::int64_t>(state_.list.pairs().size());
 }
 
+/// A cell in simple shear is described by its least skewed edges: thin ones would need more images.
+void Simulation::describe_cell_anew() {
+  const Reset reset = state_.cell.reset();
+  if (reset.is_none()) return;
+  Cell& cell = state_.cell;
+  for (Mat3* edges : {&cell.edges, &cell.reference_edges}) *edges = reset.edges(*edges);
+  NeighbourList::Reference reference = state_.list.reference();
+  reference.edges = reset.edges(reference.edges);
+  for (Vec3& at : reference.reduced_position) at = reset.reduced(at);
+  std::vector<Pair> pairs = state_.contacts.follow(state_.list.pairs(), reset);
+  state_.list.restore(std::move(reference), std::move(pairs));
+  state_.contacts.add_up(state_.particles, state_.list);
+}
+
+/// @throws DoesNotFit  where a body's centre is behind a wall
+void Simulation::require_in_front() const {
+  const auto& position = state_.particles.position;
+  for (std::size_t k = 0; k < scene_.planes.size(); ++k)
+    for (std::size_t i = 0; i < position.size(); ++i)
+      if (!(scene_.planes[k].height_of(position[i]) > 0.0))
+        throw DoesNotFit("particle " + std::to_string(i) + " is placed behind wall[" +
+                         std::to_string(k) + "]: bodies are on the side that its normal points to");
+}
+
+/// Moves the walls that move a step on.
+void Simulation::set_planes_going(double dt) {
+  Cell& cell = state_.cell;
+  const auto first = static_cast<std::int32_t>(state_.particles.size() + kCellFaces);
+  for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+    PlaneWall& plane = cell.planes[k];
+    if (plane.held) {
+      const auto [force, stiffness] =
+          state_.contacts.borne_by(first + static_cast<std::int32_t>(k), state_.list);
+      plane.follow(force, stiffness, section_area(plane, cell.edges.diagonal()), dt);
+    }
+    plane.offset += dt * plane.normal.dot(plane.velocity);
+  }
+}
+
 void Simulation::move_particles(double dt) {
   const PhaseTimer timer(profile_, Phase::motion);
   if (!stage().drive->damping)
     state_.energy.damping +=
         state_.fire.steer(state_.particles, state_.contacts.resultants(), motion(), dt);
+  set_planes_going(dt);
   const MotionWork work =
       move(state_.particles, state_.cell, state_.contacts.resultants(), motion(), dt);
   state_.energy.damping += work.damping;
@@ -304,6 +356,7 @@ void Simulation::update_contacts(double dt) {
   state_.energy.sliding += work.sliding;
   state_.energy.boundary += work.boundary;
   state_.energy.branch += work.branch;
+  state_.energy.viscous += work.viscous;
 }
 
 void Simulation::keep_list_current(double dt) {
@@ -343,6 +396,9 @@ bool Simulation::is_relaxed() const {
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
   const Balance balance = balance_of(state_.particles, state_.contacts, scene_.gravity);
+  // Where nothing presses, a body that touches nothing has not come down yet.
+  if (stage.loading.targets.empty() && !scene_.gravity.isZero(0.0) && balance.rattlers > 0)
+    return false;
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
          *stage.max_unbalanced_ratio;

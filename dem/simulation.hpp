@@ -126,6 +126,7 @@ class Simulation {
   void prepare_stage();
   void renew_loading();
   void sort_in_space();
+  void describe_cell_anew();
   bool anything_turns() const;
   bool grows_now() const;
   bool is_relaxed() const;
@@ -135,6 +136,8 @@ class Simulation {
   void require_single_contacts() const;
   Mat3 next_rate(double dt);
   void move_particles(double dt);
+  void set_planes_going(double dt);
+  void require_in_front() const;
   double cycles_to_a_packing() const;
   void keep_list_current(double dt);
   void renew_list(std::vector<Pair> before, double dt);

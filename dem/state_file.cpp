@@ -20,7 +20,9 @@ namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::string_view kMagic = "TANGSTAT";
-constexpr std::uint32_t kFormatVersion = 5;
+/// Of a state with all that a scene may ask for, and of one that has none of what came last
+/// (pass_latest()): scenes that do not use it have files and hashes as before.
+constexpr std::uint32_t kFormatVersion = 6, kPlainVersion = 5;
 
 // One description of the format for both ways: each function passes every number of its argument
 // to the archive, a StateWriter or a StateReader.
@@ -95,6 +97,15 @@ void pass(Archive& archive, L& law) {
        {&law.normal_stiffness, &law.shear_stiffness, &law.friction_coefficient, &law.cohesion})
     archive(*x);
   pass_material(archive, law.hertz);
+}
+
+/// A held stress is the scene's, not the state's.
+template <class Archive, class W>
+requires std::is_same_v<std::remove_const_t<W>, PlaneWall>
+void pass(Archive& archive, W& wall) {
+  for (int k = 0; k < 3; ++k) archive(wall.normal[k]);
+  archive(wall.offset);
+  for (int k = 0; k < 3; ++k) archive(wall.velocity[k]);
 }
 
 template <class T>
@@ -181,6 +192,20 @@ void pass_plain(Archive& archive, S& state) {
     archive(*x);
 }
 
+/// Does a state have anything of pass_latest()?
+bool has_latest(const State& state) {
+  return state.laws.dissipate() || state.energy.viscous != 0.0 || !state.cell.planes.empty();
+}
+
+/// What the format of kFormatVersion has behind that of kPlainVersion.
+template <class Archive, class S, class R>
+void pass_latest(Archive& archive, S& state, R& reference) {
+  for (auto& law : state.laws.law) archive(law.damping_ratio);
+  archive(state.energy.viscous);
+  pass(archive, reference.planes);
+  pass(archive, state.cell.planes);
+}
+
 template <class Archive, class R>
 void pass_reference(Archive& archive, R& reference) {
   pass(archive, reference.edges);
@@ -204,6 +229,7 @@ void write(StateWriter& archive, const State& state) {
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
   pass_contacts(archive, state.contacts);
+  if (has_latest(state)) pass_latest(archive, state, state.list.reference());
 }
 
 void pass_contacts(StateReader& archive, ContactColumns& columns, std::size_t pairs) {
@@ -219,11 +245,12 @@ struct Read {
   ContactColumns contacts;
 };
 
-void read(StateReader& archive, Read& found) {
+void read(StateReader& archive, Read& found, std::uint32_t version) {
   pass_plain(archive, found.state);
   pass_reference(archive, found.reference);
   pass(archive, found.pairs);
   pass_contacts(archive, found.contacts, found.pairs.size());
+  if (version == kFormatVersion) pass_latest(archive, found.state, found.reference);
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
@@ -235,7 +262,7 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
       p.orientation.size() != n || p.semi_axes.size() != n || p.mass.size() != n ||
       p.type.size() != n || p.id.size() != n || reference.reduced_position.size() != n ||
       reference.orientation.size() != n || reference.semi_axes.size() != n ||
-      reference.skin.size() != n)
+      reference.skin.size() != n || reference.planes.size() != state.cell.planes.size())
     return false;
   std::vector<bool> seen(n);
   for (const std::int32_t id : p.id) {
@@ -246,7 +273,8 @@ bool is_whole(const State& state, const NeighbourList::Reference& reference,
   for (const Pair& pair : pairs) {
     if (pair.a < 0 || pair.b < pair.a || static_cast<std::size_t>(pair.a) >= n) return false;
     const auto b = static_cast<std::size_t>(pair.b);
-    if (b >= n && (b >= n + 6 || !state.cell.walled[(b - n) / 2])) return false;
+    if (b >= n + kCellFaces + state.cell.planes.size()) return false;
+    if (b >= n && b < n + kCellFaces && !state.cell.walled[(b - n) / 2]) return false;
   }
   return true;
 }
@@ -284,11 +312,11 @@ State state_of(Read found) {
 }
 
 /// @throws Damaged
-State state_in(StateReader& file) {
+State state_in(StateReader& file, std::uint32_t version) {
   Read found;
   const char* damage = nullptr;
   try {
-    read(file, found);
+    read(file, found, version);
   } catch (const Damaged& damaged) {
     damage = damaged.why;
   }
@@ -310,6 +338,10 @@ std::optional<std::uint32_t> version_in(StateReader& file) {
   return version;
 }
 
+bool is_readable(std::uint32_t version) {
+  return version == kPlainVersion || version == kFormatVersion;
+}
+
 std::string_view view_of(const auto& number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
@@ -329,7 +361,7 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   WholeFile out(file);
   out.write(kMagic);
-  out.write(view_of(kFormatVersion));
+  out.write(view_of(has_latest(state) ? kFormatVersion : kPlainVersion));
   StateWriter archive(&out);
   write(archive, state);
   const std::uint64_t hash = archive.finish();
@@ -340,7 +372,8 @@ void save_state(const State& state, const std::filesystem::path& file) {
 std::optional<std::int64_t> cycle_of_state(const std::filesystem::path& file) {
   try {
     StateReader in(file);
-    if (version_in(in) != kFormatVersion) return std::nullopt;
+    if (const auto version = version_in(in); !version || !is_readable(*version))
+      return std::nullopt;
     State state;
     pass_plain(in, state);
     return state.cycle;
@@ -356,10 +389,10 @@ State load_state(const std::filesystem::path& file) {
     StateReader in(file);
     const auto version = version_in(in);
     if (!version) fail("no state of tangency-dem: final.state or checkpoint.state of a run");
-    if (*version != kFormatVersion)
+    if (!is_readable(*version))
       fail("state of version " + std::to_string(*version) + ": this program reads version " +
-           std::to_string(kFormatVersion));
-    return state_in(in);
+           std::to_string(kPlainVersion) + " or " + std::to_string(kFormatVersion));
+    return state_in(in, *version);
   } catch (const ReadError& error) {
     throw StateError(error.what());
   } catch (const Damaged& damaged) {

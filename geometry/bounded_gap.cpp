@@ -202,6 +202,17 @@ BoundedGap bounded(const Pair& pair) {
   return finished(pair, found.best, GapTier::fast);
 }
 
+/// The same of bodies whose support functions differ by as much as both are off.
+BoundedGap of_matrices(BoundedGap gap, const MatrixEllipsoid& a, const MatrixEllipsoid& b) {
+  return in_default_environment([&] {
+    const double off = a.rounding() + b.rounding();
+    if (off == 0.0) return gap;
+    gap.gap_error = (gap.gap_error + off) * (1.0 + 0x1p-50);
+    gap.above = (gap.above + off) * (1.0 + 0x1p-50);
+    return gap;
+  });
+}
+
 }  // namespace
 
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
@@ -211,6 +222,15 @@ BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept {
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept {
   contract::require_finite("bounded_gap", "separation", separation);
   return in_default_environment([&] { return bounded(Pair({a, b, &separation})); });
+}
+
+BoundedGap bounded_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept {
+  return of_matrices(bounded_gap(a.ellipsoid(), b.ellipsoid()), a, b);
+}
+
+BoundedGap bounded_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
+                       const Vec3& separation) noexcept {
+  return of_matrices(bounded_gap(a.ellipsoid(), b.ellipsoid(), separation), a, b);
 }
 
 }  // namespace tangency::inline v0

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <tangency/geometry/gap.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 
 namespace tangency::inline v0 {
 
@@ -36,5 +37,11 @@ BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b) noexcept;
 /// @param a,b  the bodies, in this order
 /// @param separation  finite: else the process ends with one line on standard error
 BoundedGap bounded_gap(const Ellipsoid& a, const Ellipsoid& b, const Vec3& separation) noexcept;
+/// Of bodies given by matrices: the answer of MatrixEllipsoid::ellipsoid() of each, with their
+/// roundings in gap_error and above, which are both at most 100 u L + these where it is `ok`.
+BoundedGap bounded_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b) noexcept;
+/// @overload
+BoundedGap bounded_gap(const MatrixEllipsoid& a, const MatrixEllipsoid& b,
+                       const Vec3& separation) noexcept;
 
 }  // namespace tangency::inline v0

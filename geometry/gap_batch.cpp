@@ -19,8 +19,10 @@ namespace tangency::inline v0 {
 namespace {
 
 using detail::kBlock;
+using detail::LaneBlock;
 using detail::OpenPairs;
 using detail::PairTask;
+using detail::PlainRows;
 using detail::ToBounded;
 using detail::ToColumns;
 using detail::ToFloats;
@@ -44,39 +46,77 @@ bool meet(const GapColumns& columns, std::span<const Vec3> normals) {
 template <class Write>
 class Run {
  public:
-  Run(const PairTask& task, const Write& write) : task_(task), write_(write) {}
+  /// @param plain  as of gather()
+  Run(const PairTask& task, const Write& write, PlainRows* plain)
+      : task_(task), write_(write), plain_(plain) {}
 
   void operator()(std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += kBlock) {
       const std::size_t count = std::min(kBlock, end - first);
       if (task_.indexed()) task_.require_indices(first, count);
-      gather(task_, first, count, work_);
-      write_.aim(work_, first, count);
-      bool by_doubles = task_.polish;
-      std::uint64_t settled = 0;
-      if (task_.in_floats()) {
-        settled = detail::float_gap_lanes(work_.block);
-      } else if (!by_doubles) {
-        settled = detail::mixed_gap_lanes(work_.block);
-        by_doubles = !work_.block.within_float;
-      }
-      if (by_doubles) settled = detail::gap_lanes(work_.block);
-      write_.lanes(task_, work_, first, count);
-      std::uint64_t left = ~settled;
-      if (count < kBlock) left &= (std::uint64_t{1} << count) - 1;
-      for (; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        if (by_doubles)
-          single(first + i, work_.start(i));
-        else
-          hand_on(work_, i, first + i, work_.start(i), again_);
-      }
+      gather(task_, first, count, work_, plain_);
+      task_.has_cutoff() ? sort(first, count) : answer(first, count);
     }
+    if (near_.count != 0) answer_near();
     if (again_.count != 0) answer_again();
     if (open_.count != 0) answer_open();
   }
 
  private:
+  struct FirstTier {
+    std::uint64_t settled;
+    bool by_doubles;  ///< what is not is for the single call
+  };
+  FirstTier ask(LaneBlock& block) const {
+    if (task_.in_floats()) return {detail::float_gap_lanes(block), false};
+    if (!task_.polish) {
+      const std::uint64_t settled = detail::mixed_gap_lanes(block);
+      if (block.within_float) return {settled, false};
+    }
+    return {detail::gap_lanes(block), true};
+  }
+
+  /// use(i) of the pairs of a block that are not in `done`.
+  template <class Use>
+  static void for_others(std::uint64_t done, std::size_t count, const Use& use) {
+    std::uint64_t left = ~done;
+    if (count < kBlock) left &= (std::uint64_t{1} << count) - 1;
+    for (; left != 0; left &= left - 1) use(static_cast<std::size_t>(std::countr_zero(left)));
+  }
+
+  void answer(std::size_t first, std::size_t count) {
+    write_.aim(work_, first, count);
+    const FirstTier tier = ask(work_.block);
+    write_.lanes(task_, work_, first, count);
+    for_others(tier.settled, count, [&](std::size_t i) {
+      if (tier.by_doubles)
+        single(first + i, work_.start(i));
+      else
+        hand_on(work_, i, first + i, work_.start(i), again_);
+    });
+  }
+
+  /// Those beyond the cutoff are answered; the others are, a block of them at a time.
+  void sort(std::size_t first, std::size_t count) {
+    const std::uint64_t far = detail::far_lanes(work_.block, task_.cutoff, work_.gap);
+    write_.beyond(work_.gap, first, count);  // the others are written over
+    for_others(far, count, [&](std::size_t i) {
+      near_.add(work_, i, first + i, work_.start(i), work_.start(i));
+      if (near_.full()) answer_near();
+    });
+  }
+
+  void answer_near() {
+    near_.complete(task_, plain_);
+    const FirstTier tier = ask(near_.work.block);
+    answer(near_, tier.settled, [&](std::size_t k) {
+      if (tier.by_doubles)
+        single(near_.place[k], near_.previous[k]);
+      else
+        hand_on(near_.work, k, near_.place[k], near_.previous[k], again_);
+    });
+  }
+
   void single(std::size_t i, const Vec3& previous) const {
     write_.single(task_, i, task_.follows() ? &previous : nullptr);
   }
@@ -108,14 +148,15 @@ class Run {
       }
       const bool local = (work.block.local >> k & 1) != 0;
       write_.lane(task_, pairs.place[k],
-                  {work.gap[k], work.normal[k], work.arm_a[k], work.arm_b[k], work.gap_error[k],
-                   local ? GapStatus::local : GapStatus::ok, GapTier::fast});
+                  task_.wanted({work.gap[k], work.normal[k], work.arm_a[k], work.arm_b[k],
+                                work.gap_error[k], local ? GapStatus::local : GapStatus::ok,
+                                GapTier::fast}));
     }
     pairs.count = 0;
   }
 
   void answer_again() {
-    again_.complete(task_);
+    again_.complete(task_, plain_);
     again_.work.block.followed_steps = 2;  // one was not enough
     answer(again_, detail::mixed_gap_lanes(again_.work.block), [&](std::size_t k) {
       hand_on(again_.work, k, again_.place[k], again_.previous[k], again_);
@@ -123,25 +164,37 @@ class Run {
   }
 
   void answer_open() {
-    open_.complete(task_);
+    open_.complete(task_, plain_);
     answer(open_, detail::gap_lanes(open_.work.block),
            [&](std::size_t k) { single(open_.place[k], open_.previous[k]); });
   }
 
   const PairTask& task_;
   const Write& write_;
+  PlainRows* plain_;
   Workspace work_;
-  OpenPairs again_, open_;
+  OpenPairs near_, again_, open_;
 };
+
+/// Apart, so that calls for indexed pairs do without the stack that it takes.
+template <class Write>
+[[gnu::noinline]] void run_plain(const PairTask& task, const Write& write, std::size_t first,
+                                 std::size_t last) {
+  PlainRows plain;
+  Run(task, write, &plain)(first, last);
+}
 
 template <class Write>
 void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noexcept {
-  assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0);
+  assert(accuracy.of_size >= 0.0 && accuracy.length >= 0.0 && accuracy.cutoff >= 0.0);
   task.tolerance_of_size = accuracy.of_size;
   task.tolerance = accuracy.length;
   task.polish = accuracy.normals;
+  task.cutoff = accuracy.cutoff;
   detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
-    in_default_environment([&] { Run(task, write)(first, last); });
+    in_default_environment([&] {
+      task.indexed() ? Run(task, write, nullptr)(first, last) : run_plain(task, write, first, last);
+    });
   });
 }
 

@@ -22,8 +22,12 @@
 /// (7) point is the midpoint of the two witness points, from A's centre.
 /// (8) Float columns have the answers of the double ones, rounded, and what is proven of the gap
 ///     stays proven: FloatGapColumns.
+/// (9) With a cutoff a pair is `beyond` only where its gap is proven to be above it, and always
+///     where it is above by more than twice the gap_error that it would have. Every other answer
+///     is to the bit what it is without a cutoff.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include <tangency/geometry/body_array.hpp>
@@ -47,6 +51,9 @@ struct Accuracy {
   /// Normal and points to rounding too? Else the normal is as good as the gap needs, within
   /// 2 sqrt(gap_error / (gap - gap_error + rho)) rad of the true one.
   bool normals = false;
+  /// Length, at least 0: no answer is wanted of pairs whose gap is above it. They cost little, and
+  /// their status is GapStatus::beyond. Their normal is 0: who follows it asks afresh.
+  double cutoff = std::numeric_limits<double>::infinity();
 
   /// gap_error at most 2^-20 L, some 2^-21 L of most pairs: for neighbour lists, previews, stiff
   /// contacts that overlap by more. Answered in single precision where that proves it, as is any
@@ -58,6 +65,9 @@ struct Accuracy {
   static constexpr Accuracy certified() { return {0.0, 0.0, true}; }
   /// gap_error at most 16 u L more than a length. @param length  at least 0
   static constexpr Accuracy within(double length) { return {0.0, length, false}; }
+  /// The same, of gaps up to a length alone: Accuracy::standard().up_to(0.1).
+  /// @param gap  the cutoff
+  constexpr Accuracy up_to(double gap) const { return {of_size, length, normals, gap}; }
 };
 
 /// signed_gap() of every pair.
@@ -72,8 +82,8 @@ struct Accuracy {
 /// @param answers  where the answers go
 /// @param accuracy  how good the answers have to be
 /// @param threads  that may work on the list, the calling one among them; each is started for the
-///                 call, which some thousands of pairs are worth. Each needs 256 kB of stack, the
-///                 calling one too.
+///                 call, which some thousands of pairs are worth. Each needs 128 kB of stack (160
+///                 of plain pairs), the calling one too.
 void signed_gaps(const BodyArray& bodies, const PairList& list, const GapColumns& answers,
                  Accuracy accuracy = {}, int threads = 1) noexcept;
 /// @overload

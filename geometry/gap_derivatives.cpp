@@ -161,6 +161,7 @@ GapDerivatives solve(const UnitPair& pair, const Gap& gap) {
   const Ellipsoid &a = pair.a, &b = pair.b;
   const Vec3& d = pair.d;
   const double size = d.norm() + a.largest_semi_axis() + b.largest_semi_axis();
+  if (gap.status == GapStatus::beyond) return none(DerivativeStatus::degenerate);
   if (std::abs(gap.normal.dot(d)) <= kRounding * size) return none(DerivativeStatus::tie);
   Expansion f(a, b, d, gap.normal);
   for (int step = 0;; ++step) {

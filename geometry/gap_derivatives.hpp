@@ -50,7 +50,7 @@ enum class DerivativeStatus {
   local,       ///< of the branch of a `local` Gap: the gap's where no other branch ties or leads
   tie,         ///< n and -n reach equally far, up to rounding: the gap has no derivative
   degenerate,  ///< W is not safely positive definite: a circle of tied normals, a centre of
-               ///< curvature, or a pair too extreme for doubles
+               ///< curvature, a pair too extreme for doubles, or a gap that is `beyond`
 };
 
 /// Gradient and Hessian are all 0 where the status is neither `ok` nor `local`.

@@ -27,8 +27,8 @@ struct NeighbourQuestion {
   double reach = 0.0;                 ///< length; finite, >= 0
   Lattice lattice = Lattice::open();  ///< along which bodies are repeated; open space by default
   NeighbourAnswers answers = NeighbourAnswers::pairs;  ///< what is answered of each pair
-  Accuracy accuracy = {};                              ///< of gaps
-  int threads = 1;                                     ///< below 1 counts as 1
+  Accuracy accuracy = {};  ///< of gaps; not its cutoff, in whose place the reach is
+  int threads = 1;         ///< below 1 counts as 1
 };
 
 /// Pairs and their answers by columns: each as long as `pairs`, or empty where it was not asked

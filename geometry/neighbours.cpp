@@ -14,6 +14,7 @@
 
 #include <tangency/geometry/batch/near_answers.hpp>
 #include <tangency/geometry/batch/parts.hpp>
+#include <tangency/geometry/image_gap.hpp>
 #include <tangency/geometry/near/sorted_by_pair.hpp>
 #include <tangency/geometry/near_pairs.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
@@ -81,6 +82,24 @@ class Search {
   const NeighbourQuestion& question_;
   NearPairSearch search_;
 };
+
+/// One more pair, with the answers that are asked for. The sign of its gap is the exact one.
+void append(Neighbours& to, NeighbourAnswers answers, const NearPair& pair, const Gap& gap,
+            const Vec3& separation) {
+  to.pairs.push_back(pair);
+  if (answers >= NeighbourAnswers::overlaps) to.overlaps.push_back(gap.gap < 0.0 ? 1 : 0);
+  if (answers >= NeighbourAnswers::gaps) {
+    to.gap.push_back(gap.gap);
+    to.gap_error.push_back(gap.gap_error);
+    to.status.push_back(gap.status);
+  }
+  if (answers >= NeighbourAnswers::contacts) {
+    to.normal.push_back(gap.normal);
+    to.arm_a.push_back(gap.arm_a);
+    to.arm_b.push_back(gap.arm_b);
+    to.separation.push_back(separation);
+  }
+}
 
 /// Where a pair stands among what the parts found.
 struct Place {
@@ -155,6 +174,41 @@ void handed_over(const Bodies& bodies, const NeighbourQuestion& question,
 }
 
 }  // namespace
+
+Neighbours neighbours(std::span<const MatrixEllipsoid> bodies, const NeighbourQuestion& question) {
+  std::vector<Ellipsoid> rounded;
+  rounded.reserve(bodies.size());
+  double rounding = 0.0;
+  for (const MatrixEllipsoid& body : bodies) {
+    rounded.push_back(body.ellipsoid());
+    rounding = std::max(rounding, body.rounding());
+  }
+  NeighbourQuestion wider = question;  // all whose true bodies may be within the reach
+  wider.answers = NeighbourAnswers::pairs;
+  if (wider.reach >= 0.0) wider.reach += 2.0 * rounding * (1.0 + 0x1p-50);
+  const std::vector<NearPair> candidates = neighbours(rounded, wider).pairs;
+
+  const Mat3& edges = question.lattice.edges;
+  std::vector<Gap> gaps(candidates.size());
+  detail::in_ranges(candidates.size(), question.threads, 1,
+                    [&](std::size_t first, std::size_t last) {
+                      for (std::size_t k = first; k < last; ++k) {
+                        const auto& [a, b, image] = candidates[k];
+                        gaps[k] = signed_gap(bodies[a], bodies[b], edges, image);
+                      }
+                    });
+  Neighbours found;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Gap& gap = gaps[k];
+    const double nearest = question.reach == 0.0 ? gap.gap : gap.gap - gap.gap_error;
+    if (!(nearest <= question.reach)) continue;
+    const NearPair& pair = candidates[k];
+    const Vec3& centre_a = rounded[pair.a].centre();
+    append(found, question.answers, pair, gap,
+           separation(centre_a, rounded[pair.b].centre(), edges, pair.image).vector);
+  }
+  return found;
+}
 
 Neighbours neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion& question) {
   return listed(detail::NearEllipsoids(bodies), question);

@@ -27,6 +27,7 @@
 #include <span>
 
 #include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/matrix_ellipsoid.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/neighbour_columns.hpp>
 
@@ -40,6 +41,11 @@ Neighbours neighbours(std::span<const Ellipsoid> bodies, const NeighbourQuestion
 /// Of bodies as they were at their last refresh; their centres are needed.
 /// @throws std::invalid_argument  also where a body is no ellipsoid, and without centres
 Neighbours neighbours(const MovingBodies& bodies, const NeighbourQuestion& question = {});
+/// Of bodies given in any form: exactly those that share a point where the reach is 0, and answers
+/// of image_gap.hpp to rounding, whatever accuracy is asked for. Each pair takes a single call.
+/// @throws std::invalid_argument  as of ellipsoids
+Neighbours neighbours(std::span<const MatrixEllipsoid> bodies,
+                      const NeighbourQuestion& question = {});
 
 /// The same without a list of all pairs: calls `take` for block after block, on the calling thread.
 /// Blocks are neighbours in space; one holds what some hundreds of bodies find, and may be empty.

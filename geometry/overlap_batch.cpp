@@ -20,6 +20,10 @@ namespace {
 using detail::kBlock;
 using detail::PairTask;
 
+// How often it is asked anew whether a first step is worth its time: pairs near each other in a
+// list are alike. Chosen.
+constexpr std::size_t kBlocksOfAHint = 16;
+
 /// Eight answers of one byte each, 1 or 0, from the lowest bits.
 std::uint64_t spread(std::uint64_t bits) {
   const std::uint64_t one_a_byte = (bits & 0xff) * 0x0101010101010101 & 0x8040201008040201;
@@ -87,14 +91,18 @@ template <class Answer, class Doubtful>
 void run_here(const PairTask& task, Answer* answers, const Doubtful& doubtful, std::size_t begin,
               std::size_t end) {
   detail::Workspace work;
+  std::size_t blocks = 0;
   LeftOpen<Answer, Doubtful> left(task, answers, doubtful);
   for (std::size_t first = begin; first < end; first += kBlock) {
     const std::size_t count = std::min(kBlock, end - first);
 #ifndef NDEBUG  // 7 % of the quickest call
     task.require_indices(first, count);
 #endif
-    gather(task, first, count, work);
+    gather(task, first, count, work, nullptr);
+    const bool asking = blocks++ % kBlocksOfAHint == 0;
+    if (asking) work.block.yes_no_steps = 0;
     const detail::LaneOverlaps lanes = detail::float_overlap_lanes(work.block);
+    if (asking) work.block.yes_no_steps = lanes.mostly_open ? 1 : 0;
     write(lanes.meet, count, answers + first);
     std::uint64_t open = ~lanes.decided;
     if (count < kBlock) open &= (std::uint64_t{1} << count) - 1;

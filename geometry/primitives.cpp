@@ -237,6 +237,15 @@ Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept {
   return in_default_environment([&] { return between(a, b); });
 }
 
+Gap signed_gap(const MatrixEllipsoid& a, const Sphere& b) noexcept {
+  return in_default_environment([&] {
+    Gap gap = between(a.ellipsoid(), b);
+    // No support function is off by more, and so no distance.
+    gap.gap_error = (gap.gap_error + a.rounding()) * (1.0 + 0x1p-50);
+    return gap;
+  });
+}
+
 Gap signed_gap(const Sphere& a, const Ellipsoid& b) noexcept {
   const Gap gap = signed_gap(b, a);
   return {gap.gap, -gap.normal, gap.arm_b, gap.arm_a, gap.gap_error, gap.status, gap.tier};

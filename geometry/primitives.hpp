@@ -53,6 +53,10 @@ Gap signed_gap(const Sphere& a, const Ellipsoid& b) noexcept;
 /// @overload
 Gap signed_gap(const Ellipsoid& a, const Sphere& b) noexcept;
 
+/// Of a body given in any form: the answer of MatrixEllipsoid::ellipsoid() with its rounding in
+/// gap_error, which bounds how far the sign is known.
+Gap signed_gap(const MatrixEllipsoid& a, const Sphere& b) noexcept;
+
 /// The same with the separation d = c_B - c_A given, in place of the centres: for periodic images.
 /// @param a,b  the bodies, in this order
 /// @param separation  finite

@@ -22,6 +22,9 @@ constexpr std::string_view to_string(Tier tier) noexcept {
 enum class GapStatus {
   ok,     ///< the global answer, proven, with a gap_error of at most 100 u L
   local,  ///< a stationary answer; that no shorter penetration exists is not proven
+  /// Above Accuracy::cutoff, which alone asks for it. `gap` is a proven lower bound of the true
+  /// gap, gap_error infinite, the rest 0.
+  beyond,
 };
 
 /// Which method gave the answer, the cheapest first.

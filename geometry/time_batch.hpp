@@ -45,7 +45,7 @@ struct TimeColumns {
 /// @param bodies  the bodies, by index
 /// @param list  the pairs, with separations where they are given
 /// @param answers  where the answers go
-/// @param motions    of each body; finite, and so the distances and angles covered in the horizon
+/// @param motions    of each body; finite
 /// @param horizon    time, finite and >= 0 (asserted)
 /// @param tolerance  time, > 0 (asserted)
 /// @param threads    that may work on it, the calling one among them

@@ -70,41 +70,62 @@ double overlap_within(const MovingPair& pair, double from, double to) {
   return proven_overlap(pair, best) ? best : -1.0;
 }
 
-Motion in_unit(const Motion& motion, int exponent) {
-  return {scaled_by_power(motion.velocity, -exponent), motion.angular_velocity,
-          scaled_by_power(motion.pivot_arm, -exponent)};
+/// By how many powers of two a motion is in a larger unit of length, and of time.
+Motion in_units(const Motion& motion, int length, int time) {
+  return {scaled_by_power(motion.velocity, time - length),
+          scaled_by_power(motion.angular_velocity, time),
+          scaled_by_power(motion.pivot_arm, -length)};
 }
 
-/// The exponent of the largest length on a body's way.
-int exponent_of_path(const Motion& motion, double horizon) {
-  const Vec3 way = horizon * motion.velocity;
-  assert(way.allFinite() && motion.pivot_arm.allFinite());
-  return std::max(exponent_of(way), exponent_of(motion.pivot_arm));
+/// The exponent of the largest length on a body's way, in a unit of time in which the horizon is
+/// below 2. Of a body at rest less than any other.
+int exponent_of_path(const Motion& motion, int time) {
+  constexpr int kNone = -4096;
+  const auto exponent = [](const Vec3& v, int power) {
+    return v == Vec3::Zero() ? kNone : exponent_of(v) + power;
+  };
+  return std::max(exponent(motion.velocity, time + 1), exponent(motion.pivot_arm, 0));
 }
 
-/// The pair in a unit of length, a power of two, in which squares of lengths on the way do not
-/// overflow, nor those of bodies underflow that are not 2^-1000 of it.
+/// The pair in units of length and time, powers of two, in which squares of what is on the way do
+/// not overflow, nor those of bodies underflow that are not 2^-1000 of it.
 struct Problem {
   MovingPair pair;
-  int exponent;
+  double horizon, tolerance;
+  int length, time;  ///< the exponents of the units
+  bool within;       ///< may bounds of the motion be computed? If not, both bodies are at rest here
 };
 
 Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
-                const Motion& motion_b, double horizon) {
+                const Motion& motion_b, double horizon, double tolerance) {
   const auto start = detail::scaled_pair<Ellipsoid>({a, b});
-  constexpr int kLongest = 500;
-  const int path =
-      std::max(exponent_of_path(motion_a, horizon), exponent_of_path(motion_b, horizon));
-  const int exponent = std::max(start.exponent, path - kLongest);
-  const int shift = start.exponent - exponent;
+  constexpr int kLongest = 500;  // of the way
+  constexpr int kWidest = 100;   // rad, of a turn: rounding hides it from 2^46 on
+  const int time = horizon > 0.0 ? exponent_of(horizon) : 0;
+  const bool within = exponent_of(motion_a.angular_velocity) + time < kWidest &&
+                      exponent_of(motion_b.angular_velocity) + time < kWidest;
+  const Motion &by_a = within ? motion_a : Motion{}, &by_b = within ? motion_b : Motion{};
+  const int path = std::max(exponent_of_path(by_a, time), exponent_of_path(by_b, time));
+  const int length = std::max(start.exponent, path - kLongest), shift = start.exponent - length;
   const auto body = [&](const Ellipsoid& e) {
     constexpr double kLeast = std::numeric_limits<double>::min();
     return Ellipsoid(Vec3::Zero(), scaled_by_power(e.semi_axes(), shift).cwiseMax(kLeast),
                      e.orientation());
   };
-  return {MovingPair(body(start.a), in_unit(motion_a, exponent), body(start.b),
-                     in_unit(motion_b, exponent), scaled_by_power(start.d, shift)),
-          exponent};
+  return {MovingPair(body(start.a), in_units(by_a, length, time), body(start.b),
+                     in_units(by_b, length, time), scaled_by_power(start.d, shift)),
+          std::scalbn(horizon, -time),
+          std::scalbn(tolerance, -time),
+          length,
+          time,
+          within};
+}
+
+/// t * 2^power, where that is subnormal no later or no earlier than exactly.
+double scaled_time(double t, int power, double towards) {
+  const double scaled = std::scalbn(t, power), back = std::scalbn(scaled, -power);
+  const bool beyond = towards < t ? back > t : back < t;
+  return beyond ? std::nextafter(scaled, towards) : scaled;
 }
 
 TimeOfContact answer(const MovingPair& pair, ContactTimeStatus status, double time, double latest,
@@ -136,22 +157,32 @@ TimeOfContact advance(const MovingPair& pair, const PairAt& start, const Gap& st
   return answer(pair, ContactTimeStatus::not_converged, t, t, kMaxSteps);
 }
 
+bool finite(const Motion& motion) {
+  return motion.velocity.allFinite() && motion.angular_velocity.allFinite() &&
+         motion.pivot_arm.allFinite();
+}
+
 TimeOfContact found_time(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
                          const Motion& motion_b, double horizon, double tolerance) {
   assert(std::isfinite(horizon) && horizon >= 0.0 && tolerance > 0.0);
-  assert(motion_a.angular_velocity.allFinite() && motion_b.angular_velocity.allFinite());
-  const auto [pair, exponent] = problem(a, motion_a, b, motion_b, horizon);
+  assert(finite(motion_a) && finite(motion_b));
+  const Problem asked = problem(a, motion_a, b, motion_b, horizon, tolerance);
+  const MovingPair& pair = asked.pair;
   const PairAt start = pair.at(0.0);
   const Gap gap = signed_gap(start.a, start.b, start.d);
   const bool in_doubt = gap.gap <= pair.rounding(0.0);
   TimeOfContact found = in_doubt && relation(a, b).relation != Relation::separate
                             ? answer(pair, ContactTimeStatus::touching_at_start, 0.0, 0.0, 1)
-                            : advance(pair, start, gap, horizon, tolerance);
-  found.gap.gap = std::scalbn(found.gap.gap, exponent);
-  found.gap.gap_error = std::scalbn(found.gap.gap_error, exponent);
-  found.gap.arm_a = scaled_by_power(found.gap.arm_a, exponent);
-  found.gap.arm_b = scaled_by_power(found.gap.arm_b, exponent);
-  found.resolution = std::scalbn(found.resolution, exponent);
+                        : asked.within || horizon == 0.0
+                            ? advance(pair, start, gap, asked.horizon, asked.tolerance)
+                            : answer(pair, ContactTimeStatus::not_converged, 0.0, 0.0, 1);
+  found.time = scaled_time(found.time, asked.time, 0.0);
+  found.latest = scaled_time(found.latest, asked.time, std::numeric_limits<double>::max());
+  found.gap.gap = std::scalbn(found.gap.gap, asked.length);
+  found.gap.gap_error = std::scalbn(found.gap.gap_error, asked.length);
+  found.gap.arm_a = scaled_by_power(found.gap.arm_a, asked.length);
+  found.gap.arm_b = scaled_by_power(found.gap.arm_b, asked.length);
+  found.resolution = std::scalbn(found.resolution, asked.length);
   return found;
 }
 

@@ -8,6 +8,7 @@
 /// (2) A velocity common to both bodies changes nothing, up to the tolerance.
 /// (3) The first contact is no earlier than (distance of the solids) / (greatest closing speed).
 /// (4) A longer horizon leaves a contact where it is, up to the tolerance.
+/// (5) Another unit of time, or of length, that is a power of two changes nothing but the unit.
 #pragma once
 
 #include <tangency/geometry/gap.hpp>
@@ -59,9 +60,12 @@ struct TimeOfContact {
 /// slower than 2 resolution / tolerance, or a start that is apart by less. A pass whose least gap
 /// is above `resolution` is `none`.
 ///
+/// Any scale of lengths and times. Of a body that turns by 2^100 rad or more within the horizon
+/// nothing is known beyond the start, and the status is `not_converged` or `touching_at_start`.
+///
 /// Does not allocate, but where only the exact relation can tell a start or a pass from a touch.
 /// @param a,b  the bodies, in this order
-/// @param motion_a, motion_b  finite, and so the distances and angles covered in the horizon
+/// @param motion_a, motion_b  finite (asserted)
 /// @param horizon    time, finite and >= 0 (asserted)
 /// @param tolerance  time, > 0 (asserted)
 TimeOfContact time_of_contact(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,

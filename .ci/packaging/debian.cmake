@@ -41,8 +41,9 @@ set(debian_python_components python)
 set(debian_python_needs "python3, python3-numpy, ${debian_geometry_name} ${same}")
 set(debian_python_section python)
 
-# Who is to be asked about a package is who builds it.
-set(TANGENCY_MAINTAINER "The Tangency authors <unset@localhost>" CACHE STRING
+# Who is to be asked about a package is who builds it. The project is named as in CITATION.cff; it has no
+# address of its own (SECURITY.md), and this one, of a domain that is never given out, reaches nobody.
+set(TANGENCY_MAINTAINER "The Tangency project <maintainer@tangency.example>" CACHE STRING
     "Maintainer of the Debian packages, NAME <ADDRESS>")
 mark_as_advanced(TANGENCY_MAINTAINER)
 

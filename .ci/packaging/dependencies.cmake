@@ -14,7 +14,7 @@ set(tangency_of_Boost CONFIG libboost-dev)
 set(tangency_of_GSL MODULE libgsl-dev)
 set(tangency_of_CGAL CONFIG libcgal-dev)
 set(tangency_of_gmp HEADER libgmp-dev gmpxx.h gmpxx gmp)
-set(tangency_of_mpfr HEADER libmpfr-dev mpfr.h mpfr)
+set(tangency_of_mpfr HEADER libmpfr-dev mpfr.h mpfr gmp)
 set(tangency_of_xxhash HEADER libxxhash-dev xxhash.h)
 
 # tangency_import(NAME HEADER LIBRARY ...): an imported target tangency::NAME, where all of it is there.

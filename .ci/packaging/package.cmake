@@ -140,6 +140,12 @@ function(tangency_install_package)
   if(NOT TANGENCY_INSTALL)
     return()
   endif()
+  set(documents "${CMAKE_INSTALL_DATAROOTDIR}/doc/tangency")  # also within another project
+  if(NOT TARGET tangency_geometry)  # the grader alone: no library, so no package to find
+    install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${documents}" COMPONENT tools)
+    install(DIRECTORY LICENSES DESTINATION "${documents}" COMPONENT tools)
+    return()
+  endif()
   get_property(components GLOBAL PROPERTY tangency_components)
   list(REMOVE_DUPLICATES components)
   foreach(component IN LISTS components)
@@ -168,7 +174,6 @@ function(tangency_install_package)
   if(PROJECT_IS_TOP_LEVEL)  # CPack has one project: elsewhere it is that of the user
     include(.ci/packaging/debian.cmake)
   endif()
-  set(documents "${CMAKE_INSTALL_DATAROOTDIR}/doc/tangency")  # also within another project
   install(FILES LICENSE README.md CHANGELOG.md DESTINATION "${documents}" COMPONENT geometry)
   install(DIRECTORY LICENSES docs/example DESTINATION "${documents}" COMPONENT geometry)
 endfunction()

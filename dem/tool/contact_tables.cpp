@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
+#include <tangency/dem/tool/contact_fields.hpp>
 #include <tangency/dem/tool/csv_text.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/packing.hpp>
@@ -14,20 +16,40 @@
 namespace tangency::inline v0::dem {
 namespace {
 
-constexpr std::array<std::string_view, 23> kContactColumns{
-    "a",  "b",  "ix", "iy", "iz", "x",  "y",  "z",  "nx", "ny", "nz",     "gap",
-    "bx", "by", "bz", "ax", "ay", "az", "fn", "fx", "fy", "fz", "sliding"};
-constexpr std::array<std::string_view, 19> kParticleColumns{
-    "id", "type", "x",  "y",  "z",  "r1", "r2", "r3", "qw",      "qx",
-    "qy", "qz",   "vx", "vy", "vz", "wx", "wy", "wz", "contacts"};
-
-/// Of a run that is over those of its last stage.
-ContactLaws laws_of(const Simulation& simulation) {
-  const auto& drive = simulation.stage().drive;
-  return simulation.finished() && drive && drive->friction_coefficient
-             ? with_friction(simulation.laws(), *drive->friction_coefficient)
-             : simulation.laws();
-}
+constexpr std::array<std::string_view, 31> kContactColumns{"a",
+                                                           "b",
+                                                           "ix",
+                                                           "iy",
+                                                           "iz",
+                                                           "x",
+                                                           "y",
+                                                           "z",
+                                                           "nx",
+                                                           "ny",
+                                                           "nz",
+                                                           "gap",
+                                                           "bx",
+                                                           "by",
+                                                           "bz",
+                                                           "ax",
+                                                           "ay",
+                                                           "az",
+                                                           "fn",
+                                                           "fx",
+                                                           "fy",
+                                                           "fz",
+                                                           "sliding",
+                                                           "sx",
+                                                           "sy",
+                                                           "sz",
+                                                           "vx",
+                                                           "vy",
+                                                           "vz",
+                                                           "curvature_min",
+                                                           "curvature_max"};
+constexpr std::array<std::string_view, 25> kParticleColumns{
+    "id", "type", "x",  "y",  "z",  "r1",       "r2",   "r3",   "qw",   "qx",   "qy",   "qz",  "vx",
+    "vy", "vz",   "wx", "wy", "wz", "contacts", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx"};
 
 template <std::size_t N>
 CsvText with_header(const std::array<std::string_view, N>& columns) {
@@ -39,8 +61,17 @@ CsvText with_header(const std::array<std::string_view, N>& columns) {
 
 }  // namespace
 
+ContactLaws laws_of(const Simulation& simulation) {
+  const auto& drive = simulation.stage().drive;
+  return simulation.finished() && drive && drive->friction_coefficient
+             ? with_friction(simulation.laws(), *drive->friction_coefficient)
+             : simulation.laws();
+}
+
 std::string contact_table(const State& state, const ContactLaws& laws) {
-  const PackingContacts contacts = packing_of(state, laws).contacts;
+  const Packing packing = packing_of(state, laws);
+  const PackingContacts& contacts = packing.contacts;
+  const std::vector<Vec3> velocities = contact_velocities(packing, state.cell);
   CsvText text = with_header(kContactColumns);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     for (const std::int64_t body : contacts.bodies[k]) text.add(body);
@@ -53,6 +84,9 @@ std::string contact_table(const State& state, const ContactLaws& laws) {
     text.add(contacts.normal_force[k]);
     text.add(contacts.force[k]);
     text.add(std::int64_t{contacts.sliding[k]});
+    text.add(shear_force(contacts, k));
+    text.add(velocities[k]);
+    for (const double curvature : relative_curvatures(packing, k)) text.add(curvature);
     text.end_row();
   }
   return std::string(text.view());
@@ -60,6 +94,7 @@ std::string contact_table(const State& state, const ContactLaws& laws) {
 
 std::string particle_table(const State& state) {
   const PackingParticles particles = packing_of(state).particles;
+  const std::vector<Mat3> stresses = particle_stresses(state);
   CsvText text = with_header(kParticleColumns);
   for (std::size_t id = 0; id < particles.size(); ++id) {
     text.add(static_cast<std::int64_t>(id));
@@ -71,6 +106,8 @@ std::string particle_table(const State& state) {
     text.add(particles.velocity[id]);
     text.add(particles.angular_velocity[id]);
     text.add(std::int64_t{particles.contacts[id]});
+    const Mat3& s = stresses[id];
+    for (const double part : {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)}) text.add(part);
     text.end_row();
   }
   return std::string(text.view());

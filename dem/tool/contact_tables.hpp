@@ -13,13 +13,19 @@
 
 namespace tangency::inline v0::dem {
 
+/// With the friction of the stage that the simulation is in; of a run that is over the last one's.
+ContactLaws laws_of(const Simulation& simulation);
+
 /// A row a touching contact between particles, a, b, ix, iy, iz, x, y, z, nx, ny, nz, gap, bx, by,
-/// bz, ax, ay, az, fn, fx, fy, fz, sliding; the header alone where there is none.
+/// bz, ax, ay, az, fn, fx, fy, fz, sliding, and those of contact_fields.hpp: shear force sx, sy,
+/// sz, relative velocity vx, vy, vz, curvature_min, curvature_max; the header alone where there is
+/// none.
 /// @param laws  whose Coulomb limit `sliding` means
 std::string contact_table(const State& state, const ContactLaws& laws);
 
 /// A row a particle, id, type, x, y, z, r1, r2, r3, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz,
-/// contacts; the type counts from 0 in the alphabetical order of names.
+/// contacts, and the particle's stress s_xx, s_yy, s_zz, s_xy, s_yz, s_zx; the type counts from 0
+/// in the alphabetical order of names.
 std::string particle_table(const State& state);
 
 class ContactTables {

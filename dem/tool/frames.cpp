@@ -6,14 +6,18 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <fstream>
 #include <optional>
-#include <sstream>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include <tangency/dem/tool/contact_frames.hpp>
+#include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
+#include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
@@ -35,56 +39,41 @@ Vec3 wrapped(const State& state, std::size_t i) {
 }
 
 /// R diag(2a) R', row by row.
-Eigen::Matrix<double, 9, 1> axes_tensor(const Particles& particles, std::size_t i) {
+Eigen::Matrix<float, 9, 1> axes_tensor(const Particles& particles, std::size_t i) {
   const Mat3 rotation = particles.orientation[i].toRotationMatrix();
   const Mat3 tensor = rotation * (2.0 * particles.semi_axes[i]).asDiagonal() * rotation.transpose();
-  return tensor.reshaped();
+  return tensor.reshaped().cast<float>();
 }
 
-/// One array of a VTK XML file; `value(i)` is the text of item i.
-template <class F>
-void data_array(std::ostream& out, const std::string& attributes, std::size_t count, F&& value) {
-  out << "<DataArray " << attributes << " format=\"ascii\">\n";
-  for (std::size_t i = 0; i < count; ++i) out << value(i) << '\n';
-  out << "</DataArray>\n";
-}
-
-std::string vtp_of(const State& state) {
+std::string particles_vtp(const State& state) {
   const Particles& p = state.particles;
-  const std::size_t n = p.size();
   const std::vector<std::int32_t>& contacts = state.contacts.resultants().contacts;
   const std::vector<std::uint32_t> in_order = p.index_of_id();
-  const std::string real = "type=\"Float64\" NumberOfComponents=";
-  std::ostringstream out;
+  using Of = VtkPolyData::Of;
+  VtkPolyData file(VtkPolyData::Cells::points, p.size(), "axes");
   // Of all particles in the order of the scene.
-  const auto particle_array = [&](const std::string& attributes, auto&& value) {
-    data_array(out, attributes, n, [&](std::size_t id) { return value(in_order[id]); });
+  const auto numbers = [&]<class Number>(Number, auto&& value) {
+    std::vector<Number> all;
+    for (const std::uint32_t i : in_order)
+      for (const Number x : value(i)) all.push_back(x);
+    return all;
   };
-  out << "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
-         "<FieldData>\n";
-  data_array(out, real + "\"9\" NumberOfTuples=\"1\" Name=\"cell\"", 1,
-             [&](std::size_t) { return row(state.cell.edges.reshaped()); });
-  out << "</FieldData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << n
-      << "\">\n<Points>\n";
-  particle_array(real + "\"3\"", [&](std::size_t i) { return row(wrapped(state, i)); });
-  out << "</Points>\n<Verts>\n";
-  const std::string integer = "type=\"Int32\" Name=";
-  data_array(out, integer + "\"connectivity\"", n, [](std::size_t i) { return to_text(i); });
-  data_array(out, integer + "\"offsets\"", n, [](std::size_t i) { return to_text(i + 1); });
-  out << "</Verts>\n<PointData Tensors=\"axes\">\n";
-  particle_array(real + "\"9\" Name=\"axes\"",
-                 [&](std::size_t i) { return row(axes_tensor(p, i)); });
-  particle_array(real + "\"4\" Name=\"orientation\"",
-                 [&](std::size_t i) { return row(p.orientation[i].coeffs()); });
-  particle_array(real + "\"3\" Name=\"semi_axes\"",
-                 [&](std::size_t i) { return row(p.semi_axes[i]); });
-  particle_array(real + "\"3\" Name=\"velocity\"",
-                 [&](std::size_t i) { return row(p.velocity[i]); });
-  particle_array(integer + "\"type\"", [&](std::size_t i) { return to_text(p.type[i]); });
-  particle_array(integer + "\"contacts\"", [&](std::size_t i) { return to_text(contacts[i]); });
-  out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-  return out.str();
+  const auto integers = [&](const std::vector<std::int32_t>& of_particles) {
+    std::vector<std::int32_t> all;
+    for (const std::uint32_t i : in_order) all.push_back(of_particles[i]);
+    return all;
+  };
+  const Eigen::Matrix<double, 9, 1> edges = state.cell.edges.reshaped();
+  file.add(Of::whole, "cell", 9, std::span<const double>(edges.data(), 9));
+  file.places(numbers(0.0, [&](std::size_t i) { return wrapped(state, i); }));
+  file.add(Of::points, "axes", 9, numbers(0.0F, [&](std::size_t i) { return axes_tensor(p, i); }));
+  file.add(Of::points, "orientation", 4,
+           numbers(0.0, [&](std::size_t i) { return p.orientation[i].coeffs(); }));
+  file.add(Of::points, "semi_axes", 3, numbers(0.0, [&](std::size_t i) { return p.semi_axes[i]; }));
+  file.add(Of::points, "velocity", 3, numbers(0.0, [&](std::size_t i) { return p.velocity[i]; }));
+  file.add(Of::points, "type", 1, integers(p.type));
+  file.add(Of::points, "contacts", 1, integers(contacts));
+  return file.text();
 }
 
 std::string xyz_of(const Simulation& simulation) {
@@ -97,17 +86,14 @@ std::string xyz_of(const Simulation& simulation) {
   std::string text = to_text(p.size()) + "\nLattice=\"" + row(state.cell.edges.reshaped()) +
                      "\" pbc=\"" + periodic +
                      "\" Properties=species:S:1:pos:R:3:orientation:R:4:"
-                     "aspherical_shape:R:3:velo:R:3 cycle=" +
+                     "aspherical_shape:R:3:velo:R:3:id:I:1 cycle=" +
                      to_text(state.cycle) + " Time=" + to_text(state.time) + "\n";
   for (const std::uint32_t i : p.index_of_id())
     text += simulation.scene().particle_types[static_cast<std::size_t>(p.type[i])].name + " " +
             row(wrapped(state, i)) + " " + row(p.orientation[i].coeffs()) + " " +
-            row(p.semi_axes[i]) + " " + row(p.velocity[i]) + "\n";
+            row(p.semi_axes[i]) + " " + row(p.velocity[i]) + " " + to_text(p.id[i] + 1) + "\n";
   return text;
 }
-
-/// Of a frame for ParaView, seen from the directory of the results.
-std::string file_of(std::int64_t cycle) { return "frames/" + to_text(cycle) + ".vtp"; }
 
 /// The text between `before` and `after` in a line, if both are there.
 std::optional<std::string> between(const std::string& line, const std::string& before,
@@ -121,41 +107,61 @@ std::optional<std::string> between(const std::string& line, const std::string& b
 
 }  // namespace
 
-Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds)
-    : directory_(directory), adds_(adds) {
+Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds,
+               bool adds_contacts)
+    : directory_(directory), adds_(adds), adds_contacts_(adds && adds_contacts) {
   if (!adds_ && !holds_any()) return;
   make_folder(directory_ / "frames");
-  const std::vector<Entry> later = read_index(last_cycle);
   // All that may fail comes first: then nothing has been taken away yet.
-  std::optional<WholeFile> index;
-  if (!later.empty()) index.emplace(directory_ / "frames.pvd").write(index_text());
+  std::deque<WholeFile> indices;
+  std::vector<std::filesystem::path> later;
+  for (Kind& kind : kinds_) {
+    const std::vector<VtkEntry> removed = read_index(kind, last_cycle);
+    if (!removed.empty()) indices.emplace_back(directory_ / kind.index).write(index_of(kind));
+    for (const VtkEntry& entry : removed) {
+      later.push_back(file_of(kind, entry.cycle));
+      if (kind.has_bonds) later.push_back(bonds_of(entry.cycle));
+    }
+  }
   keep_xyz(last_cycle);
-  if (index) index->publish();
-  for (const Entry& entry : later) std::filesystem::remove(directory_ / file_of(entry.cycle));
-  if (adds_ || !entries_.empty()) return;
+  for (WholeFile& index : indices) index.publish();
+  for (const auto& file : later) std::filesystem::remove(file);
+  for (const Kind& kind : kinds_)
+    if (kind.entries.empty()) std::filesystem::remove(directory_ / kind.index);
+  if (adds_ || !kinds_.front().entries.empty()) return;
   xyz_.close();
-  for (const char* name : {"frames.xyz.part", "frames.pvd"})
-    std::filesystem::remove(directory_ / name);
+  std::filesystem::remove(directory_ / "frames.xyz.part");
   std::error_code error;  // another's files may be in it
   std::filesystem::remove(directory_ / "frames", error);
 }
 
 bool Frames::holds_any() const {
-  const auto is_there = [&](const char* name) {
-    return std::filesystem::exists(directory_ / name);
-  };
-  return is_there("frames.pvd") || is_there("frames.xyz") || is_there("frames.xyz.part");
+  for (const char* name : {"frames.pvd", "frames.xyz", "frames.xyz.part"})
+    if (std::filesystem::exists(directory_ / name)) return true;
+  return false;
 }
 
-std::vector<Frames::Entry> Frames::read_index(std::int64_t last_cycle) {
-  std::vector<Entry> later;
-  std::ifstream in(directory_ / "frames.pvd");
+std::filesystem::path Frames::file_of(const Kind& kind, std::int64_t cycle) const {
+  return directory_ / "frames" / (to_text(cycle) + kind.ending);
+}
+
+std::filesystem::path Frames::bonds_of(std::int64_t cycle) const {
+  return directory_ / "frames" / (to_text(cycle) + ".bonds");
+}
+
+std::string Frames::index_of(const Kind& kind) const {
+  return vtk_collection(kind.entries, "frames", kind.ending);
+}
+
+std::vector<VtkEntry> Frames::read_index(Kind& kind, std::int64_t last_cycle) const {
+  std::vector<VtkEntry> later;
+  std::ifstream in(directory_ / kind.index);
   for (std::string line; std::getline(in, line);) {
     const auto time = between(line, "timestep=\"", "\"");
-    const auto cycle = between(line, "file=\"frames/", ".vtp\"");
+    const auto cycle = between(line, "file=\"frames/", kind.ending + "\"");
     if (!time || !cycle) continue;
-    const Entry entry{std::stoll(*cycle), std::stod(*time)};
-    (entry.cycle <= last_cycle ? entries_ : later).push_back(entry);
+    const VtkEntry entry{std::stoll(*cycle), std::stod(*time)};
+    (entry.cycle <= last_cycle ? kind.entries : later).push_back(entry);
   }
   return later;
 }
@@ -182,24 +188,28 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
   std::filesystem::remove(whole);
 }
 
-void Frames::add(const Simulation& simulation) {
-  if (!adds_) return;
-  const State& state = simulation.state();
-  if (!entries_.empty() && entries_.back().cycle == state.cycle) return;
-  write_whole(directory_ / file_of(state.cycle), vtp_of(state));
-  entries_.push_back({state.cycle, state.time});
-  write_whole(directory_ / "frames.pvd", index_text());
-  write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
+bool Frames::has(const Kind& kind, std::int64_t cycle) {
+  return !kind.entries.empty() && kind.entries.back().cycle == cycle;
 }
 
-std::string Frames::index_text() const {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (const Entry& entry : entries_)
-    text += "<DataSet timestep=\"" + to_text(entry.time) + "\" part=\"0\" file=\"" +
-            file_of(entry.cycle) + "\"/>\n";
-  return text + "</Collection>\n</VTKFile>\n";
+void Frames::add_to(Kind& kind, const State& state, const std::string& file) {
+  write_whole(file_of(kind, state.cycle), file);
+  kind.entries.push_back({state.cycle, state.time});
+  write_whole(directory_ / kind.index, index_of(kind));
+}
+
+void Frames::add(const Simulation& simulation) {
+  const State& state = simulation.state();
+  auto& [particles, contacts, chains] = kinds_;
+  if (adds_contacts_ && !has(contacts, state.cycle)) {
+    const Packing packing = packing_of(state, laws_of(simulation));
+    write_whole(bonds_of(state.cycle), bonds_dump(state, packing));
+    add_to(contacts, state, contacts_vtp(state, packing));
+    add_to(chains, state, chains_vtp(state, packing));
+  }
+  if (!adds_ || has(particles, state.cycle)) return;
+  add_to(particles, state, particles_vtp(state));
+  write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
 }
 
 void Frames::finish() {

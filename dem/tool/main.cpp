@@ -16,11 +16,13 @@
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/contact_tables.hpp>
+#include <tangency/dem/tool/exchange_commands.hpp>
 #include <tangency/dem/tool/micro.hpp>
 #include <tangency/dem/tool/micro_help.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/report.hpp>
 #include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/tool/schema.hpp>
 #include <tangency/dem/tool/strain_report.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
@@ -40,6 +42,8 @@ constexpr const char* kProgramHelp = R"(
 `tangency-dem schema` lists every key of a scene;
 `tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
 that these make of a state;
+`tangency-dem export --help` and `tangency-dem import --help` say how LAMMPS, GSD and extended XYZ
+give sizes and quaternions;
 `tangency-dem micro --help` says what it tells of forces and directions, and the columns of
 micro.csv.
 )";
@@ -57,6 +61,12 @@ DIR receives:
   frames.pvd, frames/CYCLE.vtp   particles for ParaView
   frames.xyz         the same for OVITO, extended XYZ; frames.xyz.part while the run lasts;
                      with frame_interval = 0 there are no frames
+  contacts.pvd, chains.pvd, frames/CYCLE.contacts.vtp, frames/CYCLE.chains.vtp
+                     with contact_frames: contacts for ParaView, as points with their forces, and
+                     as lines between centres
+  frames/CYCLE.bonds the same for OVITO: a dump of LAMMPS' style local for its modifier Load
+                     Trajectory; id1, id2 are the columns Particle Identifiers, px, py, pz Periodic
+                     Image
   micro.csv          with a micro_interval: fabric, forces and stress, a row every so many cycles
                      and at the end of each stage; columns: tangency-dem micro --help
   contacts/CYCLE.csv where there is a contact_interval: every so many cycles, at the start and at
@@ -115,6 +125,13 @@ logarithmic and count from the start of the stage:
   boundary_s_xx boundary_s_yy boundary_s_zz boundary_s_xy boundary_s_yz boundary_s_zx
                         Pa, from the forces on the walls and through the periodic faces: the
                         stress, but for what particles out of balance, or weights, make of it
+  viscous_loss          J since the start: lost at contacts with a restitution below 1
+  p q                   Pa: the mean stress again, and the deviator sqrt(3/2 s':s') of the stress
+                        less its mean, s1 - s3 in a triaxial test; with dimensions = 2
+                        (s1 - s2) / 2
+  mechanical_coordination
+                        mean number of contacts of the particles that have two or more, under
+                        gravity one or more
 
 More keys of summary.json:
   particles, cycles, threads
@@ -193,6 +210,12 @@ a, b and the image; contacts with walls are left out. Without a contact: the hea
   sliding     1 where the shear force is at the Coulomb limit, else 0: at that of --friction, else
               of the scene's [contact], since a state does not know a friction_coefficient of its
               stage; in the contacts/CYCLE.csv of a run at that of the stage
+  sx sy sz    shear force of a on b, N: the whole force less fn times the normal
+  vx vy vz    velocity of b relative to a at the contact, m/s, spins and the strain of the cell in
+              it, half a step ago
+  curvature_min curvature_max
+              principal curvatures of the distance between the two surfaces, 1/m: of equal spheres
+              2/r and 2/r; in the plane 0 and that of the outlines
 Numbers read back to the same double.
 
 Exit status:
@@ -210,6 +233,10 @@ STATE is a final.state, checkpoint.state or one of states/ of a run. A row a par
   vx vy vz    velocity relative to the strain of the cell, m/s, half a step ago
   wx wy wz    angular velocity in space axes, 1/s, half a step ago
   contacts    that it has, those with walls included; one with its own image counts twice
+  s_xx s_yy s_zz s_xy s_yz s_zx
+              stress of the particle, Pa, compression positive: of the forces on it, those of walls
+              included, over its volume, made symmetric. Times volumes, summed, over the volume of
+              the cell it is the stress of history.csv
 Numbers read back to the same double.
 
 Exit status:
@@ -359,10 +386,31 @@ void add_tables(tables::Program& program) {
   add_table(program, "particles", "Table of a state's particles", kParticlesHelp, particle_table);
 }
 
+constexpr const char* kSchemaHelp = R"(
+The table that checks scenes, section by section: type, unit, default, what is allowed, meaning.
+--json prints it for programs: {"schema": 1, "keys": [...]}, of each key section, key, type, unit,
+required, default and default_rule (in words, where it is no value), minimum and maximum and whether
+they are allowed themselves, choices, stages (kinds that have the key) and meaning. --markdown
+prints it as a page with a table a kind of stage.
+)";
+
 void add_schema(tables::Program& program) {
-  program.subcommand("schema", "Print every key of a scene").runs([] {
+  struct Words {
+    bool json = false, markdown = false;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command = program.subcommand("schema", "Print every key of a scene");
+  const tables::Option json = command.flag("--json", words->json, "As JSON");
+  command.flag("--markdown", words->markdown, "As a page of Markdown").excludes(json);
+  command.footer(kSchemaHelp);
+  command.runs([words] {
     std::ostringstream text;
-    print_schema(text);
+    if (words->json)
+      text << schema_json();
+    else if (words->markdown)
+      text << schema_markdown();
+    else
+      print_schema(text);
     tables::OutputFile("-").write(text.str());
     return success;
   });
@@ -378,6 +426,8 @@ int main(int argc, char** argv) {
   add_run(program);
   add_report(program);
   add_tables(program);
+  add_export(program);
+  add_import(program);
   add_micro(program);
   add_schema(program);
   return program.run(argc, argv);

@@ -226,7 +226,7 @@ std::string time_charts(const Run& run) {
   std::vector<Curve> energies;
   for (const char* name :
        {"boundary_work", "gravity_work", "growth_work", "branch_work", "sliding_loss",
-        "damping_loss", "elastic_energy", "kinetic_energy", "energy_error"}) {
+        "damping_loss", "viscous_loss", "elastic_energy", "kinetic_energy", "energy_error"}) {
     std::vector<double> values = run.column(name);
     if (std::any_of(values.begin(), values.end(), [](double x) { return x != 0.0; }))
       energies.push_back({name, time, std::move(values)});

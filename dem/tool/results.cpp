@@ -155,7 +155,7 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
       history_(directory_ / "history.csv", history_columns()),
       micro_(directory_ / "micro.csv", micro_columns(simulation, "", 0.0, MicroSummary())),
       frames_(directory_, carries_on_ ? simulation.state().cycle : -1,
-              simulation.scene().output.frame > 0),
+              simulation.scene().output.frame > 0, simulation.scene().output.contact_frames),
       contacts_(directory_, carries_on_ ? simulation.state().cycle : -1,
                 simulation.scene().output.contacts > 0),
       kept_(directory_, carries_on_ ? simulation.state().cycle : -1, simulation) {

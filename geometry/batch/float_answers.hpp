@@ -25,6 +25,13 @@ inline float to_float_upwards(double x) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + up);
 }
 
+/// The largest float that is not above x >= 0.
+inline float to_float_downwards(double x) {
+  const auto nearest = static_cast<float>(x);
+  const std::uint32_t down = static_cast<double>(nearest) > x ? 1 : 0;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) - down);
+}
+
 /// How far to_float_gap(gap) may be from what `gap` is within `error` of. Three operations in
 /// double lose at most 3 u of the sum, and nothing below double's normal range: 2^-50 covers them.
 inline float to_float_error(double gap, double error) {

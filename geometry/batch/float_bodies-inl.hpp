@@ -108,6 +108,63 @@ HWY_INLINE void load_rows(const FloatRow* rows, const IndexedPair* pairs,
   };
   load_rows(row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), to, i);
 }
+#elif HWY_MAX_BYTES == 16
+constexpr std::size_t kRowsAtOnce = 4;
+
+/// Columns of the first and of the second double of two rows.
+HWY_INLINE void transpose(const double* r0, const double* r1, Column<double>& first,
+                          Column<double>& second, std::size_t i) {
+  const Register a = hn::Load(D(), r0), b = hn::Load(D(), r1);
+  hn::Store(hn::InterleaveLower(D(), a, b), D(), first.entry + i);
+  hn::Store(hn::InterleaveUpper(D(), a, b), D(), second.entry + i);
+}
+struct FourColumns {
+  hn::Vec<F> first, second, third, fourth;
+};
+/// Four columns of floats of four rows.
+HWY_INLINE FourColumns transposed(const float* r0, const float* r1, const float* r2,
+                                  const float* r3) {
+  const auto load = [](const float* row) HWY_ATTR { return hn::Load(F(), row); };
+  const auto low02 = hn::InterleaveLower(F(), load(r0), load(r2)),
+             low13 = hn::InterleaveLower(F(), load(r1), load(r3));
+  const auto high02 = hn::InterleaveUpper(F(), load(r0), load(r2)),
+             high13 = hn::InterleaveUpper(F(), load(r1), load(r3));
+  return {hn::InterleaveLower(F(), low02, low13), hn::InterleaveUpper(F(), low02, low13),
+          hn::InterleaveLower(F(), high02, high13), hn::InterleaveUpper(F(), high02, high13)};
+}
+
+HWY_INLINE void load_rows(const FloatRow& r0, const FloatRow& r1, const FloatRow& r2,
+                          const FloatRow& r3, FloatRowColumns& to, std::size_t i) {
+  const auto put = [&](hn::Vec<F> v, Column<float>& column)
+                       HWY_ATTR { hn::Store(v, F(), column.entry + i); };
+  Column<double>* const centre = to.centre.column;
+  transpose(r0.centre, r1.centre, centre[0], centre[1], i);
+  transpose(r2.centre, r3.centre, centre[0], centre[1], i + 2);
+  double* const z = centre[2].entry + i;
+  z[0] = r0.centre[2], z[1] = r1.centre[2], z[2] = r2.centre[2], z[3] = r3.centre[2];
+  const auto floats = [](const FloatRow& row) { return reinterpret_cast<const float*>(&row); };
+  const float *const row0 = floats(r0), *const row1 = floats(r1), *const row2 = floats(r2),
+                     *const row3 = floats(r3);
+  const FourColumns sizes = transposed(row0 + 4, row1 + 4, row2 + 4, row3 + 4);
+  put(sizes.third, to.largest);
+  put(sizes.fourth, to.least_radius);
+  Column<float>* const shape = to.shape.column;
+  const FourColumns m = transposed(row0 + 8, row1 + 8, row2 + 8, row3 + 8);
+  put(m.first, shape[0]);
+  put(m.second, shape[1]);
+  put(m.third, shape[2]);
+  put(m.fourth, shape[3]);
+  const FourColumns rest = transposed(row0 + 12, row1 + 12, row2 + 12, row3 + 12);
+  put(rest.first, shape[4]);
+  put(rest.second, shape[5]);
+  put(rest.third, to.widest);
+}
+HWY_INLINE void load_rows(const FloatRow* rows, const IndexedPair* pairs,
+                          std::uint32_t IndexedPair::*which, FloatRowColumns& to, std::size_t i) {
+  const auto row = [&](std::size_t k)
+                       HWY_ATTR -> const FloatRow& { return rows[pairs[i + k].*which]; };
+  load_rows(row(0), row(1), row(2), row(3), to, i);
+}
 #else
 constexpr std::size_t kRowsAtOnce = 1;
 

@@ -16,6 +16,12 @@ namespace tangency::inline v0::detail {
 /// proves the global gap alone. Assumes rounding to nearest.
 std::uint64_t float_gap_lanes(LaneBlock& block) noexcept;
 
+/// Bit i: the gap of pair i is proven to be at least least[i], above the cutoff. Reads floats,
+/// pairs, count, separations and normals. Assumes rounding to nearest.
+/// @param cutoff  at least 0
+/// @param least  kPairs numbers
+std::uint64_t far_lanes(const LaneBlock& block, double cutoff, double* least) noexcept;
+
 /// As overlap_lanes(). Reads floats, pairs, count and separations of the block. In any rounding
 /// mode, subnormal numbers kept.
 LaneOverlaps float_overlap_lanes(const LaneBlock& block) noexcept;

@@ -46,8 +46,10 @@ HWY_ATTR LaneOverlaps float_overlap_lanes(const LaneBlock& block) {
   for (std::size_t k = 0; k < packs; ++k) starts[k] = FloatStart(pairs[k]);
   std::size_t open[kPacks], count = packs;
   for (std::size_t k = 0; k < packs; ++k) open[k] = k;
+  for (int step = 0; step < block.yes_no_steps; ++step)
+    for (std::size_t k = 0; k < packs; ++k) starts[k].step();
   LaneOverlaps answers{0, 0};
-  for (int step = 0;; ++step) {
+  for (int step = block.yes_no_steps;; ++step) {
     for (std::size_t j = 0; j < count; ++j) normals[open[j]] = starts[open[j]].normal();
     std::size_t left = 0;
     for (std::size_t j = 0; j < count; ++j) {
@@ -60,6 +62,7 @@ HWY_ATTR LaneOverlaps float_overlap_lanes(const LaneBlock& block) {
       open[left] = k;
       left += static_cast<std::size_t>(is_open);
     }
+    if (step == block.yes_no_steps) answers.mostly_open = 2 * left > packs;
     count = left;
     if (count == 0 || step == kSteps) return answers;
     for (std::size_t j = 0; j < count; ++j) starts[open[j]].step();

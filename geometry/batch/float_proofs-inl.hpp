@@ -55,6 +55,25 @@ HWY_INLINE FloatLook look(const FloatPairs& pairs, const FloatVec3& n) {
   return {a.inverse_h, b.inverse_h, gap, a.point, b.point, multiply_take(gap, n, rest)};
 }
 
+/// How far the value is off, where `in_reach`.
+struct FloatOff {
+  FloatPack over_h, thin, value_error;
+  FloatMask in_reach;
+};
+
+/// (v)
+/// @param u  kToNearest or kInAnyMode
+HWY_INLINE FloatOff value_off(const FloatPairs& pairs, const FloatPack& inverse_h_a,
+                              const FloatPack& inverse_h_b, const FloatPack& gap, double u) {
+  const auto c = [](double x) HWY_ATTR { return all<FloatPack>(x); };
+  const FloatPack over_h = multiply_add(pairs.widest_a, inverse_h_a, pairs.widest_b * inverse_h_b);
+  const FloatPack thin = larger(pairs.largest_a * inverse_h_a, pairs.largest_b * inverse_h_b);
+  const FloatPack value_error =
+      c(u * kOfBounds) *
+      multiply_add(c(kOfWidest), over_h, multiply_add(c(kOfGap), absolute(gap), pairs.roundings));
+  return {over_h, thin, value_error, (thin <= c(kThinnest)) & pairs.in_range};
+}
+
 /// What that proves: the gap is at least the value less `value_error`, and where `sound` no more
 /// above the value than `above` and `value_error`.
 struct FloatBounds {
@@ -62,22 +81,16 @@ struct FloatBounds {
   FloatMask sound;
 };
 
-/// (v), (r), (b).
-/// @param u  kToNearest or kInAnyMode
+/// (r), (b).
+/// @param u  as of value_off()
 HWY_INLINE FloatBounds bounds(const FloatPairs& pairs, const FloatLook& at, double u) {
   const auto c = [](double x) HWY_ATTR { return all<FloatPack>(x); };
-  const FloatPack over_h =
-      multiply_add(pairs.widest_a, at.inverse_h_a, pairs.widest_b * at.inverse_h_b);
-  const FloatPack thin = larger(pairs.largest_a * at.inverse_h_a, pairs.largest_b * at.inverse_h_b);
-  const FloatPack value_error =
-      c(u * kOfBounds) * multiply_add(c(kOfWidest), over_h,
-                                      multiply_add(c(kOfGap), absolute(at.gap), pairs.roundings));
-  const FloatPack rest_error = multiply_add(c(u * kOfBend) * thin, over_h, c(u * kOfSize));
+  const FloatOff off = value_off(pairs, at.inverse_h_a, at.inverse_h_b, at.gap, u);
+  const FloatPack rest_error = multiply_add(c(u * kOfBend) * off.thin, off.over_h, c(u * kOfSize));
   const FloatPack half_reach2 =
       multiply_add(c(0.57), dot(at.across, at.across), c(5.1) * (rest_error * rest_error));
-  const FloatPack ball = (at.gap - value_error) + (pairs.radii - c(u * kOfBall));
-  return {value_error, half_reach2 * rough_inverse(ball),
-          (ball > c(0.0)) & (thin <= c(kThinnest)) & pairs.in_range};
+  const FloatPack ball = (at.gap - off.value_error) + (pairs.radii - c(u * kOfBall));
+  return {off.value_error, half_reach2 * rough_inverse(ball), (ball > c(0.0)) & off.in_reach};
 }
 
 /// A search for the Perram-Wertheim normal.

@@ -24,6 +24,8 @@ std::uint64_t mixed_gap_lanes(LaneBlock& block) noexcept;
 /// Bit i: is pair i proven either way, and do its interiors meet?
 struct LaneOverlaps {
   std::uint64_t decided, meet;
+  /// Of float_overlap_lanes(): was most of the block open after the first proof?
+  bool mostly_open = false;
 };
 
 /// Reads bodies, pairs, count and separations of the block. In any rounding mode.

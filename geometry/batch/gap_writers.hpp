@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <tangency/geometry/batch/float_answers.hpp>
@@ -19,6 +20,12 @@ namespace tangency::inline v0::detail {
 /// The contact point, from A's centre.
 inline Vec3 midpoint(const Vec3& d, const Vec3& arm_a, const Vec3& arm_b) {
   return arm_a + 0.5 * ((d + arm_b) - arm_a);
+}
+
+/// The same of an answer; 0 of a pair beyond the cutoff.
+inline Vec3 contact_point(const PairTask& task, std::size_t i, const Gap& gap) {
+  if (gap.status == GapStatus::beyond) return Vec3::Zero();
+  return midpoint(task.separation(i), gap.arm_a, gap.arm_b);
 }
 
 /// Status and tier of a block that lanes answered.
@@ -44,6 +51,25 @@ void write_points(const PairTask& task, const LaneBlock& block, const Columns& t
     const Vec3 point = midpoint(task.separation(first + i), arm(block.arm_a), arm(block.arm_b));
     to.point[first + i] = point.cast<typename Point::Scalar>();
   }
+}
+
+/// What a block of pairs beyond the cutoff has in all columns but the gap's.
+template <class Columns>
+void write_beyond(const Columns& to, std::size_t first, std::size_t count) {
+  const auto fill = [&](const auto& column, const auto& value) {
+    if (!column.empty()) std::fill_n(&column[first], count, value);
+  };
+  const auto clear = [&](const auto& vectors) {
+    if (!vectors.empty()) std::fill_n(vectors[first].data(), 3 * count, 0);
+  };
+  using Number = typename decltype(Columns::gap_error)::value_type;
+  fill(to.gap_error, std::numeric_limits<Number>::infinity());
+  fill(to.status, GapStatus::beyond);
+  fill(to.tier, GapTier::fast);
+  clear(to.normal);
+  clear(to.arm_a);
+  clear(to.arm_b);
+  clear(to.point);
 }
 
 /// Writes the answers of one block to columns: a full block directly.
@@ -79,9 +105,15 @@ struct ToColumns {
     copy(work.arm_b, to.arm_b);
   }
 
+  /// As if all pairs of a block were beyond.
+  void beyond(const double* least, std::size_t first, std::size_t count) const {
+    if (!to.gap.empty()) std::copy_n(least, count, &to.gap[first]);
+    write_beyond(to, first, count);
+  }
+
   void lane(const PairTask& task, std::size_t i, const Gap& gap) const { write(task, i, gap); }
   void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    write(task, i, task.single(i, previous_normal));
+    write(task, i, task.wanted(task.single(i, previous_normal)));
   }
 
   void write(const PairTask& task, std::size_t i, const Gap& gap) const {
@@ -92,7 +124,7 @@ struct ToColumns {
     if (!to.arm_b.empty()) to.arm_b[i] = gap.arm_b;
     if (!to.status.empty()) to.status[i] = gap.status;
     if (!to.tier.empty()) to.tier[i] = gap.tier;
-    if (!to.point.empty()) to.point[i] = midpoint(task.separation(i), gap.arm_a, gap.arm_b);
+    if (!to.point.empty()) to.point[i] = contact_point(task, i, gap);
   }
 };
 
@@ -110,14 +142,19 @@ struct ToBounded {
     columns.lanes(task, work, first, count);
     if (!above.empty()) std::copy_n(work.block.gap_error, count, &above[first]);
   }
+  void beyond(const double* least, std::size_t first, std::size_t count) const {
+    columns.beyond(least, first, count);
+    if (!above.empty()) std::fill_n(&above[first], count, std::numeric_limits<double>::infinity());
+  }
   void lane(const PairTask& task, std::size_t i, const Gap& gap) const {
     columns.write(task, i, gap);
     if (!above.empty()) above[i] = gap.gap_error;
   }
   void single(const PairTask& task, std::size_t i, const Vec3*) const {
-    const BoundedGap gap = task.bounded(i);
+    const BoundedGap found = task.bounded(i);
+    const Gap gap = task.wanted(found);
     columns.write(task, i, gap);
-    if (!above.empty()) above[i] = gap.above;
+    if (!above.empty()) above[i] = gap.status == GapStatus::beyond ? gap.gap_error : found.above;
   }
 };
 
@@ -131,9 +168,12 @@ struct ToGaps {
                        work.gap_error[i], GapStatus::ok,  GapTier::fast};
     }
   }
+  void beyond(const double* least, std::size_t first, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) to[first + i] = detail::beyond(least[i]);
+  }
   void lane(const PairTask&, std::size_t i, const Gap& gap) const { to[i] = gap; }
   void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    to[i] = task.single(i, previous_normal);
+    to[i] = task.wanted(task.single(i, previous_normal));
   }
 };
 
@@ -179,21 +219,26 @@ struct ToFloats {
     vectors(work.arm_b, to.arm_b);
   }
 
+  void beyond(const double* least, std::size_t first, std::size_t count) const {
+    if (!to.gap.empty()) std::transform(least, least + count, &to.gap[first], to_float_downwards);
+    write_beyond(to, first, count);
+  }
+
   void lane(const PairTask& task, std::size_t i, const Gap& gap) const { write(task, i, gap); }
   void single(const PairTask& task, std::size_t i, const Vec3* previous_normal) const {
-    write(task, i, task.single(i, previous_normal));
+    write(task, i, task.wanted(task.single(i, previous_normal)));
   }
 
   void write(const PairTask& task, std::size_t i, const Gap& gap) const {
-    if (!to.gap.empty()) to.gap[i] = to_float_gap(gap.gap);
+    const bool bounded = gap.status == GapStatus::beyond;
+    if (!to.gap.empty()) to.gap[i] = bounded ? to_float_downwards(gap.gap) : to_float_gap(gap.gap);
     if (!to.gap_error.empty()) to.gap_error[i] = to_float_error(gap.gap, gap.gap_error);
     if (!to.normal.empty()) to.normal[i] = gap.normal.cast<float>();
     if (!to.arm_a.empty()) to.arm_a[i] = gap.arm_a.cast<float>();
     if (!to.arm_b.empty()) to.arm_b[i] = gap.arm_b.cast<float>();
     if (!to.status.empty()) to.status[i] = gap.status;
     if (!to.tier.empty()) to.tier[i] = gap.tier;
-    if (!to.point.empty())
-      to.point[i] = midpoint(task.separation(i), gap.arm_a, gap.arm_b).cast<float>();
+    if (!to.point.empty()) to.point[i] = contact_point(task, i, gap).cast<float>();
   }
 };
 

@@ -135,8 +135,22 @@ HWY_INLINE FloatMask first_normal(const LaneBlock& block, MixedColumns& work, st
   return fresh;
 }
 
-/// newton_step() of gap_proofs-inl.hpp, and what is kept of it for the last one.
-HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) {
+HWY_INLINE FloatSymmetric3 chosen(const FloatMask& yes, const FloatSymmetric3& s,
+                                  const FloatSymmetric3& t) {
+  return {chosen(yes, s.xx, t.xx), chosen(yes, s.yy, t.yy), chosen(yes, s.zz, t.zz),
+          chosen(yes, s.yz, t.yz), chosen(yes, s.zx, t.zx), chosen(yes, s.xy, t.xy)};
+}
+
+/// Where no step is taken before the last one, that is none either.
+HWY_INLINE void take_no_step(MixedColumns& work, std::size_t i) {
+  const FloatPack nothing = all<FloatPack>(0.0);
+  store(FloatSymmetric3{nothing, nothing, nothing, nothing, nothing, nothing}, work.adjugate, i);
+  store(nothing, work.inverse_determinant, i);
+}
+
+/// newton_step() of gap_proofs-inl.hpp, and what is kept of it for the last one, of all lanes or of
+/// some.
+HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask* some) {
   const FloatSymmetric3 shape_a = load(work.float_a.shape, i),
                         shape_b = load(work.float_b.shape, i);
   const FloatVec3 n = load(work.start, i);
@@ -146,11 +160,25 @@ HWY_INLINE void step(MixedColumns& work, std::size_t i, const FloatMask& asked) 
   const FloatSymmetric3 k = newton_matrix(shape_a, shape_b, a, b, load(work.size, i), gap, n);
   const FloatSymmetric3 adj = adjugate(k);
   const FloatPack inverse = quick_inverse(determinant(k, adj));
-  store(adj, work.adjugate, i);
-  store(inverse, work.inverse_determinant, i);
   const FloatVec3 r = multiply_take(gap, n, rest);
   const FloatVec3 better = normalised(multiply_add(inverse, adj * r, n));
-  store(chosen(asked, better, n), work.start, i);
+  if (some == nullptr) {
+    store(adj, work.adjugate, i);
+    store(inverse, work.inverse_determinant, i);
+    store(better, work.start, i);
+  } else {
+    store(chosen(*some, adj, load(work.adjugate, i)), work.adjugate, i);
+    store(chosen(*some, inverse, load(work.inverse_determinant, i)), work.inverse_determinant, i);
+    store(chosen(*some, better, n), work.start, i);
+  }
+}
+
+/// The step that all lanes take, but for those of a coarse tolerance, which are mostly good enough.
+HWY_INLINE void step_but_for_coarse(const LaneBlock& block, MixedColumns& work, std::size_t i) {
+  const FloatPack size = load(work.size, i);
+  const FloatMask coarse = load(work.tolerance, i) >= all<FloatPack>(block.coarse) * size;
+  const FloatMask asked = without(every_lane(), coarse);
+  if (!none(asked)) step(work, i, &asked);
 }
 
 /// 1 / |m| by its series, where |m|^2 - 1 is below 2^-20 (2^-19 after a step).
@@ -217,17 +245,23 @@ HWY_ATTR std::uint64_t mixed_gap_lanes(LaneBlock& block) {
   block.within_float = false;
   for (std::size_t i = 0; i < kPairs; i += lanes) block.within_float |= scale(block, work, i);
   if (!block.within_float) return 0;
+  const bool coarse = block.followed_steps == 1 && block.tolerance_of_size + block.tolerance > 0.0;
   if (block.normals == nullptr) {
     for (std::size_t i = 0; i < kPairs; i += lanes) first_normal(block, work, i);
-    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
+    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, nullptr);
   } else {
     for (std::size_t i = 0; i < kPairs; i += lanes) {
       const FloatMask fresh = first_normal(block, work, i);
-      if (!none(fresh)) step(work, i, fresh);
+      if (coarse) take_no_step(work, i);
+      if (!none(fresh)) step(work, i, &fresh);
     }
   }
-  for (int k = 0; k < block.followed_steps; ++k)
-    for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, every_lane());
+  if (coarse) {
+    for (std::size_t i = 0; i < kPairs; i += lanes) step_but_for_coarse(block, work, i);
+  } else {
+    for (int k = 0; k < block.followed_steps; ++k)
+      for (std::size_t i = 0; i < kPairs; i += lanes) step(work, i, nullptr);
+  }
   for (std::size_t i = 0; i < kPairs; i += lanes) evaluate(work, i);
   std::uint64_t settled = 0;
   for (std::size_t i = 0; i < count; i += lanes) settled |= certify(block, work, i) << i;

@@ -22,15 +22,14 @@ namespace {
 constexpr double kOfReachOverH = 3.55, kOfAxes = 7.6, kOfValue = 9.1, kOfCentres = 1.02;
 // (R'), over u.
 constexpr double kOfRest = 8.0;
-// (E): of T |delta| in e, and of T |delta|^2 in the value.
+// (E): of T |delta| in e, and of T |delta|^2 in the value, the fourth order of (T) in it.
 constexpr double kOfStep = 0x1p-19;
-// (T): of sum a^3/h^2 |delta|^3 and of |gap| |delta|^4 in the value; of sum a^3/h^2 |delta|^2 in e.
-constexpr double kThird = 0.55, kFourth = 1.5, kSecond = 1.2;
-// The largest a |delta| / h, |delta| and |n.delta| that (T) and (E) hold for.
-constexpr double kTurnOfBody = 0x1p-8, kTurn2 = 0x1p-20, kAlong = 0x1p-20;
-// (F): what roundings in float may do to a bound, relative; and to the sign's and the ball's own
-// differences.
-constexpr double kFloatBound = 1.0 + 0x1p-18, kOfFloatSum = 0x1p-21;
+// (T): of sum a^3/h^2 |delta|^3 in the value and of sum a^3/h^2 |delta|^2 in e.
+constexpr double kThird = 0.55, kSecond = 1.2;
+// The largest a |delta| / h, |delta|^2 and |n.delta| that (T) and (E) hold for.
+constexpr double kTurnOfBody = 0x1p-8, kTurn2 = 0x1p-22, kAlong = 0x1p-20;
+// (F): what roundings in float may do to the sign's and the ball's differences, relative.
+constexpr double kOfFloatSum = 0x1p-21;
 // The square of the longest step that is taken further, without a proof. Chosen: Newton's method.
 constexpr double kLongest2 = 0x1p-4;
 // Of u L, what a better normal may still gain: as in gap_proofs-inl.hpp.
@@ -87,9 +86,7 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
       c(kUnitRoundoff) *
       multiply_add(c(kOfReachOverH), over_h,
                    multiply_add(c(kOfAxes + factor_error + more), axes, c(kOfValue + more) * size));
-  const FloatPack step_error =
-      step2 * multiply_add(c(kThird) * length, cubes,
-                           multiply_add(c(kFourth) * step2, size, c(kOfStep) * most));
+  const FloatPack step_error = step2 * multiply_add(c(kThird) * length, cubes, c(kOfStep) * most);
   const FloatPack known = multiply_add(c(0.51) * size, along * along, value_error + step_error);
 
   const FloatPack rest_error = c(kOfRest * kUnitRoundoff) * multiply_add(thin, over_h, axes + size);
@@ -102,7 +99,7 @@ HWY_INLINE FloatProof prove(const FloatPoint& at, const FloatVec3& step, bool ce
   const FloatPack half = c(0.5) * (half_left2 * rough_inverse(ball));
 
   const FloatPack beyond = second + half, answer = at.gap + beyond;
-  const FloatPack error = (known + half) * c(kFloatBound);
+  const FloatPack error = known + half;
   const auto within = [&](double roundings_of_size) HWY_ATTR {
     return multiply_add(c(roundings_of_size * kUnitRoundoff), at.size, at.tolerance) *
            c(1.0 - 0x1p-20);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/geometry/batch/near_answers.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,14 +66,15 @@ class Candidates {
         relate(exact);
         if (exact) {
           keep_if([&](std::size_t i) { return known_[i] != Known::apart; });
-          if (gaps_wanted) find_gaps();
+          if (gaps_wanted) find_gaps(std::numeric_limits<double>::infinity());
           return hand_over(found, [&](std::size_t i) { return known_[i] == Known::meet; });
         }
         hand_over_those_that_meet(found);
       }
     }
-    find_gaps();
+    find_gaps(cutoff());
     keep_if([&](std::size_t i) {
+      if (work_.status[i] == GapStatus::beyond) return false;
       return exact ? work_.gap[i] <= 0.0 : work_.gap[i] - work_.gap_error[i] <= question_.reach;
     });
     hand_over(found, [&](std::size_t i) { return work_.gap[i] < 0.0; });
@@ -138,8 +141,15 @@ class Candidates {
     keep_if([&](std::size_t i) { return known_[i] != Known::meet; });
   }
 
+  /// Pairs beyond are no neighbours, whatever their separation is rounded by.
+  double cutoff() const {
+    double most = 0.0;
+    for (const double off : off_) most = std::max(most, off);
+    return (question_.reach + most) * (1.0 + 0x1p-50);
+  }
+
   /// The gaps of all that are left, and the rest of a contact where it is wanted.
-  void find_gaps() {
+  void find_gaps(double cutoff) {
     const std::size_t count = indexed_.size();
     work_.gap.resize(count), work_.gap_error.resize(count), work_.status.resize(count);
     std::vector<GapTier> tier(count);
@@ -149,9 +159,9 @@ class Candidates {
       work_.normal.resize(count), work_.arm_a.resize(count), work_.arm_b.resize(count);
       columns.normal = work_.normal, columns.arm_a = work_.arm_a, columns.arm_b = work_.arm_b;
     }
-    signed_gaps(bodies_.batch(), list(), columns, question_.accuracy);
+    signed_gaps(bodies_.batch(), list(), columns, question_.accuracy.up_to(cutoff));
     for (std::size_t i = 0; i < count; ++i)
-      if (off(i) != 0.0) widen(i, tier[i]);
+      if (off(i) != 0.0 && work_.status[i] != GapStatus::beyond) widen(i, tier[i]);
   }
   void widen(std::size_t i, GapTier tier) {
     double &gap = work_.gap[i], &error = work_.gap_error[i];

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 
 #include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/shape_rows.hpp>
@@ -16,6 +18,8 @@ namespace {
 
 static_assert(kLaneErrorBound == kOrdinaryGapErrorBound,
               "lanes, which share no header with baseline code, promise what one pair does");
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Bodies, 128 bytes each: a megabyte stays near the processor. Chosen.
 constexpr std::size_t kNear = 8192;
@@ -49,6 +53,32 @@ const Vec3* copied(const Vec3* from, std::size_t first, std::size_t count, Vec3*
 template <class T>
 const T* block_of(const T* from, std::size_t first, std::size_t count, T* copy) {
   return count == kBlock ? from + first : copied(from, first, count, copy);
+}
+
+/// The bodies of the pairs of a block.
+/// @param place  of each plain pair in the list
+template <class Place>
+void find_bodies(const PairTask& task, std::size_t count, const Place& place, LaneBlock& block,
+                 PlainRows* plain) {
+  if (task.indexed()) {
+    block.bodies_a = block.bodies_b = task.lanes;
+    block.rows_a = block.rows_b = task.rows;
+    block.floats_a = block.floats_b = task.floats;
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    fill(plain->bodies_a[k], task.plain_a[place(k)]);
+    fill(plain->bodies_b[k], task.plain_b[place(k)]);
+  }
+  fill_shape_rows(plain->bodies_a, count, plain->rows_a);
+  fill_shape_rows(plain->bodies_b, count, plain->rows_b);
+  if (task.in_floats() || task.has_cutoff()) {
+    fill(plain->floats_a, plain->bodies_a, plain->rows_a, count);
+    fill(plain->floats_b, plain->bodies_b, plain->rows_b, count);
+  }
+  block.bodies_a = plain->bodies_a, block.bodies_b = plain->bodies_b;
+  block.rows_a = plain->rows_a, block.rows_b = plain->rows_b;
+  block.floats_a = plain->floats_a, block.floats_b = plain->floats_b;
 }
 
 void aim(const PairTask& task, LaneBlock& block) {
@@ -160,6 +190,13 @@ std::optional<bool> PairTask::overlaps_by_filter(std::size_t i) const noexcept {
   return tangency::overlaps_by_filter(a(i), b(i), separations[i]);
 }
 
+/// The difference is rounded by half of what nextafter() takes off.
+Gap PairTask::wanted(const Gap& gap) const noexcept {
+  if (!has_cutoff()) return gap;
+  const double least = std::nextafter(gap.gap - gap.gap_error, -kInfinity);
+  return least > cutoff ? beyond(least) : gap;
+}
+
 void PairTask::require_finite_separation(std::size_t i) const noexcept {
   if (separations != nullptr) contract::require_finite(call, "separation", separations[i]);
 }
@@ -199,31 +236,22 @@ void PairTask::name_outside(std::size_t first, std::size_t n) const noexcept {
 void OpenPairs::add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
                     const Vec3& start) noexcept {
   const LaneBlock& block = from.block;
+  const auto here = static_cast<std::uint32_t>(count);
   place[count] = at;
   previous[count] = given;
   work.normals[count] = start;
-  work.pairs[count] = block.pairs[i];
-  if (block.bodies_a == from.plain_a) {
-    const auto here = static_cast<std::uint32_t>(count);
-    work.pairs[count] = {here, here};
-    work.plain_a[count] = from.plain_a[i];
-    work.plain_b[count] = from.plain_b[i];
-    work.rows_a[count] = from.rows_a[i];
-    work.rows_b[count] = from.rows_b[i];
-  }
+  work.pairs[count] = block.bodies_a == block.bodies_b ? block.pairs[i] : IndexedPair{here, here};
   if (block.separations != nullptr) work.separations[count] = Vec3::Map(block.separations + 3 * i);
   ++count;
 }
 
-void OpenPairs::complete(const PairTask& task) noexcept {
+void OpenPairs::complete(const PairTask& task, PlainRows* plain) noexcept {
   LaneBlock& block = work.block;
   aim(task, block);
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
-  block.bodies_a = task.indexed() ? task.lanes : work.plain_a;
-  block.bodies_b = task.indexed() ? task.lanes : work.plain_b;
-  block.rows_a = task.indexed() ? task.rows : work.rows_a;
-  block.rows_b = task.indexed() ? task.rows : work.rows_b;
+  find_bodies(
+      task, count, [&](std::size_t k) { return place[k]; }, block, plain);
   block.pairs = work.pairs;
   block.separations = task.separations != nullptr ? work.separations[0].data() : nullptr;
   block.normals = work.normals[0].data();
@@ -242,38 +270,22 @@ void Workspace::take_answers() noexcept {
   block.arm_b = arm_b[0].data();
 }
 
-void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work) noexcept {
+void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work,
+            PlainRows* plain) noexcept {
   LaneBlock& block = work.block;
   block.count = static_cast<int>(count);
   block.next_pairs = nullptr;
   block.nearer_normals = work.nearer_normals[0].data();
+  find_bodies(
+      task, count, [&](std::size_t k) { return first + k; }, block, plain);
   if (task.indexed()) {
-    block.bodies_a = block.bodies_b = task.lanes;
-    block.rows_a = block.rows_b = task.rows;
-    block.floats_a = block.floats_b = task.floats;
     block.pairs = block_of(task.pairs, first, count, work.pairs);
     if (task.body_count > kNear && first + 2 * kBlock <= task.count)
       block.next_pairs = task.pairs + first + kBlock;
   } else {
-    block.bodies_a = work.plain_a;
-    block.bodies_b = work.plain_b;
-    block.rows_a = work.rows_a;
-    block.rows_b = work.rows_b;
-    block.floats_a = work.floats_a;
-    block.floats_b = work.floats_b;
     block.pairs = work.pairs;
     for (std::uint32_t i = 0; i < kBlock; ++i) {
       work.pairs[i] = i < count ? IndexedPair{i, i} : IndexedPair{0, 0};
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      fill(work.plain_a[i], task.plain_a[first + i]);
-      fill(work.plain_b[i], task.plain_b[first + i]);
-    }
-    fill_shape_rows(work.plain_a, count, work.rows_a);
-    fill_shape_rows(work.plain_b, count, work.rows_b);
-    if (task.in_floats()) {
-      fill(work.floats_a, work.plain_a, work.rows_a, count);
-      fill(work.floats_b, work.plain_b, work.rows_b, count);
     }
   }
   aim(task, block);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -45,6 +46,11 @@ struct PairTask {
   // As in LaneBlock.
   double tolerance_of_size = 0.0, tolerance = 0.0;
   bool polish = false;
+  double cutoff = std::numeric_limits<double>::infinity();  ///< Accuracy's
+
+  bool has_cutoff() const noexcept { return cutoff < std::numeric_limits<double>::infinity(); }
+  /// The answer itself, or what is said of a pair beyond the cutoff.
+  Gap wanted(const Gap& gap) const noexcept;
 
   /// Is the tolerance what float proves?
   bool in_floats() const noexcept { return !polish && tolerance_of_size >= kFloatTolerance; }
@@ -90,15 +96,31 @@ struct PairTask {
   [[noreturn]] void name_outside(std::size_t first, std::size_t n) const noexcept;
 };
 
+/// What is said of a pair beyond the cutoff.
+/// @param least  its gap is not below that
+inline Gap beyond(double least) noexcept {
+  return {least,
+          Vec3::Zero(),
+          Vec3::Zero(),
+          Vec3::Zero(),
+          std::numeric_limits<double>::infinity(),
+          GapStatus::beyond,
+          GapTier::fast};
+}
+
+/// The bodies of a block of plain pairs, as the lanes read them.
+struct PlainRows {
+  LaneBody bodies_a[kBlock], bodies_b[kBlock];
+  ShapeRow rows_a[kBlock], rows_b[kBlock];
+  FloatRow floats_a[kBlock], floats_b[kBlock];
+};
+
 /// A block of pairs and copies of what belongs to them, so that the answers may be written where
 /// the questions were.
 struct Workspace {
   LaneBlock block;
   IndexedPair pairs[kBlock];
   Vec3 separations[kBlock], normals[kBlock];
-  LaneBody plain_a[kBlock], plain_b[kBlock];
-  ShapeRow rows_a[kBlock], rows_b[kBlock];
-  FloatRow floats_a[kBlock], floats_b[kBlock];
   Vec3 nearer_normals[kBlock];
   double gap[kBlock], gap_error[kBlock];
   Vec3 normal[kBlock], arm_a[kBlock], arm_b[kBlock];
@@ -124,10 +146,14 @@ struct OpenPairs {
   void add(const Workspace& from, std::size_t i, std::size_t at, const Vec3& given,
            const Vec3& start) noexcept;
   /// Ready for the lanes, which are to answer here. count is at least 1.
-  void complete(const PairTask& task) noexcept;
+  /// @param plain  as of gather()
+  void complete(const PairTask& task, PlainRows* plain) noexcept;
 };
 
 /// Pairs first to first + count as the lanes read them, count at most kBlock and at least 1.
-void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work) noexcept;
+/// @param plain  where the bodies of plain pairs go, until those of another block do; null where
+///               the pairs are indexed
+void gather(const PairTask& task, std::size_t first, std::size_t count, Workspace& work,
+            PlainRows* plain) noexcept;
 
 }  // namespace tangency::inline v0::detail

@@ -21,19 +21,29 @@ struct Twofold {
   double high, low;
 };
 
-/// a b exactly.
-HWY_INLINE Twofold two_product(double a, double b) {
-  const double product = a * b;
+/// A number that is multiplied by several others: without fused multiply-adds by its halves, of 26
+/// and 27 bits [Dekker1971].
+struct Factor {
 #if HWY_NATIVE_FMA
-  return {product, __builtin_fma(a, b, -product)};
+  HWY_INLINE explicit Factor(double x) : value(x) {}
+  double value;
 #else
-  // Halves of 26 and 27 bits [Dekker1971].
-  const auto upper = [](double x) HWY_ATTR {
+  HWY_INLINE explicit Factor(double x) : value(x) {
     const double c = (0x1p27 + 1.0) * x;
-    return c - (c - x);
-  };
-  const double ah = upper(a), bh = upper(b), al = a - ah, bl = b - bh;
-  return {product, ((ah * bh - product) + ah * bl + al * bh) + al * bl};
+    high = c - (c - x);
+    low = x - high;
+  }
+  double value, high, low;
+#endif
+};
+
+/// a b exactly.
+HWY_INLINE Twofold two_product(const Factor& a, const Factor& b) {
+  const double product = a.value * b.value;
+#if HWY_NATIVE_FMA
+  return {product, __builtin_fma(a.value, b.value, -product)};
+#else
+  return {product, ((a.high * b.high - product) + a.high * b.low + a.low * b.high) + a.low * b.low};
 #endif
 }
 
@@ -43,11 +53,11 @@ HWY_INLINE Twofold two_sum(double a, double b) {
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// The inner product of rows i and j of the factor, rounded once.
-HWY_INLINE double entry(const double* factor, std::size_t i, std::size_t j) {
-  const Twofold x = two_product(factor[i], factor[j]),
-                y = two_product(factor[3 + i], factor[3 + j]),
-                z = two_product(factor[6 + i], factor[6 + j]);
+/// The inner product of two rows of the factor, rounded once.
+using Row = Factor[3];
+HWY_INLINE double inner(const Row& r, const Row& s) {
+  const Twofold x = two_product(r[0], s[0]), y = two_product(r[1], s[1]),
+                z = two_product(r[2], s[2]);
   const Twofold two = two_sum(x.high, y.high), three = two_sum(two.high, z.high);
   return three.high + ((two.low + three.low) + (x.low + y.low + z.low));
 }
@@ -59,8 +69,11 @@ HWY_ATTR void fill_shape_rows(const LaneBody* bodies, std::size_t count, ShapeRo
   for (std::size_t i = 0; i < count; ++i) {
     const LaneBody& body = bodies[i];
     const double* s = body.factor;
-    const double xx = entry(s, 0, 0), yy = entry(s, 1, 1), zz = entry(s, 2, 2), yz = entry(s, 1, 2),
-                 zx = entry(s, 2, 0), xy = entry(s, 0, 1);
+    const Row x = {Factor(s[0]), Factor(s[3]), Factor(s[6])},
+              y = {Factor(s[1]), Factor(s[4]), Factor(s[7])},
+              z = {Factor(s[2]), Factor(s[5]), Factor(s[8])};
+    const double xx = inner(x, x), yy = inner(y, y), zz = inner(z, z), yz = inner(y, z),
+                 zx = inner(z, x), xy = inner(x, y);
     const double ayz = magnitude(yz), azx = magnitude(zx), axy = magnitude(xy);
     const bool flat = body.least_radius < kFlattest * body.largest;
     to[i] = {{body.centre[0], body.centre[1], body.centre[2]},

@@ -109,6 +109,7 @@ ENUMS = (
     Enum("status", "What is known of a gap, distance or clearance.", (
         ("ok", "the global answer, proven"),
         ("local", "a stationary answer; that none is better elsewhere is not proven"),
+        ("beyond", "above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0"),
     ), "GapStatus", "Status"),
     Enum("gap_tier", "Which method gave the answer, the cheapest first.", (
         ("fast", ""), ("safeguarded", ""), ("factored", ""), ("search", ""),
@@ -185,7 +186,8 @@ STRUCTS = (
         Field("of_size", "double", "1", "tolerance in parts of the size of the pair, >= 0"),
         Field("length", "double", "length", "tolerance, >= 0"),
         Field("normals", "int", "", "not 0: normals and points to rounding too"),
-        _RESERVED,
+        Field("has_cutoff", "int", "", "not 0: no answer is wanted of pairs whose gap is above cutoff"),
+        Field("cutoff", "double", "length", ">= 0; not read where has_cutoff is 0"),
     )),
     Struct("contact_columns", "Answers of tangency_contacts().", _GAP + (
         _POINT,
@@ -388,7 +390,7 @@ FUNCTIONS = (
         Argument("bodies", "tangency_bodies*", "as they were made"),
         Argument("form", "int", "tangency_form"),
     ) + _ROWS + (Argument("level", "double", "as above", "1"),)),
-    Function("bodies_set", "Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.", (
+    Function("bodies_set", "Other numbers, by axes, for the bodies from `first` on, as of bodies that move.", (
         Argument("bodies", "tangency_bodies*", "as they were made"),
         Argument("first", "size_t", "from 0"),
     ) + _ROWS),
@@ -415,16 +417,20 @@ FUNCTIONS = (
         _answers("bounded_columns"), _THREADS)),
     Function("overlaps", "Do the interiors meet? Exact.", (_BODIES,) + _PAIRS + (
         Argument("answers", "unsigned char*[]", "1 or 0, count of them"), _THREADS)),
-    Function("overlaps_by_filter", "The same in bounded time: 2 where only integers would know.",
+    Function("overlaps_by_filter", "The same in bounded time: 2 where only integers would know. Of bodies by "
+                                   "matrices also where their rounding to semi-axes leaves it open.",
              (_BODIES,) + _PAIRS + (Argument("answers", "unsigned char*[]", "1, 0 or 2, count of them"), _THREADS)),
     Function("relations", "How pairs lie, as point sets: exact.",
              (_BODIES,) + _PAIRS + (_answers("relation_columns"), _THREADS)),
-    Function("other_gaps", "The gap by another definition, to tell a difference of definition from an error.",
+    Function("other_gaps", "The gap by another definition, to tell a difference of definition from an error. "
+                           "Where a body is by a matrix, gap_error is infinite: how far its rounding to "
+                           "semi-axes moves these gaps is not bounded.",
              (_BODIES,) + _PAIRS + (Argument("definition", "int", "tangency_definition"),
                                     _answers("other_gap_columns"), _THREADS)),
     Function("perram_wertheim_factors", "The Perram-Wertheim contact function.",
              (_BODIES,) + _PAIRS + (_answers("factor_columns"), _THREADS)),
-    Function("gap_derivatives", "First and second derivatives of the gap.", (_BODIES,) + _PAIRS + (
+    Function("gap_derivatives", "First and second derivatives of the gap. Of a body by a matrix those by its "
+                                "semi-axes are NaN.", (_BODIES,) + _PAIRS + (
         Argument("normals", "double[3]", "of tangency_contacts() for the same pairs", "1"),
         Argument("statuses", "int[]", "of tangency_contacts() for the same pairs"),
         _answers("derivative_columns"), _THREADS)),
@@ -440,9 +446,7 @@ FUNCTIONS = (
              (_BODIES,) + _PAIRS + (_answers("containment_columns"), _THREADS)),
     Function("times_of_contact", "First contact of moving bodies in 0 <= t <= horizon.", (_BODIES,) + _PAIRS + (
         Argument("motions", "double[9]", "of each body: velocity of the pivot, angular velocity in space (rad per "
-                                         "time), centre less pivot. Each of them, and what the "
-                                         "first two cover within the horizon, is at most 2^500 long, and lengths "
-                                         "at most 2^900 of the shortest semi-axis of all bodies"),
+                                         "time), centre less pivot; finite"),
         Argument("horizon", "double", "finite, >= 0", "time"),
         Argument("tolerance", "double", "> 0", "time"),
         _answers("time_columns"), _THREADS)),
@@ -456,7 +460,8 @@ FUNCTIONS = (
         _BODIES,
         Argument("points", "double[3]", "finite", "length"),
         Argument("points_count", "size_t", "how many points")) + _MEETINGS + (_answers("point_columns"), _THREADS)),
-    Function("balls", "Contacts of bodies (A) and spheres (B).", (
+    Function("balls", "Contacts of bodies (A) and spheres (B). Of bodies by matrices the sign is known where "
+                      "the gap is beyond gap_error.", (
         _BODIES,
         Argument("balls", "double[4]", "centre, and radius >= 0", "length"),
         Argument("balls_count", "size_t", "how many balls")) + _MEETINGS + (_answers("contact_columns"), _THREADS)),

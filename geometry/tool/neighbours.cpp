@@ -136,7 +136,7 @@ Bodies read_bodies(const Options& options) {
   return bodies;
 }
 
-/// One contact: of the list, or asked again of bodies by matrices.
+/// One contact of the list.
 struct Contact {
   Gap gap;
   Vec3 point_a, point_b;
@@ -170,28 +170,13 @@ class Answers {
   Neighbours search() const {
     NeighbourQuestion question = question_;
     question.accuracy = Accuracy::certified();
-    if (bodies_.exact) {
-      if (contacts_) question.answers = NeighbourAnswers::contacts;
-    } else {  // all whose true bodies may be within the reach, to be looked at one by one
-      double rounding = 0.0;
-      for (const MatrixEllipsoid& body : bodies_.given)
-        rounding = std::max(rounding, body.rounding());
-      question.reach += 2.0 * rounding;
-    }
+    if (contacts_) question.answers = NeighbourAnswers::contacts;
     try {
-      return neighbours(bodies_.round, question);
+      return bodies_.exact ? neighbours(bodies_.round, question)
+                           : neighbours(bodies_.given, question);
     } catch (const std::invalid_argument& refused) {
       throw tables::Error({.file = bodies_.file, .rule = refused.what()});
     }
-  }
-
-  /// The listed ones of the true bodies where those in the list are rounded.
-  bool is_listed(const NearPair& pair) const {
-    if (bodies_.exact) return true;
-    const Mat3& edges = question_.lattice.edges;
-    if (question_.reach == 0.0) return bodies_.relation(pair, edges).relation != Relation::separate;
-    const Gap gap = signed_gap(bodies_.given[pair.a], bodies_.given[pair.b], edges, pair.image);
-    return gap.gap - gap.gap_error <= question_.reach;
   }
 
   Contact contact(const Neighbours& found, std::size_t k) const {
@@ -199,16 +184,13 @@ class Answers {
     const Mat3& edges = question_.lattice.edges;
     const Vec3 &at_a = bodies_.round[pair.a].centre(), &at_b = bodies_.round[pair.b].centre();
     const Vec3 centre_b = separation(Vec3::Zero(), at_b, edges, pair.image).vector;
-    const Gap gap =
-        bodies_.exact ? Gap{found.gap[k],       found.normal[k], found.arm_a[k], found.arm_b[k],
-                            found.gap_error[k], found.status[k], GapTier::fast}
-                      : signed_gap(bodies_.given[pair.a], bodies_.given[pair.b], edges, pair.image);
+    const Gap gap{found.gap[k],       found.normal[k], found.arm_a[k], found.arm_b[k],
+                  found.gap_error[k], found.status[k], GapTier::fast};
     return {gap, at_a + gap.arm_a, centre_b + gap.arm_b};
   }
 
   void write_pair(const Neighbours& found, std::size_t k, tables::RowText& text) {
     const NearPair& pair = found.pairs[k];
-    if (!is_listed(pair)) return;
     text.integer(pair.a);
     text.integer(pair.b);
     for (const std::int32_t edges : pair.image) text.text(tables::to_text(edges));

@@ -123,8 +123,8 @@ void expect_same(const Contacts& found, const Contacts& expected) {
 
 TEST(CContacts, AreThoseOfTheBatchAtEveryAccuracyAndNumberOfThreads) {
   const Sample sample;
-  const tangency_accuracy fast{sizeof fast, 0x1p-20, 0.0, 0, 0},
-      certified{sizeof certified, 0, 0, 1, 0};
+  const tangency_accuracy fast{sizeof fast, 0x1p-20, 0.0, 0, 0, 0},
+      certified{sizeof certified, 0, 0, 1, 0, 0}, limited{sizeof limited, 0, 0, 0, 1, 0.1};
   for (const int threads : {-1, 1, 3}) {
     Contacts found(sample.size());
     const auto ask = [&](const tangency_accuracy* accuracy) {
@@ -137,6 +137,9 @@ TEST(CContacts, AreThoseOfTheBatchAtEveryAccuracyAndNumberOfThreads) {
     expect_same(found, by_cpp(sample, Accuracy::fast()));
     ASSERT_EQ(ask(&certified), TANGENCY_OK);
     expect_same(found, by_cpp(sample, Accuracy::certified()));
+    ASSERT_EQ(ask(&limited), TANGENCY_OK);
+    expect_same(found, by_cpp(sample, Accuracy::standard().up_to(0.1)));
+    EXPECT_EQ(std::ranges::count(found.status, TANGENCY_STATUS_BEYOND) > 0, true);
   }
 }
 

@@ -9,7 +9,9 @@ how=$1 build=$(cd "$2" && pwd)
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cmake --install "$build" --prefix "$work/prefix" >/dev/null
+for component in {geometry,micromechanics,dem,c}{,-runtime}; do
+  cmake --install "$build" --prefix "$work/prefix" --component $component >/dev/null
+done
 status=0
 for name in geometry micromechanics dem c; do
   library=$(find "$work/prefix" -name "libtangency_$name.so")

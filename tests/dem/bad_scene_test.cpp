@@ -38,12 +38,17 @@ std::string stage_of(const std::string& kind) {
 
 /// A scene that is accepted, with every section, and a stage of the kind last but for the body.
 std::string scene_with(const std::string& kind) {
-  const bool is_explicit = kind == "explicit";
-  return "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n[motion]\n[particles.grain]\n"
+  const bool is_explicit = kind == "explicit", has_wall = kind == "wall";
+  return "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n" +
+         std::string(has_wall ? "walls = \"xyz\"\n" : "") +
+         "[motion]\n[particles.grain]\n"
          "count = 1\nmean_radius = 10.0\n[contact]\nnormal_stiffness = 1e10\n[output]\n" +
          stage_of("place") + (is_explicit ? "arrangement = \"explicit\"\n" : "") +
-         (is_explicit || kind == "place" ? "" : stage_of(kind)) +
-         (is_explicit ? "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n" : "");
+         (is_explicit || has_wall || kind == "place" ? "" : stage_of(kind)) +
+         (is_explicit ? "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n" : "") +
+         (has_wall ? "[[wall]]\npoint = [1.0, 2.0, 3.0]\nnormal = [1.0, 2.0, 3.0]\n"
+                     "stress = 1e3\nmax_speed = 1.0\n"
+                   : "");
 }
 
 /// The last table of that name, with the key set to a value.
@@ -53,6 +58,7 @@ std::string with_key(const std::string& scene, const Key& key, const std::string
   const std::size_t start = section.empty()          ? 0
                             : section == "stage"     ? text.rfind("[[stage]]")
                             : section == "body"      ? text.rfind("[[body]]")
+                            : section == "wall"      ? text.rfind("[[wall]]")
                             : section == "particles" ? text.find("[particles.grain]")
                                                      : text.find("[" + section + "]");
   std::size_t at = section.empty() ? 0 : text.find('\n', start) + 1;
@@ -141,6 +147,7 @@ std::vector<std::string> wrong_values(const Key& key) {
 
 std::vector<std::string> kinds_of(const Key& key) {
   if (key.section == "body") return {"explicit"};
+  if (key.section == "wall") return {"wall"};
   if (key.section != "stage") return {"compress"};
   std::istringstream stream{std::string(key.kinds)};
   std::vector<std::string> kinds;
@@ -268,6 +275,42 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
            "name = \"shear\"\nsave_strains = [0.1]\n",
        "scene.toml:22: stage[2].name = 'shear': a name of its own: two stages of that name keep "
        "states"},
+      {"a wall that faces nowhere",
+       with(scene_with("wall"), "[1.0, 2.0, 3.0]\nstress", "[0.0, 0.0, 0.0]\nstress"),
+       "scene.toml:16: wall[0].normal = [ 0.0, 0.0, 0.0 ]: 3 finite numbers, not all 0"},
+      {"a wall across a periodic axis", with(scene_with("wall"), "\"xyz\"", "\"yz\""),
+       "scene.toml:16: wall[0].normal = [ 1.0, 2.0, 3.0 ]: 0 along axes without walls in "
+       "cell.walls"},
+      {"a wall in a periodic cell", with(scene_with("wall"), "walls = \"xyz\"\n", ""),
+       "scene.toml:13: wall: in a cell with a size and walls of its own, cell.walls"},
+      {"a held wall without a bound", with(scene_with("wall"), "max_speed = 1.0\n", ""),
+       "scene.toml:14: wall[0].max_speed is missing: a finite number from 1e-30 to 1e+30 (m/s)"},
+      {"a bound of a wall that is not held", with(scene_with("wall"), "stress = 1e3\n", ""),
+       "scene.toml:17: wall[0].max_speed = 1.0: with stress alone"},
+      {"a wall in a cell that strains", scene_with("wall") + stage_of("compress"),
+       "scene.toml:20: stage[1].kind = 'compress': with [[wall]] a servo without rates and "
+       "stresses, or a relax without mean_stress: these walls do not strain with the cell"},
+      {"simple shear with walls", walled("simple_shear_rate = [0.1, 0.0, 0.0]\n"),
+       "scene.toml:17: stage[1].simple_shear_rate = [ 0.1, 0.0, 0.0 ]: not in a cell with walls"},
+      {"two shears", servo("shear_rate = [0.1, 0.0, 0.0]\nsimple_shear_rate = [0.1, 0.0, 0.0]\n"),
+       "scene.toml:16: stage[1].shear_rate = [ 0.1, 0.0, 0.0 ]: not together with "
+       "simple_shear_rate"},
+      {"simple shear out of the plane",
+       with(with(servo("simple_shear_rate = [0.1, 0.0, 0.1]\n"), "[cell]\n",
+                 "[cell]\ndimensions = 2\n"),
+            "90.0]", "1.0]"),
+       "scene.toml:17: stage[1].simple_shear_rate = [ 0.1, 0.0, 0.1 ]: with dimensions = 2 of xy "
+       "alone"},
+      {"a relax that holds nothing",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nhold = \"components\"\n",
+       "scene.toml:19: stage[2].hold = 'components': with mean_stress alone"},
+      {"a bound of nothing",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nmax_strain_rate = 0.1\n",
+       "scene.toml:19: stage[2].max_strain_rate = 0.1: with mean_stress alone"},
+      {"a relax without a bound",
+       scene_with("compress") + "[[stage]]\nkind = \"relax\"\nmean_stress = 1e6\n",
+       "scene.toml:17: stage[2].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
+       "(1/s)"},
       {"holding without a bound", servo("mean_stress = 1e6\n"),
        "scene.toml:13: stage[1].max_strain_rate is missing: a finite number from 1e-30 to 1e+30 "
        "(1/s)"},
@@ -390,7 +433,7 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        with(scene_with("compress"), "[output]", "[contact.grain-grain.more]\n[output]"),
        "scene.toml:10: contact.grain-grain.more: no such key; allowed are law, normal_stiffness, "
        "shear_stiffness, friction_coefficient, young_modulus, poisson_ratio, largest_overlap, "
-       "cohesion"},
+       "cohesion, restitution"},
   };
   for (const Combination& one : all) EXPECT_EQ(refusal(one.scene), one.message) << one.what;
 }

@@ -59,6 +59,8 @@ ContactArrays draw_block(Draw& draw) {
     const auto a = static_cast<std::uint32_t>(draw.uniform(0, 8));
     block.pairs[k] = {a, a + 1 + static_cast<std::uint32_t>(draw.uniform(0, 7))};
     block.set_law(k, draw_law(draw));
+    block.viscosity[k] = draw.one_in(4) ? 0.0 : draw.uniform(0, 2);
+    block.inverse_mass[k] = draw.uniform(0.1, 10);
     block.set_hertz(k, {draw.uniform(1, 9),
                         draw.uniform(50, 200),
                         draw.uniform(0.1, 1),
@@ -79,6 +81,7 @@ ContactArrays draw_block(Draw& draw) {
     block.overlap[k] = draw.uniform(0.001, 0.1);
     block.normal_force[k] = draw.uniform(0.1, 20);
     block.normal_energy[k] = draw.uniform(0.01, 1);
+    block.normal_stiffness_now[k] = draw.uniform(50, 200);
     block.shear_force[k] = draw.uniform(0, 5) * before.cross(draw.direction());
     block.state_stiffness[k] = draw.uniform(20, 100);
     block.shear_energy[k] = draw.uniform(0, 1);
@@ -97,7 +100,7 @@ Vec3 turned_with(const Vec3& v, const Vec3& from, const Vec3& to) {
 struct PlainContact {
   Vec3 arm, shear = Vec3::Zero(), force = Vec3::Zero(), moment_a, moment_b;
   double overlap = 0.0, normal_force = 0.0, stiffness = 0.0, energy = 0.0, shear_energy = 0.0;
-  double sliding = 0.0, boundary = 0.0, branch_work = 0.0;
+  double sliding = 0.0, boundary = 0.0, branch_work = 0.0, viscous = 0.0;
   double size = 1.0;  ///< what roundings are measured by
 
   PlainContact(const ContactArrays& block, std::size_t k, bool hertz)
@@ -123,6 +126,8 @@ struct PlainContact {
       stiffness = hertz ? block.hertz_stiffness[k] : block.normal_stiffness[k];
       normal_force = hertz ? block.hertz_force[k] : stiffness * overlap;
       energy = hertz ? block.hertz_energy[k] : 0.5 * normal_force * overlap;
+      if (block.damped)
+        damp(block, k, hertz, -moved.dot(normal), moved.dot(block.normal_before[k]));
       const double cohesion = block.cohesion[k], friction = block.friction_coefficient[k];
       if (block.shear_stiffness[k] > 0.0 && (friction > 0.0 || cohesion > 0.0))
         slide(block, k, hertz, 0.5 * (moved + turned_with(moved, from_normal, normal)),
@@ -130,6 +135,8 @@ struct PlainContact {
               cohesion + normal_force * friction);
       force = normal_force * normal + shear;
     }
+    if (block.damped && !touches)
+      viscous = -0.5 * push_of_damper(block, k, hertz) * moved.dot(block.normal_before[k]);
     const Vec3 mean_force = 0.5 * (force_before + force);
     boundary = -mean_force.dot(strained);
     moment_a = -arm.cross(force);
@@ -138,13 +145,35 @@ struct PlainContact {
     if (!touches || !touched) return;
     const double gained = energy + shear_energy - block.normal_energy[k] - block.shear_energy[k];
     if (block.normal_before[k].dot(normal) < 0.9) {
-      branch_work = gained + sliding + mean_force.dot(moved);
+      branch_work = gained + sliding + viscous + mean_force.dot(moved);
     } else if (hertz) {
       const double power = std::pow(overlap / block.overlap[k], 2.5);
       branch_work =
           0.5 * (energy - block.normal_energy[k] * power + energy / power - block.normal_energy[k]);
       size *= 1.0 + power + 1.0 / power;
     }
+  }
+
+  /// Of the step before: what its push had beside that of the overlap.
+  static double push_of_damper(const ContactArrays& block, std::size_t k, bool hertz) {
+    const double elastic = block.normal_stiffness_now[k] * block.overlap[k];
+    return block.normal_force[k] - (hertz ? 2.0 / 3.0 : 1.0) * elastic;
+  }
+
+  /// Adds the damper's push of an overlap that grew, and what it and that of the step before lost.
+  void damp(const ContactArrays& block, std::size_t k, bool hertz, double grew,
+            double moved_before) {
+    double share = 1.0;
+    if (!(block.overlap[k] > 0.0) && grew > 0.0) {
+      const double since = std::clamp(overlap / grew, 0x1p-20, 1.0), until = since + 0.5;
+      share = hertz ? 0.8 * std::pow(until, 1.25) / std::pow(since, 0.25) : until;
+    }
+    const double viscosity = share * block.viscosity[k] * std::sqrt(stiffness);
+    const double elastic = normal_force;
+    normal_force = std::max(0.0, (elastic + viscosity * grew / block.dt) /
+                                     (1.0 + 0.5 * block.dt * viscosity * block.inverse_mass[k]));
+    viscous =
+        0.5 * ((normal_force - elastic) * grew - push_of_damper(block, k, hertz) * moved_before);
   }
 
   void slide(const ContactArrays& block, std::size_t k, bool hertz, const Vec3& moved,
@@ -183,10 +212,22 @@ std::vector<std::uint64_t> results_of(const ContactArrays& block, std::size_t k)
   return bits;
 }
 
-class ContactLanes : public ::testing::TestWithParam<bool> {};
+struct Law {
+  bool hertz, damped;
+};
+
+class ContactLanes : public ::testing::TestWithParam<Law> {
+ protected:
+  /// Of the law that is asked about.
+  static ContactArrays draw_block(Draw& draw) {
+    ContactArrays block = testing::draw_block(draw);
+    block.damped = GetParam().damped;
+    return block;
+  }
+};
 
 TEST_P(ContactLanes, AreThePlainEquationsAtEveryInstructionSet) {
-  const bool hertz = GetParam();
+  const bool hertz = GetParam().hertz;
   std::cout << "seed " << kSeed << std::endl;
   at_every_level([&](std::int64_t level) {
     Draw draw;
@@ -224,6 +265,7 @@ TEST_P(ContactLanes, AreThePlainEquationsAtEveryInstructionSet) {
         sums.sliding += plain.sliding;
         sums.boundary += plain.boundary;
         sums.branch += plain.branch_work;
+        sums.viscous += plain.viscous;
       }
       const dem::BlockSums& got = after.sums;
       EXPECT_LT((Eigen::Map<const Mat3>(got.force_branch) - force_branch).norm(), 8.0 * size);
@@ -231,6 +273,7 @@ TEST_P(ContactLanes, AreThePlainEquationsAtEveryInstructionSet) {
       EXPECT_NEAR(got.sliding, sums.sliding, size);
       EXPECT_NEAR(got.boundary, sums.boundary, size);
       EXPECT_NEAR(got.branch, sums.branch, size);
+      EXPECT_NEAR(got.viscous, sums.viscous, size);
     }
     EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 100) << hwy::TargetName(level);
   });
@@ -243,12 +286,13 @@ TEST_P(ContactLanes, DoNotDependOnPlaceOrNeighboursToTheBit) {
     for (int round = 0; round < 10; ++round) {
       const ContactArrays before = draw_block(draw);
       ContactArrays whole = before;
-      whole.step(kPairs, GetParam());
+      whole.step(kPairs, GetParam().hertz);
       for (std::size_t k = 0; k < kPairs; k += 5) {
         ContactArrays alone;
         alone.motion = before.motion;
         alone.dt = before.dt;
         alone.rate = before.rate;
+        alone.damped = before.damped;
         const auto take = [&](auto column) { (alone.*column)[0] = (before.*column)[k]; };
         take(&ContactArrays::pairs);
         using A = ContactArrays;
@@ -256,12 +300,13 @@ TEST_P(ContactLanes, DoNotDependOnPlaceOrNeighboursToTheBit) {
              {&A::gap, &A::normal_stiffness, &A::shear_stiffness, &A::friction_coefficient,
               &A::cohesion, &A::half_compliance, &A::hertz_force, &A::hertz_stiffness,
               &A::hertz_energy, &A::along, &A::across, &A::overlap, &A::normal_force,
-              &A::normal_stiffness_now, &A::normal_energy, &A::state_stiffness, &A::shear_energy})
+              &A::normal_stiffness_now, &A::normal_energy, &A::state_stiffness, &A::shear_energy,
+              &A::viscosity, &A::inverse_mass})
           take(column);
         for (const auto column : {&A::normal, &A::branch, &A::arm, &A::direction, &A::normal_before,
                                   &A::branch_before, &A::arm_before, &A::shear_force})
           take(column);
-        alone.step(1, GetParam());
+        alone.step(1, GetParam().hertz);
         EXPECT_EQ(results_of(alone, 0), results_of(whole, k))
             << hwy::TargetName(level) << ", pair " << k << ", gap " << before.gap[k];
       }
@@ -278,7 +323,7 @@ TEST_P(ContactLanes, OfOneArithmeticHaveTheSameBitsWhateverTheNumberOfLanes) {
     std::vector<std::uint64_t> all;
     for (int round = 0; round < 40; ++round) {
       ContactArrays block = draw_block(draw);
-      block.step(kPairs, GetParam());
+      block.step(kPairs, GetParam().hertz);
       const auto sums = bits_of(block.sums);
       all.insert(all.end(), sums.begin(), sums.end());
       for (std::size_t k = 0; k < kPairs; ++k) {
@@ -294,8 +339,14 @@ TEST_P(ContactLanes, OfOneArithmeticHaveTheSameBitsWhateverTheNumberOfLanes) {
   EXPECT_GE(levels["no-FMA"], 2) << "there was something to compare";
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, ContactLanes, ::testing::Bool(),
-                         [](const auto& made) { return made.param ? "Hertz" : "linear"; });
+std::string name_of(const ::testing::TestParamInfo<Law>& law) {
+  return std::string(law.param.hertz ? "Hertz" : "linear") + (law.param.damped ? "Damped" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, ContactLanes,
+                         ::testing::Values(Law{false, false}, Law{true, false}, Law{false, true},
+                                           Law{true, true}),
+                         name_of);
 
 // dem/contact_lanes.hpp (2)
 TEST(ContactLanesApart, APairKeepsItsNormalAndHasNoForce) {

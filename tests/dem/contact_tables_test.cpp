@@ -28,9 +28,11 @@ namespace tangency::testing {
 namespace {
 
 constexpr const char* kContactHeader =
-    "a,b,ix,iy,iz,x,y,z,nx,ny,nz,gap,bx,by,bz,ax,ay,az,fn,fx,fy,fz,sliding";
+    "a,b,ix,iy,iz,x,y,z,nx,ny,nz,gap,bx,by,bz,ax,ay,az,fn,fx,fy,fz,sliding,"
+    "sx,sy,sz,vx,vy,vz,curvature_min,curvature_max";
 constexpr const char* kParticleHeader =
-    "id,type,x,y,z,r1,r2,r3,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contacts";
+    "id,type,x,y,z,r1,r2,r3,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contacts,"
+    "s_xx,s_yy,s_zz,s_xy,s_yz,s_zx";
 
 /// Numbers of a table's rows, whose header is as wanted.
 std::vector<std::vector<double>> numbers_of(const std::string& csv, const std::string& header) {
@@ -168,6 +170,79 @@ TEST_F(Tables, BelongTogether) {
   for (std::size_t id = 0; id < bodies.size(); ++id) EXPECT_EQ(counts[id], bodies[id][18]) << id;
   const Mat3 wanted = dem::stress_of(state_.contacts, state_.cell).tensor;
   EXPECT_LT((0.5 * (stress + stress.transpose()) - wanted).norm(), 1e-12 * wanted.norm());
+}
+
+Mat3 symmetric_at(const std::vector<double>& row, std::size_t first) {
+  Mat3 m;
+  m << row[first], row[first + 3], row[first + 5],     //
+      row[first + 3], row[first + 1], row[first + 4],  //
+      row[first + 5], row[first + 4], row[first + 2];
+  return m;
+}
+
+// Contacts with walls are in no row of contacts, and in the stresses of their particles.
+TEST_F(Tables, HaveStressesOfParticlesThatAddUpToThatOfTheCell) {
+  for (const std::string cell : {"[cell]\n", "[cell]\nwalls = \"xyz\"\n"}) {
+    run(with(small_scene(), "[cell]\n", cell));
+    Mat3 sum = Mat3::Zero();
+    for (const auto& row : numbers_of(table("particles"), kParticleHeader))
+      sum += dem::volume_of(vector_at(row, 5)) * symmetric_at(row, 19);
+    const Mat3 wanted = dem::stress_of(state_.contacts, state_.cell).tensor;
+    EXPECT_LT((sum / state_.cell.volume() - wanted).norm(), 1e-12 * wanted.norm()) << cell;
+  }
+}
+
+// Of a row alone, and of two particles and the strain of the cell.
+TEST_F(Tables, HaveTheShearForceAndTheVelocityAtTheContact) {
+  run(sheared_scene());
+  const auto bodies = numbers_of(table("particles"), kParticleHeader);
+  ASSERT_FALSE(contacts().empty());
+  for (const auto& row : contacts()) {
+    EXPECT_LT((vector_at(row, 23) + row[18] * vector_at(row, 8) - vector_at(row, 19)).norm(),
+              1e-12 * vector_at(row, 19).norm());
+    EXPECT_LT(std::abs(vector_at(row, 23).dot(vector_at(row, 8))), 1e-12 * row[18]);
+    const auto &a = bodies[static_cast<std::size_t>(row[0])],
+               &b = bodies[static_cast<std::size_t>(row[1])];
+    const Vec3 arm = vector_at(row, 15), branch = vector_at(row, 12);
+    const Vec3 wanted = vector_at(b, 12) + state_.cell.rate * branch - vector_at(a, 12) +
+                        vector_at(b, 15).cross(arm - branch) - vector_at(a, 15).cross(arm);
+    EXPECT_LT((vector_at(row, 26) - wanted).norm(), 1e-12 * (1.0 + wanted.norm()));
+  }
+}
+
+// Of spheres 1/r of both; of ellipsoids by Euler's formula, the surfaces' own curvatures add up.
+TEST_F(Tables, HaveTheCurvatureOfTheDistance) {
+  run(with(sheared_scene(), "elongation = 1.4\n", ""));
+  for (const auto& row : contacts()) {
+    EXPECT_NEAR(row[29], 0.2, 1e-14);
+    EXPECT_NEAR(row[30], 0.2, 1e-14);
+  }
+  run(sheared_scene());
+  const auto bodies = numbers_of(table("particles"), kParticleHeader);
+  for (const auto& row : contacts()) {
+    double sum = 0.0;  // of both surfaces' mean curvatures, twice
+    for (const std::size_t which : {0u, 1u}) {
+      const auto& body = bodies[static_cast<std::size_t>(row[which])];
+      const Quaternion q(body[8], body[9], body[10], body[11]);
+      const Vec3 axes = vector_at(body, 5), n = q.conjugate() * vector_at(row, 8);
+      const Mat3 inverse = axes.cwiseAbs2().cwiseInverse().asDiagonal();
+      const double support = axes.cwiseProduct(n).norm();
+      sum += support * (inverse.trace() - n.dot(inverse * n));
+    }
+    EXPECT_NEAR(row[29] + row[30], sum, 1e-12 * sum);
+    EXPECT_LE(row[29], row[30]);
+  }
+}
+
+// Across the plane a disk is straight: of circles the outlines alone are curved.
+TEST_F(Tables, HaveNoCurvatureAcrossThePlane) {
+  run(with(with(sheared_scene(), "elongation = 1.4\n", ""), "[cell]\n",
+           "[cell]\ndimensions = 2\n"));
+  ASSERT_FALSE(contacts().empty());
+  for (const auto& row : contacts()) {
+    EXPECT_EQ(row[29], 0.0);
+    EXPECT_NEAR(row[30], 0.2, 1e-14);
+  }
 }
 
 /// Sliding contacts and others; each is where its shear force says, by that coefficient.

@@ -92,6 +92,9 @@ TEST(Observe, FrictionAngleComesFromThePrincipalStresses) {
   const Mat3 stress = rotation * Vec3(3.0, 1.0, 2.0).asDiagonal() * rotation.transpose();
   EXPECT_NEAR(friction_angle_deg(stress), 30.0, 1e-12);
   EXPECT_NEAR(friction_angle_deg(Mat3::Identity()), 0.0, 1e-6);
+  EXPECT_EQ(deviator_of(Mat3::Identity()), 0.0);
+  EXPECT_NEAR(deviator_of(Vec3(2.0, 2.0, 7.0).asDiagonal()), 5.0, 1e-14) << "triaxial: s1 - s3";
+  EXPECT_NEAR(deviator_of(Vec3(2.0, 7.0, 0.0).asDiagonal(), 2), 2.5, 1e-14);
   EXPECT_EQ(friction_angle_deg(Mat3::Zero()), 0.0);
 }
 
@@ -131,6 +134,7 @@ TEST(Observe, RowHasTheAssemblysNumbers) {
   EXPECT_NEAR(row.volumetric_strain, -std::log(2.4), 1e-15);
   EXPECT_EQ(row.contacts, 2);
   EXPECT_EQ(row.coordination_number, 1.0);
+  EXPECT_EQ(row.balance.mechanical_coordination, 2.0) << "of the sphere between two";
   EXPECT_NEAR(row.coordination_std, std::sqrt(0.5), 1e-15);
   const double sphere = 4.0 / 3.0 * std::numbers::pi;
   EXPECT_NEAR(row.porosity, 1.0 - 4.0 * sphere / 1000.0, 1e-15);
@@ -259,7 +263,7 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
       "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,"
       "stage_cycle,elongation,eccentricity,packing_density,void_ratio,contact_density,"
       "overlap_fraction,asymmetry,boundary_s_xx,boundary_s_yy,boundary_s_zz,boundary_s_xy,"
-      "boundary_s_yz,boundary_s_zx,");
+      "boundary_s_yz,boundary_s_zx,viscous_loss,p,q,mechanical_coordination,");
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ struct ContactArrays {
   Vectors normal, branch, arm;
   Numbers hertz_force{}, hertz_stiffness{}, hertz_energy{}, along{}, across{};
   Vectors direction;
+  bool damped = false;  ///< by these
+  Numbers viscosity{}, inverse_mass{};
   Vectors normal_before, branch_before, arm_before, shear_force;  ///< and after
   Numbers overlap{}, normal_force{}, normal_stiffness_now{}, normal_energy{};
   Numbers state_stiffness{}, shear_energy{};
@@ -74,7 +76,9 @@ struct ContactArrays {
     block.arm = arm[0].data();
     block.law = {normal_stiffness.data(), shear_stiffness.data(), friction_coefficient.data(),
                  cohesion.data(), half_compliance.data()};
+    const dem::DashpotColumns dashpots{viscosity.data(), inverse_mass.data()};
     block.hertz = hertz ? &columns : nullptr;
+    block.dashpots = damped ? &dashpots : nullptr;
     block.bears_shear = bears_shear;
     block.state = {normal_before[0].data(),     branch_before[0].data(), arm_before[0].data(),
                    shear_force[0].data(),       overlap.data(),          normal_force.data(),

@@ -68,7 +68,7 @@ struct FirstTier {
     const auto work = std::make_unique<detail::Workspace>();
     for (std::size_t first = 0; first < task.count; first += kBlock) {
       const std::size_t count = std::min(kBlock, task.count - first);
-      detail::gather(task, first, count, *work);
+      detail::gather(task, first, count, *work, nullptr);
       work->take_answers();
       const std::uint64_t bits = detail::mixed_gap_lanes(work->block);
       within_float |= work->block.within_float;

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <tuple>
 
@@ -193,6 +194,52 @@ TEST(TimeOfContact, AbsurdSpeedsEndInAStatus) {
     const TimeOfContact flying = time_of_contact(a, {}, b, flight({-fast, 0, 0}), 10, 1e-6);
     EXPECT_LE(flying.time, 3 / fast);
     EXPECT_NE(flying.status, Status::none);
+  }
+}
+
+TEST(TimeOfContact, DoesNotChangeWithAPowerOfTwoUnitOfTime) {
+  const Ellipsoid a({0, 0, 0}, {1, 0.1, 0.5}, Quaterniond(0.3, -0.5, 0.1, 0.8));
+  const Ellipsoid b({4, 0.3, 0}, {0.2, 2, 0.5}, Quaterniond(0.1, 0.5, 0.7, -0.2));
+  const Motion ma = flight({0.1, 0, 0.1}, {0.3, 0.1, 2}), mb{{-0.1, 0, 0}, {0, 1, 1}, {0.1, 0, 0}};
+  const TimeOfContact one = time_of_contact(a, ma, b, mb, 16, kTolerance);
+  ASSERT_EQ(one.status, Status::contact);
+  // Squares of these speeds are no doubles, or 0.
+  for (const double s : {0x1p-1000, 0x1p-600, 0x1p600, 0x1p1000}) {
+    const auto motion = [&](const Motion& m) {
+      return Motion{m.velocity / s, m.angular_velocity / s, m.pivot_arm};
+    };
+    const TimeOfContact other =
+        time_of_contact(a, motion(ma), b, motion(mb), s * 16, s * kTolerance);
+    EXPECT_EQ(other.status, one.status) << s;
+    EXPECT_EQ(other.time, s * one.time) << s;
+    EXPECT_EQ(other.latest, s * one.latest) << s;
+    EXPECT_EQ(other.gap.gap, one.gap.gap) << s;
+  }
+}
+
+TEST(TimeOfContact, OfAnyFiniteMotionsIsAStatusThatHolds) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const Ellipsoid a({0, 0, 0}, {1, 0.1, 0.5});
+  const Ellipsoid apart({4, 0.3, 0}, {0.2, 2, 0.5}), tiny({4, 0, 0}, {1e-300, 1e-300, 1e-300});
+  const Ellipsoid touching({2, 0, 0}, {1, 1, 1}), huge({0, 1e308, 0}, {1e307, 1e307, 1e307});
+  for (const Ellipsoid& b : {apart, tiny, touching, huge}) {
+    for (const double horizon : {kMost, 10.0, 1e-300, 5e-324, 0.0}) {
+      for (unsigned which = 0; which < 64; ++which) {
+        const auto part = [&](unsigned bit, double sign) -> Vec3 {
+          return (which >> bit & 1) != 0 ? Vec3(sign * Vec3(kMost, -kMost, kMost)) : Vec3::Zero();
+        };
+        const Motion ma{part(0, 1), part(1, 1), part(2, 1)};
+        const Motion mb{part(3, -1), part(4, 1), part(5, -1)};
+        const TimeOfContact found = time_of_contact(a, ma, b, mb, horizon, 1e-6);
+        EXPECT_EQ(found.status == Status::touching_at_start, b.centre().x() == 2) << which;
+        EXPECT_TRUE(found.time >= 0.0 && found.time <= found.latest && found.latest <= horizon)
+            << which << ' ' << horizon << ' ' << found.time << ' ' << found.latest;
+        EXPECT_GE(found.resolution, 0.0) << which << ' ' << horizon;  // and a number
+        if (which != 0 && horizon != 0.0) continue;
+        EXPECT_EQ(found.status,
+                  b.centre().x() == 2 ? Status::touching_at_start : Status::none);  // at rest
+      }
+    }
   }
 }
 

@@ -35,7 +35,7 @@ struct Options {
   std::size_t count = 1'000'000, judged = 1000;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::string only;
-  int steps = 200;
+  int steps = 200, sets = 0;
 };
 
 class Totals {
@@ -68,7 +68,9 @@ void run_parts(const BatchFamily& family, std::uint64_t seed, std::size_t first,
     parts[k] = made_part(family, seed + first + k, end - begin, judged);
     check_singles(parts[k], some);
   });
+  int asked = 0;
   tangency::testing::for_each_instruction_set([&](const char* level) {
+    if (options.sets > 0 && asked++ >= options.sets) return;
     for_all([&](std::size_t k, Tally& some) { check_part(parts[k], level, first + k, some); });
   });
 }
@@ -144,6 +146,8 @@ int main(int argc, char** argv) {
   program.option("--per-family", options.count, "pairs of each family, of some a share");
   program.option("--with-oracle", options.judged, "of them by the oracle too");
   program.option("--climb", options.steps, "steps uphill to where gap_error is used most");
+  program.option("--sets", options.sets,
+                 "instruction sets that are asked, the widest first; 0: all");
   program.option("--threads", options.threads);
   program.option("--only", options.only, "families whose name contains this");
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(seed, options); });

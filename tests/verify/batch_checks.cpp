@@ -88,6 +88,27 @@ class Checker {
       broken(Breach::bits, i, what + ": " + described(gap) + ", and " + described(other));
   }
 
+  // gap_batch.hpp (9)
+  void cutoff(const std::string& call, const std::vector<Gap>& limited,
+              const std::vector<Gap>& whole, const std::vector<Single>& singles,
+              const std::vector<GapTruth>& truths, double cutoff) {
+    for (std::size_t i = 0; i < limited.size(); ++i) {
+      const Gap &gap = limited[i], &without = whole[i], &single = singles[i].gap;
+      bool holds =
+          same_bits(gap, without) && without.gap - without.gap_error <= cutoff * (1 + 2 * kU);
+      if (gap.status == GapStatus::beyond) {
+        holds =
+            gap.gap > cutoff && Wide(gap.gap) <= (Wide(single.gap) + single.gap_error) * kRounded;
+        if (i < truths.size() && truths[i].global)
+          holds = holds &&
+                  Real(gap.gap) <= truths[i].gap + kErrorOfOracle * static_cast<double>(size(i));
+      }
+      ++tally_.answers;
+      if (!holds)
+        broken(Breach::cutoff, i, call + ": " + described(gap) + ", without " + described(without));
+    }
+  }
+
  private:
   const Single& single_of(const Call& call, std::size_t i) const {
     return (call.following ? part_.followed : call.in_place ? part_.placed : part_.separated)[i];
@@ -292,6 +313,7 @@ class GapCalls {
         tally.of_single_calls += same_bits(array[i], part_.placed[i].gap);
       }
     }
+    up_to_cutoffs(array, follow_moving);
     if (!to_the_bit) return;
     std::vector<Gap> other(part_.size());
     const auto compare = [&](const char* what, const std::vector<Gap>& expected) {
@@ -323,8 +345,35 @@ class GapCalls {
     return gaps;
   }
 
+  // With a cutoff that half of the pairs are about: in the lanes of all bodies and of those
+  // followed.
+  void up_to_cutoffs(const std::vector<Gap>& array, const std::vector<Gap>& follow_moving) {
+    const auto cutoff_of = [](const std::vector<Gap>& gaps) {
+      std::vector<double> positive{0.0};
+      for (const Gap& gap : gaps)
+        if (gap.gap > 0 && std::isfinite(gap.gap)) positive.push_back(gap.gap);
+      const auto middle = positive.begin() + std::ssize(positive) / 2;
+      std::ranges::nth_element(positive, middle);
+      return *middle;
+    };
+    const double cutoff = cutoff_of(array), cutoff_of_moving = cutoff_of(follow_moving);
+    std::vector<Gap> limited(part_.size());
+    signed_gaps(bodies_, {part_.pairs, {}}, limited, at().up_to(cutoff));
+    check_.cutoff(name("signed, up to"), limited, array, part_.placed, part_.truth, cutoff);
+    limited = moving_answers(true, looking_, {part_.pairs, part_.separations}, part_.previous,
+                             at().up_to(cutoff_of_moving));
+    check_.cutoff(name("followed, looking, up to"), limited, follow_moving, part_.separated,
+                  part_.truth_separated, cutoff_of_moving);
+  }
+
   std::vector<Gap> moving_answers(bool following, const MovingBodies& bodies, const PairList& list,
                                   std::span<const Vec3> previous) const {
+    return moving_answers(following, bodies, list, previous, at());
+  }
+
+  static std::vector<Gap> moving_answers(bool following, const MovingBodies& bodies,
+                                         const PairList& list, std::span<const Vec3> previous,
+                                         Accuracy accuracy) {
     const std::size_t count = list.pairs.size();
     std::vector<double> gap(count), gap_error(count);
     std::vector<Vec3> normal(count), arm_a(count), arm_b(count);
@@ -332,9 +381,9 @@ class GapCalls {
     std::vector<GapTier> tier(count);
     const GapColumns columns{gap, gap_error, normal, arm_a, arm_b, status, tier};
     if (following)
-      follow_gaps(bodies, list, previous, columns, at());
+      follow_gaps(bodies, list, previous, columns, accuracy);
     else
-      signed_gaps(bodies, list, columns, at());
+      signed_gaps(bodies, list, columns, accuracy);
     std::vector<Gap> gaps;
     gaps.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -475,8 +524,8 @@ std::string printed(const verify::EllipsoidPair& pair) {
 }
 
 const char* to_string(Breach breach) {
-  static constexpr std::array kNames{"sign",      "status", "beyond", "bound", "contact",
-                                     "enclosure", "yes/no", "bits",   "oracle"};
+  static constexpr std::array kNames{"sign",      "status", "beyond", "bound",  "contact",
+                                     "enclosure", "yes/no", "bits",   "cutoff", "oracle"};
   static_assert(kNames.size() == kBreaches);
   return kNames[static_cast<std::size_t>(breach)];
 }

@@ -29,9 +29,10 @@ enum class Breach {
   enclosure,  ///< of bounded_gaps()
   yes_no,     ///< other than overlaps()
   bits,       ///< depend on place, order, number, threads or form of the bodies
+  cutoff,     ///< beyond it and within, or not as gap_batch.hpp (9) says
   oracle,     ///< further from the truth than gap_error
 };
-inline constexpr std::size_t kBreaches = 9;
+inline constexpr std::size_t kBreaches = 10;
 const char* to_string(Breach breach);
 
 /// The largest error over gap_error of what lanes answer, by the oracle.

@@ -22,12 +22,15 @@
 #include <system_error>
 #include <utility>
 
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* kShell = "/bin/sh";
 
 // Chosen: what is kept of standard error to find its last line in.
 constexpr std::size_t kLastWords = 2000;
@@ -36,18 +39,11 @@ constexpr std::size_t kLastWords = 2000;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// The table without its comments, from its start.
-tables::Descriptor without_comments(std::string_view inputs) {
-  std::string kept;
-  while (!inputs.empty()) {
-    const std::string_view line = inputs.substr(0, inputs.find('\n'));
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
-    inputs.remove_prefix(std::min(line.size() + 1, inputs.size()));
-  }
+// From its start.
+tables::Descriptor in_memory(std::string_view text) {
   tables::Descriptor table(::memfd_create("inputs", MFD_CLOEXEC));
   if (!table.is_open()) fail("no file in memory");
-  if (!tables::write_all(table.get(), kept)) fail("inputs cannot be kept in memory");
+  if (!tables::write_all(table.get(), text)) fail("inputs cannot be kept in memory");
   ::lseek(table.get(), 0, SEEK_SET);
   return table;
 }
@@ -126,7 +122,7 @@ pid_t start(const std::string& command, int input, int output, int error,
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
-  ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+  ::execl(kShell, "sh", "-c", command.c_str(), nullptr);
   ::_exit(127);
 }
 
@@ -254,8 +250,25 @@ class Watch {
 
 }  // namespace
 
+std::string inputs_for_a_tool(std::string_view table) {
+  std::string kept;
+  while (!table.empty()) {
+    const std::string_view line = table.substr(0, table.find('\n'));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == line.npos || line[first] != '#') kept.append(line) += '\n';
+    table.remove_prefix(std::min(line.size() + 1, table.size()));
+  }
+  return kept;
+}
+
 ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits) {
-  const tables::Descriptor table = without_comments(inputs);
+  if (::access(kShell, X_OK) != 0) {
+    throw tables::Error({.file = "--tool",
+                         .rule = std::string("there is no ") + kShell +
+                                 " here, which starts a tool: run it elsewhere, and have its table "
+                                 "graded with --answers"});
+  }
+  const tables::Descriptor table = in_memory(inputs_for_a_tool(inputs));
   ToolRun run{{}, false, {}, {}, 0};
   Pipe output, error;
   const HeldSignals signals;

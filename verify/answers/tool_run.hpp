@@ -24,13 +24,16 @@ struct ToolRun {
   double seconds;
 };
 
+/// The table without its comment lines: what a tool reads.
+std::string inputs_for_a_tool(std::string_view table);
+
 /// `sh -c COMMAND` in a process group of its own, with the table `inputs` on standard input, its
 /// comment lines left out. The group is killed at a limit and when it has ended, and before SIGHUP,
 /// SIGINT or SIGTERM are obeyed, which end this process too; what was printed until then, and no
 /// more, is kept: a tool waits for what it has started.
 /// A process that leaves the group is left alone. An exit status of 129 to 159 is a signal's, told
 /// by a shell.
-/// Throws std::system_error where no process starts.
+/// Throws tables::Error where there is no /bin/sh, std::system_error where no process starts.
 ToolRun run_tool(const std::string& command, std::string_view inputs, const ToolLimits& limits);
 
 }  // namespace tangency::inline v0::verify

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <tangency/verify/answers/truth_table.hpp>
 
+#include <mpfr.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <tangency/verify/oracles/classification.hpp>
-#include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -15,11 +23,29 @@ using tables::Column;
 using tables::RowCursor;
 using Columns3 = std::array<Column, 3>;
 
+// The column that only truths of this kind have; pairs are those that have none of these.
+constexpr std::array<std::pair<const char*, CorpusKind>, 9> kOwnColumns{
+    {{"type", CorpusKind::quadrics},
+     {"crossings", CorpusKind::ellipses},
+     {"p.size", CorpusKind::points},
+     {"w.size", CorpusKind::walls},
+     {"r.size", CorpusKind::rays},
+     {"tolerance", CorpusKind::times},
+     {"m.size", CorpusKind::matrices},
+     {"float.size", CorpusKind::floats},
+     {"ix", CorpusKind::neighbours}}};
+
 TwoDoubles two_doubles(const RowCursor& row, Column column) {
   const double high = row.number(column);
   const std::string text(row.text(column));
   if (text.find_first_of("xX") != std::string::npos) return {high, 0};
-  return {high, Real(Real(text) - high).convert_to<double>()};
+  mpfr_t number;
+  mpfr_init2(number, 256);  // chosen: 40 digits and their exponent with 100 bits to spare
+  mpfr_set_str(number, text.c_str(), 10, MPFR_RNDN);
+  mpfr_sub_d(number, number, high, MPFR_RNDN);
+  const double low = mpfr_get_d(number, MPFR_RNDN);
+  mpfr_clear(number);
+  return {high, low};
 }
 
 std::array<double, 3> unit_vector(const RowCursor& row, Column first,
@@ -51,22 +77,29 @@ int small_count(const RowCursor& row, Column column) {
   throw row.error(column, "two ellipses have 0 to 4 crossings");
 }
 
+// A line a true normal, or a line a neighbour.
+bool has_several_lines(CorpusKind kind) {
+  using enum CorpusKind;
+  return kind != quadrics && kind != rays && kind != times;
+}
+
 // What all kinds have in common, and the order of rows.
 class TableReader {
  public:
   TableReader(const tables::Header& header, CorpusKind kind)
-      : row_(header.require("row")), family_(header.require("family")), table_{kind, {}, {}, {}} {}
+      : row_(header.require("row")), family_(header.require("family")), table_{kind, {}, {},
+                                                                               {},   {}, false} {}
 
-  // The row of the table that this line is about; `again` where it has been seen.
-  TruthRow& enter(const RowCursor& line, bool& again) {
+  // The last row of the table is then the one that this line is about: has it been seen before?
+  bool enter(const RowCursor& line) {
     const double number = line.number(row_);
     const auto count = static_cast<double>(table_.rows.size());
-    again = table_.kind != CorpusKind::quadrics && count > 0 && number == count - 1;
+    const bool again = has_several_lines(table_.kind) && count > 0 && number == count - 1;
     if (!again && number != count) {
       throw line.error(row_, "rows must be numbered from 0 in order");
     }
     if (!again) table_.rows.emplace_back().family = family(line);
-    return table_.rows.back();
+    return again;
   }
   TruthTable& table() { return table_; }
 
@@ -99,36 +132,66 @@ Relation read_relation(const RowCursor& line, Column column) {
   throw line.error(column, "this is not a relation");
 }
 
-class PairReader {
+double positive(const RowCursor& line, Column column, std::string_view rule) {
+  const double value = line.number(column);
+  if (!(value > 0)) throw line.error(column, rule);
+  return value;
+}
+
+// What a gap is called by each definition, and its normal.
+struct GapColumns {
+  const char* gap;
+  std::array<const char*, 3> normal;
+};
+
+GapColumns gap_columns(Definition definition) {
+  constexpr std::array kOwn{"nx", "ny", "nz"}, kPerramWertheim{"pw.nx", "pw.ny", "pw.nz"};
+  switch (definition) {
+    case Definition::common_normal:
+      return {"gap", kOwn};
+    case Definition::perram_wertheim:
+      return {"pw.gap", kPerramWertheim};
+    case Definition::midpoint_potential:
+      return {"mp.gap", kPerramWertheim};
+    case Definition::centre_line:
+      break;
+  }
+  return {"cl.gap", kPerramWertheim};
+}
+
+// Of pairs, matrices, floats, points and walls: points have no relation, and points and walls one
+// definition.
+class GapReader {
  public:
-  PairReader(const tables::Header& header, Definition definition)
-      : definition_(definition),
-        relation_(header.require("relation")),
-        size_(header.require("size")),
-        gap_(header.require(gap_column(definition))),
+  GapReader(const tables::Header& header, CorpusKind kind, Definition definition, TruthTable& table)
+      : table_(table),
+        common_(definition == Definition::common_normal || has_one_definition(kind)),
+        columns_(gap_columns(common_ ? Definition::common_normal : definition)),
+        size_(header.require(size_column(kind))),
+        gap_(header.require(columns_.gap)),
         set_(header.require("normals")),
-        axis_(require3(header, {"ax", "ay", "az"})) {
-    const bool common = definition == Definition::common_normal;
-    normal_ = common ? require3(header, {"nx", "ny", "nz"})
-                     : require3(header, {"pw.nx", "pw.ny", "pw.nz"});
+        axis_(require3(header, {"ax", "ay", "az"})),
+        normal_(require3(header, columns_.normal)) {
+    if (kind != CorpusKind::points) relation_ = header.require("relation");
+    table.has_normals = common_ || definition != Definition::centre_line;
   }
 
-  void read(const RowCursor& line, bool again, TruthTable& table) const {
-    TruthRow& row = table.rows.back();
-    const bool common = definition_ == Definition::common_normal;
+  void operator()(const RowCursor& line, bool again) const {
+    TruthRow& row = table_.rows.back();
+    std::optional<TwoDoubles> gap;
+    if (!line.text(gap_).empty()) gap = two_doubles(line, gap_);
     if (!again) {
-      row.relation = read_relation(line, relation_);
-      row.size = line.number(size_);
-      if (!(row.size > 0)) throw line.error(size_, "a size must be > 0");
-      if (!line.text(gap_).empty()) row.gap = two_doubles(line, gap_);
-      row.first_normal = table.maximisers.size();
+      if (relation_) row.relation = read_relation(line, *relation_);
+      row.size = positive(line, size_, "a size must be > 0");
+      row.gap = gap;
+      row.first_normal = table_.maximisers.size();
     } else {
-      require_same(line, relation_, read_relation(line, relation_) == row.relation);
-      require_same(line, gap_,
-                   line.text(gap_).empty() ? !row.gap : two_doubles(line, gap_) == row.gap);
+      if (relation_)
+        require_same(line, *relation_, read_relation(line, *relation_) == row.relation);
+      require_same(line, gap_, gap == row.gap);
     }
-    if (!row.gap || !table.has_normals || (again && !common)) return;
-    const std::string_view set = common ? line.text(set_) : "point";
+    if (!row.gap || !table_.has_normals || (again && !common_)) return;
+    const std::string_view set = common_ ? line.text(set_) : "point";
     if (set == "all") {
       row.every_normal = true;
       return;
@@ -136,49 +199,47 @@ class PairReader {
     if (set != "point" && set != "circle") throw line.error(set_, "this is not a set of normals");
     Maximiser one{unit_vector(line, normal_), std::nullopt};
     if (set == "circle") one.axis = unit_vector(line, axis_);
-    table.maximisers.push_back(one);
+    table_.maximisers.push_back(one);
     ++row.normals;
   }
 
  private:
-  static const char* gap_column(Definition definition) {
-    switch (definition) {
-      case Definition::common_normal:
-        return "gap";
-      case Definition::perram_wertheim:
-        return "pw.gap";
-      case Definition::midpoint_potential:
-        return "mp.gap";
-      case Definition::centre_line:
-        break;
-    }
-    return "cl.gap";
+  static bool has_one_definition(CorpusKind kind) {
+    return kind == CorpusKind::points || kind == CorpusKind::walls;
+  }
+  static const char* size_column(CorpusKind kind) {
+    const auto* const own =
+        std::ranges::find(kOwnColumns, kind, &decltype(kOwnColumns)::value_type::second);
+    return own == kOwnColumns.end() ? "size" : own->first;
   }
 
-  Definition definition_;
-  Column relation_, size_, gap_, set_;
+  TruthTable& table_;
+  bool common_;
+  GapColumns columns_;
+  std::optional<Column> relation_;
+  Column size_, gap_, set_;
   Columns3 axis_, normal_;
 };
 
 class EllipseReader {
  public:
-  explicit EllipseReader(const tables::Header& header)
-      : relation_(header.require("relation")),
+  EllipseReader(const tables::Header& header, TruthTable& table)
+      : table_(table),
+        relation_(header.require("relation")),
         crossings_(header.require("crossings")),
         size_(header.require("size")),
         area_(header.require("area")),
         smaller_area_(header.require("smaller_area")),
         gap_(header.require("gap")),
         set_(header.find("normals")) {
+    // Tables of before there were normals have none.
+    table.has_normals = set_.has_value();
     if (set_) normal_ = {header.require("nx"), header.require("ny")};
   }
 
-  // Tables of before there were normals have none.
-  bool has_normals() const { return set_.has_value(); }
-
-  void read(const RowCursor& line, bool again, TruthTable& table) const {
-    TruthRow& row = table.rows.back();
-    if (!again) read_row(line, row, table.maximisers.size());
+  void operator()(const RowCursor& line, bool again) const {
+    TruthRow& row = table_.rows.back();
+    if (!again) read_row(line, row, table_.maximisers.size());
     require_same(line, relation_, read_relation(line, relation_) == row.relation);
     require_same(line, gap_, two_doubles(line, gap_) == row.gap);
     if (!set_) return;
@@ -189,7 +250,7 @@ class EllipseReader {
     }
     if (set != "point") throw line.error(*set_, "this is not a set of normals");
     const double x = line.number(normal_[0]), y = line.number(normal_[1]);
-    table.maximisers.push_back({unit_vector(line, normal_[0], {x, y, 0}), std::nullopt});
+    table_.maximisers.push_back({unit_vector(line, normal_[0], {x, y, 0}), std::nullopt});
     ++row.normals;
   }
 
@@ -198,18 +259,112 @@ class EllipseReader {
     row.first_normal = first_normal;
     row.relation = read_relation(line, relation_);
     row.crossings = line.text(crossings_).empty() ? -1 : small_count(line, crossings_);
-    row.size = line.number(size_);
+    row.size = positive(line, size_, "a size must be > 0");
     row.area = line.number(area_);
-    row.smaller_area = line.number(smaller_area_);
+    row.smaller_area = positive(line, smaller_area_, "an area must be > 0");
     row.gap = two_doubles(line, gap_);
-    if (!(row.size > 0)) throw line.error(size_, "a size must be > 0");
-    if (!(row.smaller_area > 0)) throw line.error(smaller_area_, "an area must be > 0");
   }
 
+  TruthTable& table_;
   Column relation_, crossings_, size_, area_, smaller_area_, gap_;
   std::optional<Column> set_;
   std::array<Column, 2> normal_{};
 };
+
+// Of rays and times: a word and up to two numbers.
+class TimesReader {
+ public:
+  struct Names {
+    const char *word, *size, *first, *second;
+    std::span<const std::string_view> words;
+  };
+  TimesReader(const tables::Header& header, const Names& names, TruthTable& table)
+      : table_(table),
+        words_(names.words),
+        word_(header.require(names.word)),
+        size_(header.require(names.size)),
+        numbers_{header.require(names.first), header.require(names.second)} {}
+
+  void operator()(const RowCursor& line, bool /*again*/) const {
+    TruthRow& row = table_.rows.back();
+    row.word = line.text(word_);
+    if (std::ranges::find(words_, row.word) == words_.end())
+      throw line.error(word_, "this is not a word of this column");
+    row.size = positive(line, size_, "a size must be > 0");
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!line.text(numbers_[k]).empty()) row.times[k] = two_doubles(line, numbers_[k]);
+    }
+  }
+
+ private:
+  TruthTable& table_;
+  std::span<const std::string_view> words_;
+  Column word_, size_;
+  std::array<Column, 2> numbers_;
+};
+
+constexpr std::array<std::string_view, 3> kResults{"hit", "miss", "grazing"};
+constexpr std::array<std::string_view, 4> kStatuses{"none", "contact", "touching_at_start",
+                                                    "grazing"};
+
+class NeighbourReader {
+ public:
+  NeighbourReader(const tables::Header& header, TruthTable& table)
+      : table_(table), j_(header.require("j")), image_(require3(header, {"ix", "iy", "iz"})) {}
+
+  void operator()(const RowCursor& line, bool again) const {
+    TruthRow& row = table_.rows.back();
+    if (!again) row.first_neighbour = table_.neighbours.size();
+    if (line.text(j_).empty()) return;
+    TrueNeighbour one{whole(line, j_), {}};
+    for (std::size_t k = 0; k < 3; ++k) one.image[k] = static_cast<int>(line.number(image_[k]));
+    if (again && !(table_.neighbours.back() < one))
+      throw line.error(j_, "neighbours must be in order");
+    table_.neighbours.push_back(one);
+    ++row.neighbours;
+  }
+
+ private:
+  static std::size_t whole(const RowCursor& line, Column column) {
+    constexpr double kMost = 1e9;  // chosen: far above what a table has
+    const double value = line.number(column);
+    if (value >= 0 && value < kMost && value == std::floor(value))
+      return static_cast<std::size_t>(value);
+    throw line.error(column, "this must be the number of a body");
+  }
+
+  TruthTable& table_;
+  Column j_;
+  Columns3 image_;
+};
+
+// What reads a line into the last row of the table.
+using LineReader = std::function<void(const RowCursor& line, bool again)>;
+
+LineReader line_reader(const tables::Header& header, Definition definition, TruthTable& table) {
+  using enum CorpusKind;
+  switch (table.kind) {
+    case ellipses:
+      return EllipseReader(header, table);
+    case quadrics:
+      return [&table, type = header.require("type")](const RowCursor& line, bool) {
+        table.rows.back().word = read_type(line, type);
+      };
+    case rays:
+      return TimesReader(header, {"result", "r.size", "t1", "t2", kResults}, table);
+    case times:
+      return TimesReader(header, {"status", "tolerance", "earliest", "latest", kStatuses}, table);
+    case neighbours:
+      return NeighbourReader(header, table);
+    case pairs:
+    case points:
+    case walls:
+    case matrices:
+    case floats:
+      break;
+  }
+  return GapReader(header, table.kind, definition, table);
+}
 
 }  // namespace
 
@@ -223,43 +378,19 @@ std::optional<Relation> relation_named(std::string_view word) {
 }
 
 CorpusKind kind_of_truth(const tables::Header& header) {
-  if (header.find("type")) return CorpusKind::quadrics;
-  return header.find("crossings") ? CorpusKind::ellipses : CorpusKind::pairs;
+  const auto* const own = std::ranges::find_if(
+      kOwnColumns, [&](const auto& column) { return header.find(column.first).has_value(); });
+  return own == kOwnColumns.end() ? CorpusKind::pairs : own->second;
 }
 
 TruthTable read_truth(tables::Reader&& file, Definition definition) {
-  const tables::Header& header = file.header();
-  TableReader reader(header, kind_of_truth(header));
-  TruthTable& table = reader.table();
-  bool again = false;
-  switch (table.kind) {
-    case CorpusKind::pairs: {
-      table.has_normals = definition != Definition::centre_line;
-      const PairReader pairs(header, definition);
-      tables::for_each_row(file, [&](const RowCursor& line) {
-        reader.enter(line, again);
-        pairs.read(line, again, table);
-      });
-      break;
-    }
-    case CorpusKind::ellipses: {
-      const EllipseReader ellipses(header);
-      table.has_normals = ellipses.has_normals();
-      tables::for_each_row(file, [&](const RowCursor& line) {
-        reader.enter(line, again);
-        ellipses.read(line, again, table);
-      });
-      break;
-    }
-    case CorpusKind::quadrics: {
-      const Column type = header.require("type");
-      tables::for_each_row(file, [&](const RowCursor& line) {
-        reader.enter(line, again).type = read_type(line, type);
-      });
-      break;
-    }
-  }
-  return std::move(table);
+  TableReader reader(file.header(), kind_of_truth(file.header()));
+  const LineReader read = line_reader(file.header(), definition, reader.table());
+  tables::for_each_row(file, [&](const RowCursor& line) {
+    const bool again = reader.enter(line);
+    read(line, again);
+  });
+  return std::move(reader.table());
 }
 
 }  // namespace tangency::inline v0::verify

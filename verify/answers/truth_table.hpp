@@ -32,16 +32,35 @@ struct Maximiser {
   std::optional<std::array<double, 3>> axis;
 };
 
+/// A pair of the neighbours of body i, whose row this is of.
+struct TrueNeighbour {
+  std::size_t j = 0;
+  std::array<int, 3> image{};
+  auto operator<=>(const TrueNeighbour&) const = default;
+};
+
+/// How an answer to a row is counted (claims.hpp).
+enum class Standing {
+  judged,
+  not_claimed,       ///< the tool has opted out of it: no answer is judged
+  expected_failure,  ///< known to be answered wrongly: a fault is counted apart
+};
+
+/// What is true of an input; which members count depends on the kind.
 struct TruthRow {
   std::size_t family = 0;
   Relation relation = Relation::separate;
-  double size = 1;                ///< unit of the gap's error
+  double size = 1;                ///< unit of the errors of gap and time
   std::optional<TwoDoubles> gap;  ///< nothing where the definition does not apply
   bool every_normal = false;
   std::size_t first_normal = 0, normals = 0;  ///< in TruthTable::maximisers
   int crossings = -1;                         ///< of ellipses; -1: equal
   double area = 0, smaller_area = 1;          ///< of ellipses
-  std::string type;                           ///< of a quadric
+  std::string word;  ///< type of a quadric, result of a ray, status of a time
+  /// Of a ray: t1 and t2. Of a time: between which the first contact lies.
+  std::array<std::optional<TwoDoubles>, 2> times{};
+  std::size_t first_neighbour = 0, neighbours = 0;  ///< in TruthTable::neighbours
+  Standing standing = Standing::judged;
 };
 
 struct TruthTable {
@@ -49,14 +68,15 @@ struct TruthTable {
   std::vector<std::string> families;  ///< in the order of their first rows
   std::vector<TruthRow> rows;
   std::vector<Maximiser> maximisers;
+  std::vector<TrueNeighbour> neighbours;  ///< of one row after another, each row's in order
   bool has_normals = false;
 };
 
-/// By the columns: `type` makes quadrics, `crossings` ellipses.
+/// By the columns (verify/corpus/corpus.hpp), of which each kind but pairs has one of its own.
 CorpusKind kind_of_truth(const tables::Header& header);
 
-/// `definition` is for pairs; it changes nothing else. Throws tables::Error: a table that cannot be
-/// read, lacks a column, skips a row or returns to one.
+/// `definition` is for pairs, matrices and floats; it changes nothing else. Throws tables::Error: a
+/// table that cannot be read, lacks a column, skips a row or returns to one.
 TruthTable read_truth(tables::Reader&& file, Definition definition);
 
 /// `relation` says the interiors meet.

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <exception>
-#include <ios>
 #include <stdexcept>
 #include <vector>
 
-#include <tangency/verify/corpus/truth.hpp>
+#include <tangency/verify/corpus/cells.hpp>
+#include <tangency/verify/corpus/formats.hpp>
+#include <tangency/verify/corpus/neighbour_truth.hpp>
 #include <tangency/verify/families/families.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
 
@@ -39,178 +38,66 @@ constexpr std::array kCorpora{
     CorpusInfo{"ellipses", CorpusKind::ellipses, "plane ellipses in general and special places"},
     CorpusInfo{"quadrics", CorpusKind::quadrics,
                "quadrics of every type, and what lies beside their borders"},
-};
-
-constexpr int kDigits = 40;
-
-// Correctly rounded to 40 significant digits, without trailing zeros.
-std::string decimal(const Real& v) {
-  if (v == 0) return "0";
-  std::string text = v.str(kDigits - 1, std::ios::scientific);
-  const std::size_t exponent = text.find('e');
-  std::size_t last = text.find_last_not_of('0', exponent - 1);
-  if (text[last] == '.') --last;
-  text.erase(last + 1, exponent - last - 1);
-  if (text.ends_with("e+00")) text.resize(text.size() - 4);
-  return text;
-}
-
-// Of a unit vector: what is left of nothing after 150 digits is nothing.
-std::string component(const Real& v) { return decimal(abs(v) < Real("1e-60") ? Real(0) : v); }
-
-std::string components(const Real3& n) {
-  return component(n[0]) + ',' + component(n[1]) + ',' + component(n[2]);
-}
-
-std::string hex(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), std::abs(value),
-                                 std::chars_format::hex)
-                       .ptr;
-  return (value < 0 ? "-0x" : "0x") + std::string(digits.data(), end);
-}
-
-template <class Numbers>
-void append_hex(std::string& line, const Numbers& numbers) {
-  for (const double v : numbers) line += (line.empty() ? "" : ",") + hex(v);
-}
-
-// Part of a truth line behind row and family; one line each.
-using TruthLines = std::vector<std::string>;
-
-std::string relation_cells(const ExactRelation& exact) {
-  std::string cells(name(exact.relation));
-  cells += exact.inner == Inner::a ? ",a" : exact.inner == Inner::b ? ",b" : ",";
-  return cells;
-}
-
-struct PairFormat {
-  static constexpr std::string_view inputs =
-      "a.x,a.y,a.z,a.r1,a.r2,a.r3,a.qw,a.qx,a.qy,a.qz,"
-      "b.x,b.y,b.z,b.r1,b.r2,b.r3,b.qw,b.qx,b.qy,b.qz";
-  static constexpr std::string_view truth =
-      "relation,inner,size,gap,normals,nx,ny,nz,ax,ay,az,pw.gap,pw.nx,pw.ny,pw.nz,mp.gap,cl.gap";
-
-  static std::string input(const EllipsoidPair& pair) {
-    std::string line;
-    for (const RawEllipsoid* e : {&pair.a, &pair.b}) {
-      append_hex(line, e->centre), append_hex(line, e->semi_axes), append_hex(line, e->orientation);
-    }
-    return line;
-  }
-  static TruthLines lines(const EllipsoidPair& pair) {
-    const auto truth = pair_truth(pair);
-    if (!truth) return {};
-    const std::string head = relation_cells(truth->relation) + ',' +
-                             hex(truth->size.convert_to<double>()) + ',' + decimal(truth->gap);
-    std::string tail = ",,,,,,";
-    if (const auto& pw = truth->perram_wertheim) {
-      const bool touch = truth->relation.relation == Relation::external_touch;
-      const auto number = [&](const Real& v) { return touch ? "0" : decimal(v); };
-      tail = ',' + number(pw->tangent_planes.gap) + ',' + components(pw->tangent_planes.normal) +
-             ',' + (pw->midpoint ? number(pw->midpoint->gap) : "") + ',' + number(pw->centre_line);
-    }
-    TruthLines lines;
-    for (const TrueNormals& n : truth->normals) {
-      using Set = TrueNormals::Set;
-      const std::string set = n.set == Set::point    ? ",point,"
-                              : n.set == Set::circle ? ",circle,"
-                                                     : ",all,";
-      lines.push_back(head + set + (n.set == Set::all ? ",," : components(n.normal)) + ',' +
-                      (n.set == Set::circle ? components(n.axis) : ",,") + tail);
-    }
-    return lines;
-  }
-};
-
-struct EllipseFormat {
-  static constexpr std::string_view inputs =
-      "a.x,a.y,a.r1,a.r2,a.ux,a.uy,b.x,b.y,b.r1,b.r2,b.ux,b.uy";
-  static constexpr std::string_view truth =
-      "relation,inner,crossings,size,area,smaller_area,gap,normals,nx,ny";
-
-  static std::string input(const EllipsePair& pair) {
-    std::string line;
-    for (const RawEllipse* e : {&pair.a, &pair.b}) {
-      append_hex(line, e->centre), append_hex(line, e->semi_axes), append_hex(line, e->direction);
-    }
-    return line;
-  }
-  static TruthLines lines(const EllipsePair& pair) {
-    const EllipsePairTruth truth = ellipse_truth(pair);
-    const auto rounded = [](const Real& v) { return hex(v.convert_to<double>()); };
-    const std::string head = relation_cells(truth.relation) + ',' +
-                             (truth.crossings < 0 ? "" : std::to_string(truth.crossings)) + ',' +
-                             rounded(truth.size) + ',' + rounded(truth.area) + ',' +
-                             rounded(truth.smaller_area) + ',' + decimal(truth.gap.gap);
-    if (truth.gap.every_normal) return {head + ",all,,"};
-    TruthLines lines;
-    for (const auto& [x, y] : truth.gap.normals) {
-      lines.push_back(head + ",point," + component(x) + ',' + component(y));
-    }
-    return lines;
-  }
-};
-
-struct QuadricFormat {
-  static constexpr std::string_view inputs = "A,B,C,D,E,F,G,H,J,K";
-  static constexpr std::string_view truth = "type";
-
-  static std::string input(const RawQuadric& q) {
-    std::string line;
-    append_hex(line, std::array{q.A, q.B, q.C, q.D, q.E, q.F, q.G, q.H, q.J, q.K});
-    return line;
-  }
-  static TruthLines lines(const RawQuadric& q) { return {std::string(name(classify(q).type))}; }
+    CorpusInfo{"points", CorpusKind::points,
+               "points outside, inside, on the surface and where closest points part"},
+    CorpusInfo{"walls", CorpusKind::walls, "plane walls, near, through and touching"},
+    CorpusInfo{"rays", CorpusKind::rays,
+               "rays through, past and exactly along the surface, and from it"},
+    CorpusInfo{"times", CorpusKind::times,
+               "bodies that fly and turn, meet, pass, graze or touch at the start"},
+    CorpusInfo{"matrices", CorpusKind::matrices, "pairs given by shape matrices"},
+    CorpusInfo{"float32", CorpusKind::floats, "pairs whose every number is a float"},
+    CorpusInfo{"neighbours", CorpusKind::neighbours, "bodies in open space"},
+    CorpusInfo{"neighbours-periodic",
+               CorpusKind::neighbours,
+               "bodies in a cell of 80 x 16 x 8, periodic in all directions",
+               {80, 16, 8}},
 };
 
 // FNV-1a: every family has a seed of its own, whatever stands before it.
-std::uint64_t seed_of(std::string_view corpus, std::string_view family) {
+std::uint64_t seed_of(std::string_view corpus, std::string_view family, std::uint64_t seed) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const std::string_view text : {corpus, family}) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   }
+  for (; seed > 0; seed >>= 8) hash = (hash ^ (seed & 0xff)) * 0x100000001b3;
   return hash;
 }
 
-CorpusText started(const CorpusInfo& corpus) {
-  const std::string name(corpus.name);
-  const std::string licence = "# SPDX-License-Identifier: GPL-3.0-or-later\n";
-  const std::string made = "# Made by `tangency-verify generate " + name + "`.";
-  std::string truth;
-  switch (corpus.kind) {
-    case CorpusKind::pairs:
-      truth =
-          " Relation: exact, in integers (verify/oracles/relation.hpp).\n"
-          "# Gap and normals: 40 digits of 150 (verify/oracles/gap.hpp, verify/corpus/"
-          "coaxial.hpp), a line for every normal\n# that reaches the gap; pw, mp, cl:"
-          " verify/oracles/perram_wertheim.hpp. Columns: verify/corpus/corpus.hpp.\n";
-      break;
-    case CorpusKind::ellipses:
-      truth =
-          " Relation and crossings: exact; area: 18 digits, rounded to\n# double; gap and normals:"
-          " 40 digits of 150, a line for every normal that reaches the gap\n"
-          "# (verify/oracles/ellipse.hpp). Columns: verify/corpus/corpus.hpp.\n";
-      break;
-    case CorpusKind::quadrics:
-      truth = " Types: exact, in integers (verify/oracles/classification.hpp).\n";
-      break;
+// What to draw: how many rows of a family, and from which seed.
+struct Drawing {
+  std::size_t rows;
+  std::uint64_t seed;
+
+  std::size_t rows_of(std::size_t committed) const {
+    return rows == kWholeFamily ? committed : rows;
   }
+  std::string options() const {
+    if (seed == 0) return {};
+    return " --seed " + std::to_string(seed) +
+           (rows == kWholeFamily ? "" : " --rows " + std::to_string(rows));
+  }
+};
+
+CorpusText started(const CorpusInfo& corpus, std::string_view about, const Drawing& drawing) {
+  const std::string name(corpus.name);
+  const std::string licence = "# SPDX-License-Identifier: CC0-1.0\n";
+  const std::string made = "# Made by `tangency-verify generate " + name + drawing.options() + "`.";
   return {licence + "# Golden corpus " + name + ": " + std::string(corpus.what) + ".\n" + made +
               " Hex floats: exactly the doubles meant.\n",
-          licence + "# What is true of " + name + ".csv.\n" + made + truth};
+          licence + "# What is true of " + name + ".csv.\n" + made + std::string(about)};
 }
 
 template <class Format, class Input>
 CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>>& families,
-                  std::size_t most) {
-  CorpusText text = started(corpus);
+                  const Drawing& drawing) {
+  CorpusText text = started(corpus, Format::about, drawing);
   text.inputs += std::string(Format::inputs) + '\n';
   text.truth += "row,family," + std::string(Format::truth) + '\n';
   std::size_t row = 0;
   for (const InputFamily<Input>& family : families) {
-    const auto next = family.sequence(seed_of(corpus.name, family.name));
-    for (std::size_t i = 0; i < std::min(family.count, most); ++i, ++row) {
+    const auto next = family.sequence(seed_of(corpus.name, family.name, drawing.seed));
+    for (std::size_t i = 0; i < drawing.rows_of(family.count); ++i, ++row) {
       Input input = next();
       TruthLines lines = Format::lines(input);
       while (lines.empty()) lines = Format::lines(input = next());
@@ -223,10 +110,49 @@ CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>
   return text;
 }
 
+// Of neighbours. Every family has a box of its own, one after another along x.
+CorpusText neighbour_tables(const CorpusInfo& corpus, std::uint64_t seed) {
+  const bool periodic = corpus.cell != std::array<double, 3>{};
+  std::vector<RawEllipsoid> bodies;
+  std::vector<std::string> names;
+  double box = 0;
+  for (const auto& family : neighbour_families(periodic)) {
+    const auto next = family.sequence(seed_of(corpus.name, family.name, seed));
+    for (std::size_t k = 0; k < family.count; ++k) {
+      bodies.push_back(next());
+      bodies.back().centre[0] += box;
+      names.push_back(family.name);
+    }
+    box += kNeighbourBox;
+  }
+  CorpusText text = started(corpus,
+                            " Pairs: exact, in integers (verify/oracles/relation.hpp). Columns:\n"
+                            "# verify/corpus/corpus.hpp.\n",
+                            {kWholeFamily, seed});
+  text.inputs += "x,y,z,r1,r2,r3,qw,qx,qy,qz,cell.x,cell.y,cell.z\n";
+  text.truth += "row,family,j,ix,iy,iz,relation\n";
+  const auto pairs = true_pairs(bodies, corpus.cell);
+  auto pair = pairs.begin();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    std::string line;
+    append_body(line, bodies[i]);
+    append_hex(line, corpus.cell);
+    text.inputs += line + '\n';
+    const std::string head = std::to_string(i) + ',' + names[i] + ',';
+    if (pair == pairs.end() || pair->i != i) text.truth += head + ",,,,\n";
+    for (; pair != pairs.end() && pair->i == i; ++pair) {
+      text.truth += head + std::to_string(pair->j);
+      for (const int v : pair->image) text.truth += ',' + std::to_string(v);
+      text.truth += ',' + std::string(name(pair->relation)) + '\n';
+    }
+  }
+  return text;
+}
+
 // A row of which no more is known than the relation.
 std::string relation_alone(const EllipsoidPair& pair) {
   const Real size = ascent::extent(separation(real(pair.a), real(pair.b)));
-  return relation_cells(exact_relation(pair.a, pair.b)) + ',' + hex(size.convert_to<double>()) +
+  return relation_cells(exact_relation(pair.a, pair.b)) + ',' + rounded_hex(size) +
          std::string(std::ranges::count(PairFormat::truth, ',') - 2, ',');
 }
 
@@ -260,18 +186,36 @@ CorpusText corpus_of(std::span<const NamedPair> pairs, std::string_view comment)
   return text;
 }
 
-CorpusText generate(std::string_view name, std::size_t most_per_family) {
+CorpusText generate(std::string_view name, std::size_t rows, std::uint64_t seed) {
+  const Drawing drawing{rows, seed};
   const auto found = std::ranges::find(kCorpora, name, &CorpusInfo::name);
   if (found == kCorpora.end()) throw std::invalid_argument("no corpus has this name");
+  const auto made = [&]<class Format>(Format, const auto& families) {
+    return tables<Format>(*found, families, drawing);
+  };
   switch (found->kind) {
     case CorpusKind::pairs:
-      return tables<PairFormat>(*found, pair_families(name), most_per_family);
-    case CorpusKind::ellipses:
-      return tables<EllipseFormat>(*found, ellipse_families(), most_per_family);
-    case CorpusKind::quadrics:
       break;
+    case CorpusKind::ellipses:
+      return made(EllipseFormat(), ellipse_families());
+    case CorpusKind::quadrics:
+      return made(QuadricFormat(), quadric_families());
+    case CorpusKind::points:
+      return made(PointFormat(), point_families());
+    case CorpusKind::walls:
+      return made(WallFormat(), wall_families());
+    case CorpusKind::rays:
+      return made(RayFormat(), ray_families());
+    case CorpusKind::times:
+      return made(TimeFormat(), time_families());
+    case CorpusKind::matrices:
+      return made(MatrixFormat(), matrix_families());
+    case CorpusKind::floats:
+      return made(FloatFormat(), float_families());
+    case CorpusKind::neighbours:
+      return neighbour_tables(*found, seed);
   }
-  return tables<QuadricFormat>(*found, quadric_families(), most_per_family);
+  return made(PairFormat(), pair_families(name, seed));
 }
 
 }  // namespace tangency::inline v0::verify

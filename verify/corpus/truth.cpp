@@ -46,11 +46,9 @@ std::vector<TrueNormals> about_axis(const CoaxialGap& found) {
   return normals;
 }
 
-}  // namespace
-
-std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
-  const RealEllipsoid a = real(pair.a), b = real(pair.b);
-  PairTruth truth{exact_relation(pair.a, pair.b), ascent::extent(separation(a, b)), 0, {}, {}};
+std::optional<PairTruth> truth_of(const ExactRelation& relation, const RealEllipsoid& a,
+                                  const RealEllipsoid& b) {
+  PairTruth truth{relation, ascent::extent(separation(a, b)), 0, {}, {}};
   if (const auto coaxial = coaxial_gap(a, b)) {
     truth.gap = coaxial->gap;
     truth.normals = about_axis(*coaxial);
@@ -67,10 +65,25 @@ std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
   return truth;
 }
 
-std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
-  auto truth = common_normal_truth(pair);
-  if (truth) truth->perram_wertheim = perram_wertheim(real(pair.a), real(pair.b));
+std::optional<PairTruth> with_other_gaps(std::optional<PairTruth> truth, const RealEllipsoid& a,
+                                         const RealEllipsoid& b) {
+  if (truth) truth->perram_wertheim = perram_wertheim(a, b);
   return truth;
+}
+
+}  // namespace
+
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
+  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
+}
+
+std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {
+  return with_other_gaps(common_normal_truth(pair), real(pair.a), real(pair.b));
+}
+
+std::optional<PairTruth> pair_truth(const MatrixPair& pair) {
+  const RealEllipsoid a = real(pair.a), b = real(pair.b);
+  return with_other_gaps(truth_of(exact_relation(pair.a, pair.b), a, b), a, b);
 }
 
 EllipsePairTruth ellipse_truth(const EllipsePair& pair) {

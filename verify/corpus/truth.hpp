@@ -36,6 +36,7 @@ struct PairTruth {
 /// Nothing where the oracle does not prove the gap to be the global one. Throws std::logic_error
 /// where exact relation and gap do not fit each other.
 std::optional<PairTruth> pair_truth(const EllipsoidPair& pair);
+std::optional<PairTruth> pair_truth(const MatrixPair& pair);
 
 /// The same without the gaps by other definitions: `perram_wertheim` is left empty.
 std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair);

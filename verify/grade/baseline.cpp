@@ -118,12 +118,13 @@ Baseline read_baseline(const std::string& path) {
   }
 }
 
-Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack) {
+Comparison compare(const std::vector<CorpusReport>& corpora, const Baseline& baseline,
+                   double slack) {
   Comparison result;
   Changes changes;
   std::set<std::string> seen;
   std::map<std::string, bool> known;  // of each corpus: does the baseline have anything?
-  for (const NamedValue& now : values_of(grades)) {
+  for (const NamedValue& now : values_of(corpora)) {
     seen.insert(now.name);
     bool& compared = known[now.name.substr(0, now.name.find('/'))];
     const auto before = baseline.find(now.name);
@@ -139,7 +140,7 @@ Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& basel
   }
   for (const auto& [name, value] : baseline) {
     const std::string corpus = name.substr(0, name.find('/'));
-    const bool graded = std::ranges::find(grades, corpus, &CorpusGrade::corpus) != grades.end();
+    const bool graded = std::ranges::find(corpora, corpus, &CorpusReport::name) != corpora.end();
     // Answers from a file have no time.
     if (graded && !seen.contains(name) && name != corpus + "/time") {
       changes.worse.push_back({kInfinity, name + ": in the baseline, and not graded now"});

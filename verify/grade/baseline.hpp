@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/verify/grade/report.hpp>
+#include <tangency/verify/grade/outputs.hpp>
 
 namespace tangency::inline v0::verify {
 
@@ -32,6 +32,7 @@ struct Comparison {
 };
 
 /// `slack` >= 0 is a share of the baseline's error. Corpora that were not graded are left out.
-Comparison compare(const std::vector<CorpusGrade>& grades, const Baseline& baseline, double slack);
+Comparison compare(const std::vector<CorpusReport>& corpora, const Baseline& baseline,
+                   double slack);
 
 }  // namespace tangency::inline v0::verify

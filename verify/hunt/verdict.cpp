@@ -72,7 +72,7 @@ std::array<double, 3> plain(const Real3& v) {
 // The true normals as judge_normal() takes them.
 struct KnownNormals {
   TruthTable table;
-  explicit KnownNormals(const PairTruth& truth) : table{CorpusKind::pairs, {}, {{}}, {}, true} {
+  explicit KnownNormals(const PairTruth& truth) : table{CorpusKind::pairs, {}, {{}}, {}, {}, true} {
     TruthRow& row = table.rows.front();
     for (const TrueNormals& n : truth.normals) {
       row.every_normal |= n.set == TrueNormals::Set::all;
@@ -83,7 +83,7 @@ struct KnownNormals {
     row.normals = table.maximisers.size();
   }
   KnownNormals(const std::array<double, 3>& one)
-      : table{CorpusKind::pairs, {}, {{}}, {{one, std::nullopt}}, true} {
+      : table{CorpusKind::pairs, {}, {{}}, {{one, std::nullopt}}, {}, true} {
     table.rows.front().normals = 1;
   }
   NormalVerdict judged(const std::array<double, 3>& n) const {

@@ -44,30 +44,6 @@ QuadricType type_of(const Inertia& q4, const Inertia& q3) {
 
 }  // namespace
 
-std::string_view name(QuadricType type) {
-  static constexpr std::array<std::string_view, 20> kNames{"real_ellipsoid",
-                                                           "imaginary_ellipsoid",
-                                                           "hyperboloid_one_sheet",
-                                                           "hyperboloid_two_sheets",
-                                                           "elliptic_paraboloid",
-                                                           "hyperbolic_paraboloid",
-                                                           "real_elliptic_cone",
-                                                           "imaginary_elliptic_cone",
-                                                           "real_elliptic_cylinder",
-                                                           "imaginary_elliptic_cylinder",
-                                                           "hyperbolic_cylinder",
-                                                           "parabolic_cylinder",
-                                                           "real_intersecting_planes",
-                                                           "imaginary_intersecting_planes",
-                                                           "real_parallel_planes",
-                                                           "imaginary_parallel_planes",
-                                                           "coincident_planes",
-                                                           "plane",
-                                                           "no_points",
-                                                           "all_space"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
 Classification classify(const RawQuadric& quadric) {
   const IntegerMatrix matrix = discriminant_matrix(quadric);
   Inertia q4 = inertia(matrix, 4);

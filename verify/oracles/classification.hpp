@@ -13,6 +13,8 @@
 /// (2) type and ranks do not change under an exact rigid motion or an exact change of units.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
@@ -43,7 +45,29 @@ enum class QuadricType {
 };
 
 /// The name in the file formats, which is the enumerator's.
-std::string_view name(QuadricType type);
+constexpr std::string_view name(QuadricType type) {
+  constexpr std::array<std::string_view, 20> kNames{"real_ellipsoid",
+                                                    "imaginary_ellipsoid",
+                                                    "hyperboloid_one_sheet",
+                                                    "hyperboloid_two_sheets",
+                                                    "elliptic_paraboloid",
+                                                    "hyperbolic_paraboloid",
+                                                    "real_elliptic_cone",
+                                                    "imaginary_elliptic_cone",
+                                                    "real_elliptic_cylinder",
+                                                    "imaginary_elliptic_cylinder",
+                                                    "hyperbolic_cylinder",
+                                                    "parabolic_cylinder",
+                                                    "real_intersecting_planes",
+                                                    "imaginary_intersecting_planes",
+                                                    "real_parallel_planes",
+                                                    "imaginary_parallel_planes",
+                                                    "coincident_planes",
+                                                    "plane",
+                                                    "no_points",
+                                                    "all_space"};
+  return kNames.at(static_cast<std::size_t>(type));
+}
 
 struct Classification {
   QuadricType type;

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/verify/oracles/jacobi.hpp>
+
 namespace tangency::inline v0::verify {
 namespace {
 
@@ -303,39 +305,6 @@ bool all_far(const Nest<N>& pair, double least, std::size_t most_boxes) {
 
 // ---- (2): the margin
 
-// Jacobi's method: eigenvalues, and the matrix of whose rows they are.
-template <std::size_t N>
-std::pair<Vector<Real, N>, Matrix<Real, N>> eigen(Matrix<Real, N> m) {
-  Matrix<Real, N> u{};
-  for (std::size_t i = 0; i < N; ++i) u[i][i] = 1;
-  for (int sweep = 0; sweep < 40; ++sweep) {
-    bool done = true;
-    for (std::size_t p = 0; p < N; ++p) {
-      for (std::size_t q = p + 1; q < N; ++q) {
-        if (abs(m[p][q]) <= Real("1e-148") * sqrt(abs(m[p][p] * m[q][q]))) continue;
-        done = false;
-        const Real theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-        Real t = 1 / (abs(theta) + sqrt(theta * theta + 1));
-        if (theta < 0) t = -t;
-        const Real c = 1 / sqrt(t * t + 1), s = t * c;
-        for (std::size_t i = 0; i < N; ++i) {
-          const Real ip = m[i][p], iq = m[i][q];
-          m[i][p] = c * ip - s * iq, m[i][q] = s * ip + c * iq;
-        }
-        for (std::size_t i = 0; i < N; ++i) {
-          const Real pi = m[p][i], qi = m[q][i], up = u[p][i], uq = u[q][i];
-          m[p][i] = c * pi - s * qi, m[q][i] = s * pi + c * qi;
-          u[p][i] = c * up - s * uq, u[q][i] = s * up + c * uq;
-        }
-      }
-    }
-    if (done) break;
-  }
-  Vector<Real, N> values;
-  for (std::size_t i = 0; i < N; ++i) values[i] = m[i][i];
-  return {values, u};
-}
-
 template <std::size_t N>
 MarginTruth margin(const Nest<N>& pair) {
   Matrix<Real, N> k, w{};
@@ -350,7 +319,7 @@ MarginTruth margin(const Nest<N>& pair) {
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t j = 0; j < N; ++j) w[i][j] = dot(k[i], k[j]);
   }
-  const auto [values, vectors] = eigen(w);
+  const auto [values, vectors] = jacobi_eigen(w);
   for (std::size_t i = 0; i < N; ++i) e[i] = dot(vectors[i], centre);
   const auto largest = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   const auto length2 = [&](const Real& v) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tangency/verify/oracles/inertia.hpp>
+#include <tangency/verify/oracles/relation_of_forms.hpp>
 #include <tangency/verify/oracles/square_free.hpp>
 #include <tangency/verify/oracles/witness_guess.hpp>
 
@@ -333,8 +334,7 @@ std::optional<ExactRelation> verified_guess(const RawEllipsoid& a, const RawElli
 }
 
 // The matrix, or its negative, that is negative inside.
-IntegerMatrix ellipsoid_matrix(const RawQuadric& quadric) {
-  IntegerMatrix matrix = discriminant_matrix(quadric);
+IntegerMatrix ellipsoid_matrix(IntegerMatrix matrix) {
   if (matrix[0][0] < 0) {
     for (auto& row : matrix) {
       for (mpz_class& entry : row) entry = -entry;
@@ -347,12 +347,6 @@ IntegerMatrix ellipsoid_matrix(const RawQuadric& quadric) {
 }
 
 }  // namespace
-
-std::string_view name(Relation relation) {
-  static constexpr std::array<std::string_view, 7> kNames{
-      "separate", "external_touch", "overlap", "internal_touch", "a_in_b", "b_in_a", "equal"};
-  return kNames[static_cast<std::size_t>(relation)];
-}
 
 ExactRelation exact_relation(const RawEllipsoid& a, const RawEllipsoid& b) {
   Forms forms = forms_of(a, b);
@@ -371,6 +365,10 @@ ExactRelation exact_relation_by_pencil(const RawEllipsoid& a, const RawEllipsoid
 }
 
 ExactRelation exact_relation_by_pencil(const RawQuadric& a, const RawQuadric& b) {
+  return exact_relation_by_pencil(discriminant_matrix(a), discriminant_matrix(b));
+}
+
+ExactRelation exact_relation_by_pencil(const IntegerMatrix& a, const IntegerMatrix& b) {
   return PencilWalk(ellipsoid_matrix(a), ellipsoid_matrix(b)).relation();
 }
 

@@ -37,6 +37,8 @@
 /// nothing.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 #include <tangency/verify/oracles/plain_bodies.hpp>
@@ -54,7 +56,11 @@ enum class Relation {
 };
 
 /// The name in the file formats, which is the enumerator's.
-std::string_view name(Relation relation);
+constexpr std::string_view name(Relation relation) {
+  constexpr std::array<std::string_view, 7> kNames{
+      "separate", "external_touch", "overlap", "internal_touch", "a_in_b", "b_in_a", "equal"};
+  return kNames.at(static_cast<std::size_t>(relation));
+}
 
 enum class Inner { none, a, b };
 

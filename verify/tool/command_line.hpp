@@ -15,5 +15,7 @@ enum ExitStatus : int {
 void add_generate(tables::Program& program);
 void add_grade(tables::Program& program);
 void add_hunt(tables::Program& program);
+void add_inputs(tables::Program& program);
+void add_show(tables::Program& program);
 
 }  // namespace tangency::inline v0::verify

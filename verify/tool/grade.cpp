@@ -6,21 +6,29 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/grade/baseline.hpp>
-#include <tangency/verify/grade/report.hpp>
+#include <tangency/verify/grade/outputs.hpp>
+#include <tangency/verify/tool/asking.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/output_files.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
+#include <tangency/version.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -51,8 +59,12 @@ The grade, family by family:
   with median, 99 %, largest and the row of the largest; then rows that are answered twice,
   that the corpus does not have, or that cannot be read.
 
-The last line is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every
-reason to fail has a line before it.
+The first ten rows of every family with a fault are named, with the line of NAME.csv where they
+stand, what was answered and what is true; `tangency-verify show` tells more of one. The last line
+is the verdict, `passed: ` or `FAILED: ` and the totals over all corpora; every reason to fail has
+a line before it. Where GITHUB_ACTIONS is true, ten of these are GitHub's annotations, too.
+
+Files of a grade appear whole, once it has ended; SOURCE_DATE_EPOCH sets the date in them.
 
 Exit status: 0 every row answered, none wrong, every threshold kept; 1 answers are wrong,
 missing, faulty or beyond a threshold, worse than the baseline, a claimed bound is broken, a
@@ -65,7 +77,9 @@ Example:
 )";
 
 struct Options {
-  std::string answers, tool, corpora, json, html, baseline;
+  std::string answers, tool, baseline;
+  RowChoice rows;
+  OutputPaths outputs;
   std::string definition = "common-normal";
   std::vector<std::string> names;
   Thresholds thresholds;
@@ -74,70 +88,52 @@ struct Options {
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
 
-[[noreturn]] void refuse(const std::string& file, const std::string& rule) {
-  throw tables::Error({.file = file, .rule = rule});
-}
-
-constexpr std::array<std::pair<std::string_view, Definition>, 4> kDefinitions{
-    {{"common-normal", Definition::common_normal},
-     {"perram-wertheim", Definition::perram_wertheim},
-     {"midpoint-potential", Definition::midpoint_potential},
-     {"centre-line", Definition::centre_line}}};
-
-Definition definition_named(std::string_view name) {
-  return std::ranges::find(kDefinitions, name, &std::pair<std::string_view, Definition>::first)
-      ->second;
-}
-
-void require_readable(const std::string& path) {
-  if (path == "-") return;
-  std::error_code none;
-  const int problem = ::access(path.c_str(), R_OK) != 0           ? errno
-                      : std::filesystem::is_directory(path, none) ? EISDIR
-                                                                  : 0;
-  if (problem != 0) refuse(path, "cannot be read: " + std::generic_category().message(problem));
-}
-
-// The inputs must be those that the truth is about.
-void require_rows(const CorpusTable& inputs, std::size_t rows) {
-  tables::Reader reader(inputs.named());
-  std::size_t found = 0;
-  tables::for_each_row(reader, [&](const tables::RowCursor&) { ++found; });
-  if (found != rows) {
-    refuse(inputs.file,
-           std::to_string(found) + " rows: the truth beside it is of " + std::to_string(rows));
-  }
-}
-
-CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+CorpusGrade graded(const Options& options, const CorpusSource& source, const SetAside& aside,
+                   const std::string& name) {
   const CorpusTable table = source.truth(name);
-  const TruthTable truth =
+  TruthTable truth =
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
-  if (truth.rows.empty()) refuse(table.file, "a corpus must have rows");
+  leave_out(aside.not_claimed, name, truth);
+  aside.expected.mark(name, truth);
+  if (truth.rows.empty()) {
+    throw tables::Error({.file = table.file, .rule = "a corpus must have rows"});
+  }
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
+  const CorpusTable inputs = source.inputs(name);
+  InputLines lines = input_lines(inputs, truth.rows.size());
   if (options.tool.empty()) {
     require_readable(options.answers);
-    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt};
+    return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt,
+            std::move(lines)};
   }
-  // Chosen: ten times the longest answer `tangency contact` can give, and a screen of messages.
-  const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * truth.rows.size();
-  const CorpusTable inputs = source.inputs(name);
-  require_rows(inputs, truth.rows.size());
-  const ToolRun run = run_tool(options.tool, inputs.text, {options.seconds, most_bytes});
+  const ToolRun run = asked(options.tool, inputs, truth.rows.size(), options.seconds);
   return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
-          RunNote{run.sound, run.ending, run.last_words, run.seconds}};
+          RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
 }
 
-std::unique_ptr<tables::OutputFile> opened(const std::string& path) {
-  return path.empty() ? nullptr : std::make_unique<tables::OutputFile>(path);
+std::string allowed(const std::optional<double>& most, const char* unit) {
+  return most ? tables::to_text(*most) + unit : "any";
 }
 
-void write(const std::unique_ptr<tables::OutputFile>& file, const std::string& text) {
-  if (!file) return;
-  file->write(text);
-  file->commit();
+GradeReport begun(const Options& options, const CorpusSource& source) {
+  const Thresholds& limits = options.thresholds;
+  const bool is_tool = !options.tool.empty();
+  GradeReport report{.title = is_tool ? options.tool : options.answers,
+                     .program_version = TANGENCY_VERSION_STRING,
+                     .date = date_of_outputs(),
+                     .facts = {},
+                     .thresholds = limits};
+  report.facts = {{is_tool ? "tool" : "answers", report.title},
+                  {"definition", options.definition},
+                  {"wrong answers allowed", std::to_string(limits.wrong)},
+                  {"largest gap error allowed", allowed(limits.gap_error, " L")},
+                  {"largest normal error allowed", allowed(limits.normal_error, "")},
+                  {"tangency-verify", report.program_version},
+                  {"date", report.date + 'Z'}};
+  for (const auto& fact : facts_of(options.rows, source)) report.facts.push_back(fact);
+  return report;
 }
 
 // The first of them; of the others how many there are.
@@ -167,40 +163,41 @@ std::string differences(const Comparison& beside, const std::string& file) {
   return text;
 }
 
-ExitStatus run(const Options& options) {
-  const CorpusSource source =
-      options.corpora.empty() ? CorpusSource() : CorpusSource(options.corpora);
-  const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
-  // What cannot be written is refused before the first tool is started.
-  const auto json = opened(options.json), html = opened(options.html);
-  tables::OutputFile screen("-");
-  std::vector<CorpusGrade> grades;
-  for (const std::string& name : source.chosen(options.names)) {
-    grades.push_back(graded(options, source, name));
-    screen.write(as_table(grades.back()) + '\n');
+// Expected failures that are none any more.
+std::string mended(const GradeReport& report, const std::string& expected) {
+  std::vector<std::string> rows, lines;
+  for (const CorpusReport& corpus : report.corpora) {
+    for (const std::size_t row : corpus.mended) {
+      rows.push_back(corpus.name + ',' + std::to_string(row));
+    }
   }
-  std::vector<std::string> failed_by = failures(grades, options.thresholds);
-  if (!options.baseline.empty()) {
-    const Comparison beside = compare(grades, baseline, options.slack);
-    screen.write(differences(beside, options.baseline));
-    append_named(failed_by, "worse than the baseline: ", beside.worse);
-  }
-  for (const std::string& line : failed_by) screen.write("FAILED " + line + '\n');
-  const std::string judged = verdict(grades, options.thresholds, failed_by.empty());
-  write(json, as_json(grades));
-  write(html,
-        as_page(grades, options.tool.empty() ? options.answers : options.tool, failed_by, judged));
-  screen.write(judged + '\n');
-  return failed_by.empty() ? passed : failed;
+  append_named(lines, "BETTER than " + expected + " expects, which need not name it: ", rows);
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
 }
 
-std::string check_definition(const std::string& name) {
-  for (const auto& [known, definition] : kDefinitions) {
-    if (name == known) return {};
+ExitStatus run(const Options& options) {
+  const CorpusSource source = source_of(options.rows);
+  const SetAside aside = set_aside(options.rows, source);
+  const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
+  OutputFiles outputs(options.outputs);
+  tables::OutputFile screen("-");
+  GradeReport report = begun(options, source);
+  for (const std::string& name : source.chosen(options.names)) {
+    screen.write(as_table(add(report, graded(options, source, aside, name))) + '\n');
   }
-  return name +
-         " is not a definition; common-normal, perram-wertheim, midpoint-potential and centre-line "
-         "are";
+  std::vector<std::string> further;
+  if (!options.baseline.empty()) {
+    const Comparison beside = compare(report.corpora, baseline, options.slack);
+    screen.write(differences(beside, options.baseline));
+    append_named(further, "worse than the baseline: ", beside.worse);
+  }
+  screen.write(mended(report, options.rows.expected));
+  judge(report, further);
+  outputs.write(report);
+  screen.write(closing_of(report, options.rows.folder));
+  return report.has_passed() ? passed : failed;
 }
 
 std::string check_whole_number(const std::string& text) {
@@ -251,18 +248,8 @@ void add_grade(tables::Program& program) {
       .option("--corpus", options->names,
               "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       .type_name("NAME");
-  command
-      .option("--corpora", options->corpora,
-              "Folder of NAME.csv and NAME.truth.csv (default: those in this program)")
-      .not_empty()
-      .type_name("DIR");
-  command
-      .option("--definition", options->definition,
-              "What gap and normal mean: common-normal (default), perram-wertheim, "
-              "midpoint-potential or centre-line (how far B moves along the line of centres "
-              "until both touch; normals are not graded)")
-      .check(check_definition)
-      .type_name("D");
+  add_row_options(command, options->rows);
+  add_definition_option(command, options->definition);
   Thresholds& limits = options->thresholds;
   const tables::Option max_wrong =
       command
@@ -293,13 +280,8 @@ void add_grade(tables::Program& program) {
               "Share of the baseline's errors by which they may differ (default: 0)")
       .check(number(true))
       .type_name("X");
-  command.option("--json", options->json, "Also write the grade as an array of {name, unit, value}")
-      .not_empty()
-      .type_name("FILE");
-  command.option("--html", options->html, "Also write it as a page with plots")
-      .not_empty()
-      .type_name("FILE");
-  command.footer(kHelp);
+  add_output_options(command, options->outputs);
+  command.footer(help_on_features() + kHelp);
   command.runs([options, max_wrong] {
     require_fitting(*options);
     options->demands_words = max_wrong.given();

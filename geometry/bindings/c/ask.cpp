@@ -118,8 +118,10 @@ Accuracy accuracy_of(const tangency_accuracy* accuracy) {
   const tangency_accuracy given = known(accuracy, "accuracy");
   if (!(given.of_size >= 0.0)) refuse_value("accuracy.of_size", given.of_size, "must be >= 0");
   if (!(given.length >= 0.0)) refuse_value("accuracy.length", given.length, "must be >= 0");
-  if (given.reserved != 0) refuse_value("accuracy.reserved", given.reserved, "must be 0");
-  return {given.of_size, given.length, given.normals != 0};
+  const Accuracy every_pair{given.of_size, given.length, given.normals != 0};
+  if (given.has_cutoff == 0) return every_pair;
+  if (!(given.cutoff >= 0.0)) refuse_value("accuracy.cutoff", given.cutoff, "must be >= 0");
+  return every_pair.up_to(given.cutoff);
 }
 
 GapColumns gap_columns(const tangency_contact_columns& columns, std::size_t count) {

@@ -94,6 +94,14 @@ void put_gap(const Columns& to, std::size_t k, const AnyGap& gap) {
   put(to.status, k, gap.status);
 }
 
+/// The same, tier and the point between the witness points, of the separation of the centres.
+template <class Columns, class AnyGap>
+void put_contact(const Columns& to, std::size_t k, const AnyGap& gap, const Vec3& separation) {
+  put_gap(to, k, gap);
+  put(to.tier, k, gap.tier);
+  put(to.point, k, Vec3(0.5 * (gap.arm_a + (separation + gap.arm_b))));
+}
+
 /// @throws Refused  naming row and component
 void require_finite_rows(const char* argument, const double* rows, std::size_t width,
                          std::size_t count, const char* const* names);
@@ -103,8 +111,6 @@ void require_finite_rows(const char* argument, const double* rows, std::size_t w
 void require_half(std::size_t count, std::size_t things, const char* what);
 
 const tangency_bodies& required(const tangency_bodies* bodies);
-/// @throws Refused  where they are by matrices, which the call does not answer
-const tangency_bodies& by_axes(const tangency_bodies* bodies);
 
 /// The pairs of a call, checked.
 class Pairs {
@@ -121,6 +127,8 @@ class Pairs {
   PairList list() const noexcept { return {list_, separations_}; }
   bool separated() const noexcept { return !separations_.empty(); }
   const Vec3& separation(std::size_t k) const noexcept { return separations_[k]; }
+  /// That, or of the centres of bodies by matrices, rounded.
+  Vec3 separation(const tangency_bodies& bodies, std::size_t k) const noexcept;
 
  private:
   void take(const unsigned* pairs, std::size_t count, std::size_t first_b);

@@ -203,7 +203,6 @@ void tangency_bodies::append_matrices(int form, const Rows& rows, double level) 
 }
 
 void tangency_bodies::set(std::size_t first, const Rows& rows) {
-  if (by_matrices()) refuse("bodies", "must not be by matrices");
   if (rows.count > size()) {
     tangency::c::refuse_value("count", static_cast<double>(rows.count),
                               "must be at most " + to_text(size()) + ", the number of bodies");
@@ -216,6 +215,9 @@ void tangency_bodies::set(std::size_t first, const Rows& rows) {
   require_axes(rows);
   moving_.set_semi_axes(first, rows.column<tangency::VectorColumn>(3));
   moving_.set_poses(first, tangency::c::poses_of(rows));
+  for (std::size_t i = first; by_matrices() && i < first + rows.count; ++i) {
+    matrices_[i] = moving_[i];
+  }
   prepared_.reset();
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,11 @@ struct tangency_bodies {
   const tangency::MovingBodies& moving() const noexcept { return moving_; }
   /// Of bodies by matrices.
   const tangency::MatrixEllipsoid& matrix(std::size_t i) const noexcept { return matrices_[i]; }
+  std::span<const tangency::MatrixEllipsoid> matrices() const noexcept { return matrices_; }
+  /// Is the solid another than that of its semi-axes?
+  bool rounded(std::size_t i) const noexcept {
+    return by_matrices() && matrices_[i].exact() != nullptr;
+  }
   /// Made when it is first asked for. Any number of threads may ask.
   const tangency::c::Prepared& prepared() const;
 

@@ -72,15 +72,7 @@ void contacts_of_matrices(const tangency_bodies& bodies, const Pairs& pairs,
       [](const auto& a, const auto& b, const auto&... separation) {
         return signed_gap(a, b, separation...);
       },
-      [&](std::size_t k, const Gap& gap) {
-        put_gap(to, k, gap);
-        put(to.tier, k, gap.tier);
-        const Vec3 separation = pairs.separated()
-                                    ? pairs.separation(k)
-                                    : Vec3(bodies.matrix(pairs[k].b).ellipsoid().centre() -
-                                           bodies.matrix(pairs[k].a).ellipsoid().centre());
-        put(to.point, k, Vec3(0.5 * (gap.arm_a + (separation + gap.arm_b))));
-      });
+      [&](std::size_t k, const Gap& gap) { put_contact(to, k, gap, pairs.separation(bodies, k)); });
 }
 
 /// Normals that follow_gaps() starts from: 0, or of moderate length.
@@ -98,12 +90,19 @@ void require_normals(const double* normals, std::size_t count) {
   }
 }
 
+/// Of bodies by matrices.
+void require_no_cutoff(const Accuracy& accuracy) {
+  if (accuracy.cutoff < std::numeric_limits<double>::infinity())
+    refuse("accuracy.has_cutoff", "must be 0 for bodies by matrices");
+}
+
 void ask_contacts(const tangency_bodies& bodies, const Pairs& pairs, const double* previous,
                   const tangency_accuracy* accuracy, tangency_contact_columns to, int threads) {
   const Accuracy wanted = accuracy_of(accuracy);
   const std::size_t count = pairs.size();
   if (bodies.by_matrices()) {
     if (previous != nullptr) refuse("previous_normals", "must be NULL for bodies by matrices");
+    require_no_cutoff(wanted);
     if (to.normal_bound || to.arm_a_bound || to.arm_b_bound) {
       refuse("answers",
              "normal_bound, arm_a_bound and arm_b_bound are not known of bodies by "
@@ -247,7 +246,17 @@ int tangency_bounded_gaps(const tangency_bodies* bodies, const unsigned* pairs, 
                           const tangency_bounded_columns* answers, int threads) {
   return guarded([&] {
     const tangency_bounded_columns to = known(answers, "answers");
-    const Pairs list(by_axes(bodies), pairs, count, separations);
+    const Pairs list(required(bodies), pairs, count, separations);
+    const Accuracy wanted = accuracy_of(accuracy);
+    if (bodies->by_matrices()) {
+      require_no_cutoff(wanted);
+      return each_pair<Separations::of_all>(
+          *bodies, list, threads, [](const auto&... pair) { return bounded_gap(pair...); },
+          [&](std::size_t k, const BoundedGap& gap) {
+            put_contact(to, k, gap, list.separation(*bodies, k));
+            put(to.above, k, gap.above);
+          });
+    }
     tangency_contact_columns columns{};
     columns.gap = to.gap;
     columns.gap_error = to.gap_error;
@@ -258,8 +267,7 @@ int tangency_bounded_gaps(const tangency_bodies* bodies, const unsigned* pairs, 
     columns.tier = to.tier;
     columns.point = to.point;
     bounded_gaps(bodies->moving(), list.list(),
-                 {gap_columns(columns, count), numbers(to.above, count)}, accuracy_of(accuracy),
-                 threads);
+                 {gap_columns(columns, count), numbers(to.above, count)}, wanted, threads);
   });
 }
 

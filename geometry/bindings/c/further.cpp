@@ -23,12 +23,6 @@ namespace {
 constexpr std::array<const char*, 3> kNormal{"x", "y", "z"};
 constexpr std::array<const char*, 9> kMotion{"vx", "vy", "vz", "wx", "wy", "wz", "rx", "ry", "rz"};
 
-/// Squares of lengths, angles and speeds below it do not overflow. Chosen.
-constexpr double kMostMotion = 0x1p500;
-/// Of lengths over the shortest semi-axis, since the kernel computes in the bodies' size. Chosen:
-/// of random motions none below 2^1000 ended the process.
-constexpr double kMostOfSize = 0x1p900;
-
 /// What contact_curvature() is for: geometry/curvature.hpp.
 constexpr double kMostAspect = 1e70;
 
@@ -60,7 +54,12 @@ void ask_other_gaps(int definition, const tangency_bodies& bodies, const Pairs& 
     const std::vector<Ellipsoid>& all = bodies.prepared().ellipsoids;
     each(pairs.size(), threads, [&](std::size_t k) {
       const Ellipsoid &a = all[pairs[k].a], &b = all[pairs[k].b];
-      put_gap(to, k, pairs.separated() ? gap_of(a, b, pairs.separation(k)) : gap_of(a, b));
+      OtherGap gap = pairs.separated() ? gap_of(a, b, pairs.separation(k)) : gap_of(a, b);
+      // What the rounding of a matrix to semi-axes does to these gaps is not bounded.
+      if (bodies.rounded(pairs[k].a) || bodies.rounded(pairs[k].b)) {
+        gap.gap_error = std::numeric_limits<double>::infinity();
+      }
+      put_gap(to, k, gap);
     });
   };
   switch (definition) {
@@ -75,33 +74,12 @@ void ask_other_gaps(int definition, const tangency_bodies& bodies, const Pairs& 
   }
 }
 
-double shortest_semi_axis(const tangency_bodies& bodies) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    shortest = std::min(shortest, bodies.moving()[i].smallest_semi_axis());
-  }
-  return shortest;
-}
-
-std::vector<Motion> motions_of(const double* rows, const tangency_bodies& bodies, double horizon) {
-  require_finite_rows("motions", rows, 9, bodies.size(), kMotion.data());
-  const double most_length = std::min(kMostMotion, kMostOfSize * shortest_semi_axis(bodies));
+std::vector<Motion> motions_of(const double* rows, std::size_t count) {
+  require_finite_rows("motions", rows, 9, count, kMotion.data());
   std::vector<Motion> motions;
-  motions.reserve(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  motions.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const Vec3* const row = vectors(rows + 9 * i);
-    const auto require = [&](std::size_t vector, double times, double most, const char* rule) {
-      Eigen::Index largest = 0;
-      row[vector].cwiseAbs().maxCoeff(&largest);
-      if (row[vector].stableNorm() * times <= most) return;
-      refuse_row("motions", i, kMotion[3 * vector + static_cast<std::size_t>(largest)],
-                 row[vector][largest], rule + tables::to_text(most) + " long");
-    };
-    const double times = std::max(1.0, horizon);
-    require(0, times, most_length, "velocity, and that times the horizon, must be at most ");
-    require(1, times, kMostMotion,
-            "angular velocity, and that times the horizon, must be at most ");
-    require(2, 1.0, most_length, "centre less pivot must be at most ");
     motions.push_back({row[0], row[1], row[2]});
   }
   return motions;
@@ -122,6 +100,14 @@ void require_aspects(const std::vector<Ellipsoid>& all, const Pairs& pairs) {
     refuse_row("pairs", k, "longest semi-axis", longest,
                "must be at most 1e70 times the shortest, " + tables::to_text(shortest));
   }
+}
+
+/// A body by a matrix has no semi-axes that its owner would know.
+void leave_out(GapDerivatives& found, int first) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  found.gradient.segment<3>(first).setConstant(kNone);
+  found.hessian.middleRows<3>(first).setConstant(kNone);
+  found.hessian.middleCols<3>(first).setConstant(kNone);
 }
 
 void put_curvature(double* curvature, double* directions, std::size_t k,
@@ -145,7 +131,7 @@ int tangency_other_gaps(const tangency_bodies* bodies, const unsigned* pairs, si
                         const tangency_other_gap_columns* answers, int threads) {
   return guarded([&] {
     const tangency_other_gap_columns to = known(answers, "answers");
-    const Pairs list(by_axes(bodies), pairs, count, separations);
+    const Pairs list(required(bodies), pairs, count, separations);
     ask_other_gaps(definition, *bodies, list, threads, to);
   });
 }
@@ -173,12 +159,13 @@ int tangency_gap_derivatives(const tangency_bodies* bodies, const unsigned* pair
                              const tangency_derivative_columns* answers, int threads) {
   return guarded([&] {
     const tangency_derivative_columns to = known(answers, "answers");
-    const Pairs list(by_axes(bodies), pairs, count, separations);
+    const Pairs list(required(bodies), pairs, count, separations);
     require_unit(normals, count);
     if (statuses == nullptr && count > 0) refuse("statuses", "must not be NULL");
     for (std::size_t k = 0; k < count; ++k) {
       if (statuses[k] != TANGENCY_STATUS_OK && statuses[k] != TANGENCY_STATUS_LOCAL) {
-        refuse_row("statuses", k, "status", statuses[k], "must be a tangency_status");
+        refuse_row("statuses", k, "status", statuses[k],
+                   "must be TANGENCY_STATUS_OK or TANGENCY_STATUS_LOCAL");
       }
     }
     const std::vector<Ellipsoid>& all = bodies->prepared().ellipsoids;
@@ -187,8 +174,10 @@ int tangency_gap_derivatives(const tangency_bodies* bodies, const unsigned* pair
       gap.normal = vectors(normals)[k];
       gap.status = static_cast<GapStatus>(statuses[k]);
       const Ellipsoid &a = all[list[k].a], &b = all[list[k].b];
-      const GapDerivatives found = list.separated() ? gap_derivatives(a, b, list.separation(k), gap)
-                                                    : gap_derivatives(a, b, gap);
+      GapDerivatives found = list.separated() ? gap_derivatives(a, b, list.separation(k), gap)
+                                              : gap_derivatives(a, b, gap);
+      if (bodies->rounded(list[k].a)) leave_out(found, kSemiAxes);
+      if (bodies->rounded(list[k].b)) leave_out(found, kOfBodyB + kSemiAxes);
       put(to.gradient, k, found.gradient);
       put(to.hessian, k, found.hessian);
       put(to.least_radius, k, found.least_radius);
@@ -272,7 +261,7 @@ int tangency_times_of_contact(const tangency_bodies* bodies, const unsigned* pai
     const tangency_time_columns to = known(answers, "answers");
     const Pairs list(required(bodies), pairs, count, separations);
     require_frame(horizon, tolerance);
-    const std::vector<Motion> moving = motions_of(motions, *bodies, horizon);
+    const std::vector<Motion> moving = motions_of(motions, bodies->size());
     if (!bodies->by_matrices()) {
       return times_of_contact(bodies->moving(), moving, list.list(), horizon, tolerance,
                               {.status = values<ContactTimeStatus>(to.status, count),

@@ -37,9 +37,10 @@ Lattice lattice_of(const tangency_neighbour_question& question) {
 }
 
 /// The list; where the kernel refuses edges their numbers are told.
-Neighbours neighbours_of(const MovingBodies& bodies, const NeighbourQuestion& asked) {
+Neighbours neighbours_of(const tangency_bodies& bodies, const NeighbourQuestion& asked) {
   try {
-    return neighbours(bodies, asked);
+    return bodies.by_matrices() ? neighbours(bodies.matrices(), asked)
+                                : neighbours(bodies.moving(), asked);
   } catch (const std::invalid_argument& refused) {
     constexpr std::string_view kEdges = "edges: ";
     const std::string_view text = refused.what();
@@ -98,7 +99,7 @@ int tangency_neighbours_create(tangency_neighbours** neighbours, const tangency_
     *neighbours = nullptr;
     const NeighbourQuestion asked = question_of(question, accuracy, threads);
     auto made = std::make_unique<tangency_neighbours>();
-    if (by_axes(bodies).size() > 0) made->list = neighbours_of(bodies->moving(), asked);
+    if (required(bodies).size() > 0) made->list = neighbours_of(*bodies, asked);
     made->pairs.reserve(2 * made->list.size());
     made->images.reserve(3 * made->list.size());
     for (const NearPair& pair : made->list.pairs) {

@@ -161,9 +161,16 @@ int tangency_balls(const tangency_bodies* bodies, const double* balls, size_t ba
     if (to.normal_bound || to.arm_a_bound || to.arm_b_bound) {
       refuse("answers", "normal_bound, arm_a_bound and arm_b_bound are of tangency_contacts()");
     }
-    const Pairs list(by_axes(bodies).size(), balls_count, "balls", pairs, count);
-    signed_gaps(bodies->moving(), balls_of(balls, balls_count), list.list(), gap_columns(to, count),
-                threads);
+    const Pairs list(required(bodies).size(), balls_count, "balls", pairs, count);
+    const std::vector<Sphere> spheres = balls_of(balls, balls_count);
+    if (!bodies->by_matrices()) {
+      return signed_gaps(bodies->moving(), spheres, list.list(), gap_columns(to, count), threads);
+    }
+    each(count, threads, [&](std::size_t k) {
+      const MatrixEllipsoid& body = bodies->matrix(list[k].a);
+      const Sphere& ball = spheres[list[k].b];
+      put_contact(to, k, signed_gap(body, ball), ball.centre - body.ellipsoid().centre());
+    });
   });
 }
 

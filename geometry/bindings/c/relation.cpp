@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <tangency/geometry/bindings/c/ask.hpp>
+#include <tangency/geometry/bounded_gap.hpp>
 #include <tangency/geometry/overlap_batch.hpp>
 #include <tangency/geometry/relation.hpp>
 
@@ -64,8 +65,15 @@ int tangency_overlaps(const tangency_bodies* bodies, const unsigned* pairs, size
 int tangency_overlaps_by_filter(const tangency_bodies* bodies, const unsigned* pairs, size_t count,
                                 const double* separations, unsigned char* answers, int threads) {
   return guarded([&] {
-    const Pairs list(by_axes(bodies), pairs, count, separations);
+    const Pairs list(required(bodies), pairs, count, separations);
     require_answers(answers, count);
+    if (bodies->by_matrices()) {
+      return each_pair<Separations::of_all>(
+          *bodies, list, threads, [](const auto&... pair) { return bounded_gap(pair...); },
+          [&](std::size_t k, const BoundedGap& found) {
+            answers[k] = found.gap > found.gap_error ? 0 : found.gap < -found.above ? 1 : 2;
+          });
+    }
     std::vector<std::optional<bool>> found(count);
     overlaps_by_filter(bodies->prepared().array, list.list(), found, threads);
     for (std::size_t k = 0; k < count; ++k) {

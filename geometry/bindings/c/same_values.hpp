@@ -34,6 +34,7 @@ static_assert(static_cast<int>(Tier::filter) == TANGENCY_TIER_FILTER);
 static_assert(static_cast<int>(Tier::exact) == TANGENCY_TIER_EXACT);
 static_assert(static_cast<int>(GapStatus::ok) == TANGENCY_STATUS_OK);
 static_assert(static_cast<int>(GapStatus::local) == TANGENCY_STATUS_LOCAL);
+static_assert(static_cast<int>(GapStatus::beyond) == TANGENCY_STATUS_BEYOND);
 static_assert(static_cast<int>(GapTier::fast) == TANGENCY_GAP_TIER_FAST);
 static_assert(static_cast<int>(GapTier::safeguarded) == TANGENCY_GAP_TIER_SAFEGUARDED);
 static_assert(static_cast<int>(GapTier::factored) == TANGENCY_GAP_TIER_FACTORED);
@@ -113,7 +114,7 @@ struct EnumerationName {
   const char* name;
 };
 
-inline constexpr std::array<EnumerationName, 82> kNames{{
+inline constexpr std::array<EnumerationName, 83> kNames{{
     {"code", 0, "ok"},
     {"code", 1, "bad_row"},
     {"code", 2, "bad_argument"},
@@ -145,6 +146,7 @@ inline constexpr std::array<EnumerationName, 82> kNames{{
     {"tier", 1, "exact"},
     {"status", 0, "ok"},
     {"status", 1, "local"},
+    {"status", 2, "beyond"},
     {"gap_tier", 0, "fast"},
     {"gap_tier", 1, "safeguarded"},
     {"gap_tier", 2, "factored"},

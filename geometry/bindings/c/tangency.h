@@ -137,7 +137,9 @@ enum tangency_status {
   /** the global answer, proven */
   TANGENCY_STATUS_OK = 0,
   /** a stationary answer; that none is better elsewhere is not proven */
-  TANGENCY_STATUS_LOCAL = 1
+  TANGENCY_STATUS_LOCAL = 1,
+  /** above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0 */
+  TANGENCY_STATUS_BEYOND = 2
 };
 
 /** Which method gave the answer, the cheapest first. */
@@ -268,8 +270,10 @@ typedef struct tangency_accuracy {
   double length;
   /** not 0: normals and points to rounding too */
   int normals;
-  /** 0 */
-  int reserved;
+  /** not 0: no answer is wanted of pairs whose gap is above cutoff */
+  int has_cutoff;
+  /** >= 0; not read where has_cutoff is 0 (unit: length) */
+  double cutoff;
 } tangency_accuracy;
 
 /** Answers of tangency_contacts(). */
@@ -722,7 +726,7 @@ TANGENCY_API int tangency_bodies_append(tangency_bodies* bodies, int form, const
     number, size_t count, ptrdiff_t stride, double level);
 
 /**
- * Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.
+ * Other numbers, by axes, for the bodies from `first` on, as of bodies that move.
  * @param bodies  as they were made
  * @param first  from 0
  * @param rows  the numbers of the first row, side by side
@@ -810,7 +814,8 @@ TANGENCY_API int tangency_overlaps(const tangency_bodies* bodies, const unsigned
     size_t count, const double* separations, unsigned char* answers, int threads);
 
 /**
- * The same in bounded time: 2 where only integers would know.
+ * The same in bounded time: 2 where only integers would know. Of bodies by matrices also where
+ * their rounding to semi-axes leaves it open.
  * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
@@ -839,7 +844,9 @@ TANGENCY_API int tangency_relations(const tangency_bodies* bodies, const unsigne
     threads);
 
 /**
- * The gap by another definition, to tell a difference of definition from an error.
+ * The gap by another definition, to tell a difference of definition from an error. Where a body
+ * is by a matrix, gap_error is infinite: how far its rounding to semi-axes moves these gaps is
+ * not bounded.
  * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
@@ -870,7 +877,7 @@ TANGENCY_API int tangency_perram_wertheim_factors(const tangency_bodies* bodies,
     int threads);
 
 /**
- * First and second derivatives of the gap.
+ * First and second derivatives of the gap. Of a body by a matrix those by its semi-axes are NaN.
  * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)
@@ -941,8 +948,7 @@ TANGENCY_API int tangency_containments(const tangency_bodies* bodies, const unsi
  * @param separations  c_B - c_A in place of that of the centres, as for periodic images; NULL: of
  * the centres (3 a row, unit: length)
  * @param motions  of each body: velocity of the pivot, angular velocity in space (rad per time),
- * centre less pivot. Each of them, and what the first two cover within the horizon, is at most
- * 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a row)
+ * centre less pivot; finite (9 a row)
  * @param horizon  finite, >= 0 (unit: time)
  * @param tolerance  > 0 (unit: time)
  * @param answers  each column count rows, or NULL: not asked for
@@ -984,7 +990,8 @@ TANGENCY_API int tangency_points(const tangency_bodies* bodies, const double* po
     int threads);
 
 /**
- * Contacts of bodies (A) and spheres (B).
+ * Contacts of bodies (A) and spheres (B). Of bodies by matrices the sign is known where the gap
+ * is beyond gap_error.
  * @param bodies  as they were made
  * @param balls  centre, and radius >= 0 (4 a row, unit: length)
  * @param balls_count  how many balls

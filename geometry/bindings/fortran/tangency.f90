@@ -83,6 +83,8 @@ module tangency
   integer(c_int), parameter :: TANGENCY_STATUS_OK = 0
   ! a stationary answer; that none is better elsewhere is not proven
   integer(c_int), parameter :: TANGENCY_STATUS_LOCAL = 1
+  ! above accuracy.cutoff: gap is a lower bound, gap_error infinite, the rest 0
+  integer(c_int), parameter :: TANGENCY_STATUS_BEYOND = 2
 
   ! Which method gave the answer, the cheapest first.
   integer(c_int), parameter :: TANGENCY_GAP_TIER_FAST = 0
@@ -182,15 +184,17 @@ module tangency
   ! How good a gap has to be. Sign, status and gap_error are proven at any; 0 everywhere, and
   ! NULL, is the gap to rounding and its normal to some 1e-8 rad.
   type, bind(c) :: tangency_accuracy
-    integer(c_size_t) :: size = 32_c_size_t
+    integer(c_size_t) :: size = 40_c_size_t
     ! tolerance in parts of the size of the pair, >= 0
     real(c_double) :: of_size = 0.0_c_double
     ! tolerance, >= 0 (unit: length)
     real(c_double) :: length = 0.0_c_double
     ! not 0: normals and points to rounding too
     integer(c_int) :: normals = 0_c_int
-    ! 0
-    integer(c_int) :: reserved = 0_c_int
+    ! not 0: no answer is wanted of pairs whose gap is above cutoff
+    integer(c_int) :: has_cutoff = 0_c_int
+    ! >= 0; not read where has_cutoff is 0 (unit: length)
+    real(c_double) :: cutoff = 0.0_c_double
   end type tangency_accuracy
 
   ! Answers of tangency_contacts().
@@ -638,7 +642,7 @@ module tangency
       integer(c_int) :: code
     end function tangency_bodies_append
 
-    ! Other numbers for the bodies from `first` on, as of bodies that move. Only by axes.
+    ! Other numbers, by axes, for the bodies from `first` on, as of bodies that move.
     !   bodies: as they were made
     !   first: from 0
     !   rows: the numbers of the first row, side by side
@@ -769,7 +773,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_overlaps
 
-    ! The same in bounded time: 2 where only integers would know.
+    ! The same in bounded time: 2 where only integers would know. Of bodies by matrices also
+    ! where their rounding to semi-axes leaves it open.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -812,7 +817,9 @@ module tangency
       integer(c_int) :: code
     end function tangency_relations
 
-    ! The gap by another definition, to tell a difference of definition from an error.
+    ! The gap by another definition, to tell a difference of definition from an error. Where a
+    ! body is by a matrix, gap_error is infinite: how far its rounding to semi-axes moves these
+    ! gaps is not bounded.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -858,7 +865,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_perram_wertheim_factors
 
-    ! First and second derivatives of the gap.
+    ! First and second derivatives of the gap. Of a body by a matrix those by its semi-axes are
+    ! NaN.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)
@@ -960,9 +968,7 @@ module tangency
     !   separations: c_B - c_A in place of that of the centres, as for periodic images; NULL: of
     !   the centres (3 a row, unit: length)
     !   motions: of each body: velocity of the pivot, angular velocity in space (rad per time),
-    !   centre less pivot. Each of them, and what the first two cover within the horizon, is at
-    !   most 2^500 long, and lengths at most 2^900 of the shortest semi-axis of all bodies (9 a
-    !   row)
+    !   centre less pivot; finite (9 a row)
     !   horizon: finite, >= 0 (unit: time)
     !   tolerance: > 0 (unit: time)
     !   answers: each column count rows, or NULL: not asked for
@@ -1031,7 +1037,8 @@ module tangency
       integer(c_int) :: code
     end function tangency_points
 
-    ! Contacts of bodies (A) and spheres (B).
+    ! Contacts of bodies (A) and spheres (B). Of bodies by matrices the sign is known where the
+    ! gap is beyond gap_error.
     !   bodies: as they were made
     !   balls: centre, and radius >= 0 (4 a row, unit: length)
     !   balls_count: how many balls

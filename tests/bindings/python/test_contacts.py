@@ -27,6 +27,16 @@ class FormsOfInput(unittest.TestCase):
         self.a, self.b = drawn(300, 1), drawn(300, 2)
         self.expected = tangency.contacts(self.a, self.b)
 
+    def test_pairs_beyond_a_cutoff_have_a_lower_bound_and_others_do_not_notice(self):
+        limited = tangency.contacts(self.a, self.b, up_to=0.1)
+        beyond = limited.status == tangency.Status.beyond
+        self.assertTrue(beyond.any() and not beyond.all())
+        self.assertTrue((limited.gap[beyond] > 0.1).all())
+        self.assertTrue((limited.gap[beyond] <= (self.expected.gap + self.expected.gap_error)[beyond]).all())
+        self.assertTrue(np.isinf(limited.gap_error[beyond]).all() and not limited.normal[beyond].any())
+        for (_, one), (_, other) in zip(limited, self.expected, strict=True):
+            np.testing.assert_array_equal(one[~beyond], other[~beyond])
+
     def check(self, a, b, **options):
         self.assertTrue(same(tangency.contacts(a, b, **options), self.expected))
 
@@ -267,6 +277,7 @@ class Errors(Refusals):
         self.refused(f"a: shape (1,): must be (10,), the numbers {names}", None, tangency.contact, [1.0], rows[0])
         self.refused("accuracy = 'best': must be standard, certified, fast, or a length", None, tangency.contacts,
                      rows, rows, accuracy="best")
+        self.refused("accuracy.cutoff = -1: must be >= 0", None, tangency.contacts, rows, rows, up_to=-1.0)
         self.refused("separations: row 2: z = nan: must be finite", 2, tangency.contacts, rows, rows,
                      separations=[[1, 1, 1], [1, 1, 1], [1, 1, np.nan], [1, 1, 1]])
         broken = np.zeros(2, [(name, "f8") for name in NAMES if name != "r3"])

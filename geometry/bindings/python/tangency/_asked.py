@@ -25,9 +25,9 @@ ON_DEMAND = {"normal_bound", "arm_a_bound", "arm_b_bound"}
 ACCURACIES = {"standard": (0.0, 0.0, False), "certified": (0.0, 0.0, True), "fast": (2.0**-20, 0.0, False)}
 
 
-def accuracy_pointer(accuracy: str | float) -> tuple[int | None, Any]:
+def accuracy_pointer(accuracy: str | float, up_to: float | None = None) -> tuple[int | None, Any]:
     """Address of the C struct, or None, and what has to live as long as it is used."""
-    if accuracy == "standard":
+    if accuracy == "standard" and up_to is None:
         return None, None
     if isinstance(accuracy, str) and accuracy in ACCURACIES:
         of_size, length, normals = ACCURACIES[accuracy]
@@ -36,7 +36,9 @@ def accuracy_pointer(accuracy: str | float) -> tuple[int | None, Any]:
             of_size, length, normals = 0.0, real(accuracy, "accuracy"), False
         except TangencyError:
             raise TangencyError(f"accuracy = {accuracy!r}: must be {', '.join(ACCURACIES)}, or a length") from None
-    struct = AccuracyStruct(ctypes.sizeof(AccuracyStruct), of_size, length, int(normals))
+    cutoff = 0.0 if up_to is None else real(up_to, "up_to")
+    struct = AccuracyStruct(ctypes.sizeof(AccuracyStruct), of_size, length, int(normals), int(up_to is not None),
+                            cutoff)
     return ctypes.addressof(struct), struct
 
 

@@ -22,7 +22,8 @@ from tangency._table import (BoundedGaps, CommonVolumes, Containments, Contacts,
 
 def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
              previous_normals: ArrayLike | None = None, accuracy: str | float = "standard",
-             columns: Iterable[str] | None = None, threads: int = 1, out: Contacts | None = None) -> Contacts:
+             up_to: float | None = None, columns: Iterable[str] | None = None, threads: int = 1,
+             out: Contacts | None = None) -> Contacts:
     """Signed gap, normal and witness points of pairs of ellipsoids.
 
     Parameters
@@ -41,6 +42,9 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     accuracy : {"standard", "certified", "fast"} or float
         Standard: gaps to rounding. Certified: normals and points too. Fast: gaps to 2^-20 of the size. A number: to
         that length. Sign, status and gap_error are proven at any.
+    up_to : float, optional
+        No answer is wanted of pairs whose gap is above this length, at least 0. They cost little: their status is
+        ``beyond``, gap a lower bound of the true one, gap_error infinite and the rest 0. Other pairs do not notice.
     columns : iterable of str, optional
         Which of `Contacts` are wanted; by default all but the bounds, which take longer.
     threads : int
@@ -71,7 +75,7 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     array([1.])
     """
     columns = None if columns is None else tuple(columns)  # read more than once
-    fast = _contacts_of_rows(a, b, accuracy, columns, threads, out) if (
+    fast = _contacts_of_rows(a, b, accuracy_pointer(accuracy, up_to), columns, threads, out) if (
         pairs is None and separations is None and previous_normals is None and b is not None
         and not isinstance(a, Bodies)) else None
     if fast is not None:
@@ -79,12 +83,12 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     asked = Asked(a, b, pairs, separations)
     answers = columns_for(Contacts, asked.count, columns, out)
     previous = None if previous_normals is None else float_rows(previous_normals, 3, asked.count, "previous_normals")
-    address, _kept = accuracy_pointer(accuracy)
+    address, _kept = accuracy_pointer(accuracy, up_to)
     return ask("contacts", *asked.arguments(), data_of(previous), address, answers=answers, threads=threads)
 
 
-def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: tuple[str, ...] | None, threads: int,
-                      out: Contacts | None) -> Contacts | None:
+def _contacts_of_rows(a: Any, b: Any, accuracy: tuple[int | None, Any], columns: tuple[str, ...] | None,
+                      threads: int, out: Contacts | None) -> Contacts | None:
     """Of rows of float64, read where they are; None where they are not such."""
     if ON_DEMAND.intersection(columns or ()) or type(out) is Contacts and ON_DEMAND.intersection(vars(out)):
         return None
@@ -95,7 +99,7 @@ def _contacts_of_rows(a: Any, b: Any, accuracy: str | float, columns: tuple[str,
     if len(rows_a) not in (1, count) or len(rows_b) not in (1, count):
         raise TangencyError(f"b: {len(rows_b)} rows: must be {len(rows_a)}, as many as of a")
     answers = columns_for(Contacts, count, columns, out)
-    address, _kept = accuracy_pointer(accuracy)
+    address, _kept = accuracy
     return ask("contacts_of_rows", rows_a.ctypes.data, rows_a.strides[0] if len(rows_a) > 1 else 0,
                rows_b.ctypes.data, rows_b.strides[0] if len(rows_b) > 1 else 0, count, address,
                answers=answers, threads=threads)
@@ -108,13 +112,13 @@ def _pair_question(kind: type[Answer], name: str, asked: Asked, columns: Iterabl
 
 
 def bounded_gaps(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separations: ArrayLike | None = None,
-                 accuracy: str | float = "standard", columns: Iterable[str] | None = None,
-                 threads: int = 1) -> BoundedGaps:
+                 accuracy: str | float = "standard", up_to: float | None = None,
+                 columns: Iterable[str] | None = None, threads: int = 1) -> BoundedGaps:
     """Gaps at a bounded cost, without a search: the true gap is in [gap - gap_error, gap + above].
 
     Parameters are those of `contacts`.
     """
-    address, _kept = accuracy_pointer(accuracy)
+    address, _kept = accuracy_pointer(accuracy, up_to)
     return _pair_question(BoundedGaps, "bounded_gaps", Asked(a, b, pairs, separations), columns, threads, address)
 
 

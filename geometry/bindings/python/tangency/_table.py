@@ -84,6 +84,7 @@ class Status(IntEnum):
 
     ok = 0
     local = 1
+    beyond = 2
 
 
 class GapTier(IntEnum):
@@ -193,7 +194,8 @@ class AccuracyStruct(ctypes.Structure):
         ("of_size", c_double),
         ("length", c_double),
         ("normals", c_int),
-        ("reserved", c_int),
+        ("has_cutoff", c_int),
+        ("cutoff", c_double),
     ]
 
 

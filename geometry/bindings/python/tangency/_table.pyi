@@ -56,6 +56,7 @@ class Tier(IntEnum):
 class Status(IntEnum):
     ok = 0
     local = 1
+    beyond = 2
 
 class GapTier(IntEnum):
     fast = 0
@@ -133,7 +134,8 @@ class AccuracyStruct(ctypes.Structure):
     of_size: float
     length: float
     normals: int
-    reserved: int
+    has_cutoff: int
+    cutoff: float
 
 class ContactColumnsStruct(ctypes.Structure):
     size: int

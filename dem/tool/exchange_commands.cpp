@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include <tangency/dem/tool/exchange_commands.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/exchange_sample.hpp>
+#include <tangency/dem/tool/export_text.hpp>
+#include <tangency/dem/tool/gsd_file.hpp>
+#include <tangency/dem/tool/import_scene.hpp>
+#include <tangency/dem/tool/import_text.hpp>
+#include <tangency/dem/tool/run.hpp>
+#include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/output_file.hpp>
+
+namespace tangency::inline v0::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kFormats{"lammps-data", "lammps-dump", "gsd", "xyz"};
+
+constexpr const char* kExportHelp = R"(
+STATE is a final.state, checkpoint.state or one of states/ of a run in space. Bodies stand in the
+order of the scene; contacts are not in these files (tangency-dem contacts). Beware of sizes and
+quaternions, which no two formats give alike:
+  lammps-data  atom_style ellipsoid: DIAMETERS, quaternion W X Y Z, density, and angular momentum in
+               place of angular velocity; ids and types from 1. It reads back to the same double but
+               for angular velocities, to rounding
+  lammps-dump  dump of style custom, also for OVITO: DIAMETERS as shapex shapey shapez, quaternion
+               W X Y Z as quatw quati quatj quatk, angular velocity as omegax omegay omegaz, mass;
+               it reads back to the same double, and density to rounding
+  gsd          HOOMD's schema 1.4: RADII a b c in particles/type_shapes, quaternion W X Y Z, numbers
+               of 32 bits: it reads back to 7 digits. Each shape of a type is a type of its own; the
+               origin is the centre of the box
+  xyz          extended XYZ, for OVITO and ASE: RADII as aspherical_shape, quaternion X Y Z W as
+               orientation, angular_velocity, mass; as lammps-dump reads back
+LAMMPS and HOOMD have cells with the first edge along x and the second in the plane of x and y. A
+cell that shear has tilted otherwise is turned into that, with all vectors: it then does not read
+back to the same double, and LAMMPS may ask for `box tilt large`.
+
+Exit status:
+  0    done
+  2    STATE is no state of this program's version, or one in the plane; or FILE cannot be written
+)";
+
+constexpr const char* kImportHelp = R"(
+Reads a sample of another program and writes a table of its bodies, from which a scene places them.
+The format is told by FILE's first bytes, else by --format. Beware of sizes and quaternions:
+  lammps-data  atom_style ellipsoid (DIAMETERS, quaternion W X Y Z) or sphere (diameters). The cell
+               counts as periodic
+  lammps-dump  columns id; xu yu zu, x y z, xsu ysu zsu or xs ys zs; shapex shapey shapez (DIAMETERS),
+               diameter or radius; and if so wanted type, vx vy vz, omegax omegay omegaz, quatw quati
+               quatj quatk (W X Y Z), mass. Boundaries that are not periodic become walls
+  gsd          RADII of type_shapes Ellipsoid, diameters of Sphere; quaternion W X Y Z
+  xyz          extended XYZ: pos; aspherical_shape (RADII) or radius; and if so wanted species or
+               type, orientation (X Y Z W), velo, angular_velocity, mass; pbc F becomes walls
+Without a mass the density is 1000. Centres count from the cell's corner. Columns of the table:
+  type        name of the kind of body: each type, semi-axes and density is a kind
+  x y z       centre;  qw qx qy qz  quaternion, body to space, of the length it had
+  vx vy vz wx wy wz
+              velocity and angular velocity
+  r1 r2 r3    semi-axes in descending order: body axes are turned where they were not
+  density     mass over volume
+--scene writes the beginning of a scene beside it: [cell], a [particles.NAME] a kind, and the stage
+that places the table. Add [contact] and further stages, and run it:
+  tangency-dem import grains.data --out grains.csv --scene grains.toml
+  cat loading.toml >> grains.toml && tangency-dem run grains.toml
+
+Exit status:
+  0    done
+  2    FILE is refused, in one line that says where, what and what is allowed; or a file cannot be
+       written
+)";
+
+std::string exported(const Sample& sample, const std::string& format) {
+  if (format == "xyz") return extended_xyz(sample);
+  const Sample turned = with_triangular_cell(sample);
+  if (format == "lammps-data") return lammps_data(turned);
+  return format == "gsd" ? gsd_file(turned) : lammps_dump(turned);
+}
+
+std::string format_of(std::string_view text) {
+  if (is_gsd(text)) return "gsd";
+  if (text.substr(0, 5) == "ITEM:") return "lammps-dump";
+  const std::size_t first = text.find('\n');
+  const std::string_view second =
+      first == text.npos ? "" : text.substr(first + 1, text.find('\n', first + 1) - first - 1);
+  return second.find("Lattice=") != second.npos ? "xyz" : "lammps-data";
+}
+
+Sample imported(const std::string& file, const std::string& format, std::optional<int> frame) {
+  const std::string text = bytes_of_file(file);
+  const std::string kind = format.empty() ? format_of(text) : format;
+  if (frame && kind == "lammps-data")
+    throw tables::UsageError("--frame: a data file of LAMMPS has but one");
+  if (kind == "gsd") return read_gsd(file, text, frame);
+  if (kind == "lammps-dump") return read_lammps_dump(file, text, frame);
+  return kind == "xyz" ? read_extended_xyz(file, text, frame) : read_lammps_data(file, text);
+}
+
+void write(const std::string& file, const std::string& text) {
+  tables::OutputFile out(file);
+  out.write(text);
+  out.commit();
+}
+
+struct ImportWords {
+  std::string file, format, out, scene;
+  int frame = 0;
+};
+
+int import_file(const ImportWords& words, bool has_frame) {
+  if (!words.scene.empty() && words.out.empty())
+    throw tables::UsageError("--scene needs --out, the table that the scene names");
+  const Sample sample = with_descending_axes(imported(
+      words.file, words.format, has_frame ? std::optional<int>(words.frame) : std::nullopt));
+  const BodyKinds kinds = kinds_of(sample);
+  if (words.scene.empty()) {
+    write(words.out.empty() ? "-" : words.out, body_table(sample, kinds));
+    return success;
+  }
+  const fs::path folder = fs::absolute(words.scene).parent_path();
+  const std::string table = fs::absolute(words.out).lexically_relative(folder).string();
+  const std::string scene = scene_of(sample, kinds, words.file, table);
+  write(words.out, body_table(sample, kinds));
+  write(words.scene, scene);
+  return success;
+}
+
+}  // namespace
+
+void add_export(tables::Program& program) {
+  struct Words {
+    std::string state, format, out;
+  };
+  const auto words = std::make_shared<Words>();
+  tables::Command& command =
+      program.subcommand("export", "A state's bodies as a file of another program");
+  command.option("STATE", words->state, "State of a run").required();
+  command.option("--format", words->format, "Which").required().one_of(kFormats);
+  command.option("--out", words->out, "File to write [standard output]")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(kExportHelp);
+  command.runs([words] {
+    write(words->out.empty() ? "-" : words->out,
+          exported(sample_of(load_state(words->state)), words->format));
+    return success;
+  });
+}
+
+void add_import(tables::Program& program) {
+  const auto words = std::make_shared<ImportWords>();
+  tables::Command& command =
+      program.subcommand("import", "Bodies of another program's file as a table for scenes");
+  command.option("FILE", words->file, "File of another program").required();
+  command.option("--format", words->format, "Which [by the file's first bytes]").one_of(kFormats);
+  const tables::Option frame =
+      command.option("--frame", words->frame, "Frame, from 0 [the last one]")
+          .between(0, 1'000'000'000);
+  command.option("--out", words->out, "File for the table [standard output]")
+      .type_name("FILE")
+      .not_empty();
+  command.option("--scene", words->scene, "Scene to write, which places the table's bodies")
+      .type_name("FILE")
+      .not_empty();
+  command.footer(kImportHelp);
+  command.runs([words, frame] { return import_file(*words, frame.given()); });
+}
+
+}  // namespace tangency::inline v0::dem
