@@ -83,6 +83,7 @@ std::string title_of(std::string_view section) {
   if (section == "particles") return "`[particles.NAME]`: a type of particles";
   if (section == "contact") return "`[contact]` for all pairs, `[contact.NAME-NAME]` for one";
   if (section == "body") return "`[[body]]`: a body of an explicit arrangement";
+  if (section == "wall") return "`[[wall]]`: a plane wall";
   return "`[" + std::string(section) + "]`";
 }
 
