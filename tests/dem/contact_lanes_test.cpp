@@ -46,7 +46,7 @@ dem::ContactLaw draw_law(Draw& draw) {
 }
 
 /// Contacts before a step in any state, and after it: begun, ended, turned a little, a lot, round.
-ContactArrays draw_block(Draw& draw) {
+ContactArrays draw_contacts(Draw& draw) {
   ContactArrays block;
   block.dt = 0.02;
   for (int k = 0; k < 9; ++k) block.rate.data()[k] = draw.uniform(-0.1, 0.1);
@@ -220,7 +220,7 @@ class ContactLanes : public ::testing::TestWithParam<Law> {
  protected:
   /// Of the law that is asked about.
   static ContactArrays draw_block(Draw& draw) {
-    ContactArrays block = testing::draw_block(draw);
+    ContactArrays block = draw_contacts(draw);
     block.damped = GetParam().damped;
     return block;
   }

@@ -70,10 +70,11 @@ TEST_F(Exchange, BringsBackTheSameDoublesThroughTextOfLammpsAndXyz) {
       const bool by_momentum = format == "lammps-data";
       for (const char* name : kSpeeds) {
         const std::string &is = after[k].at(name), &was = before[k].at(name);
-        if (by_momentum && name[0] == 'w')
+        if (by_momentum && name[0] == 'w') {
           EXPECT_NEAR(std::stod(is), std::stod(was), 1e-14 * largest) << name;
-        else
+        } else {
           EXPECT_EQ(is, was) << format;
+        }
       }
       EXPECT_NEAR(std::stod(after[k].at("density")), before[k].at("type") == "0" ? 1000 : 2650,
                   1e-11);

@@ -32,10 +32,12 @@ TEST(Schema, AsJsonHasEachKeyOfTheTableThatChecks) {
     EXPECT_EQ(seen.at("default").is_null(), !key.has_default()) << key.name;
     EXPECT_EQ(seen.at("default_rule").is_null(), key.required() || key.has_default());
     // The default of a number is within its own bounds.
-    if (const auto& value = seen.at("default"); value.is_number())
+    if (const auto& value = seen.at("default"); value.is_number()) {
       EXPECT_TRUE(key.range.holds(value.get<double>())) << key.name;
-    if (std::isfinite(key.range.high) && !seen.at("maximum").is_null())
+    }
+    if (std::isfinite(key.range.high) && !seen.at("maximum").is_null()) {
       EXPECT_EQ(seen.at("maximum").get<double>(), key.range.high);
+    }
   }
 }
 

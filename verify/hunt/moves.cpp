@@ -206,7 +206,14 @@ double short_number(double value, int digits) {
 }
 
 bool is_fair(const EllipsoidPair& pair) {
+  const auto [least_a, most_a] = std::ranges::minmax(pair.a.semi_axes);
+  const auto [least_b, most_b] = std::ranges::minmax(pair.b.semi_axes);
+  const double most = std::max(most_a, most_b);
+  if (!(most <= 1e12 * std::min(least_a, least_b))) return false;
   for (const RawEllipsoid* e : {&pair.a, &pair.b}) {
+    for (const double c : e->centre) {
+      if (!(std::abs(c) <= 1e16 * most)) return false;
+    }
     const auto positive = [](double v) { return v > 0; };
     const auto zero = [](double v) { return v == 0; };
     if (!std::ranges::all_of(e->centre, within) || !std::ranges::all_of(e->semi_axes, within) ||

@@ -39,9 +39,9 @@ void place_at_gap(EllipsoidPair& pair, const Nearness& near, double gap);
 /// Of `digits` significant decimal digits.
 double short_number(double value, int digits);
 
-/// Both are ellipsoids: finite, semi-axes > 0, orientations other than 0. And no square of a number
-/// leaves the doubles (1e-150 to 1e150 in size, or 0): beyond that a pair tells of the range of
-/// doubles alone.
+/// Both are ellipsoids (finite, semi-axes > 0, orientations other than 0) that a code may be asked
+/// about: every number is 0 or of 1e-150 to 1e150, so that its square is a double; no semi-axis of
+/// the two is 1e12 times another, and no centre 1e16 times the longest from the origin.
 bool is_fair(const EllipsoidPair& pair);
 
 /// Features of a pair that a fault may come from; a set of them is the sum.

@@ -177,6 +177,14 @@ std::string mended(const GradeReport& report, const std::string& expected) {
   return text;
 }
 
+// Where the rows can be read again: fresh ones have first to be written.
+std::string folder_of_rows(const RowChoice& rows) {
+  if (rows.seed == 0) return rows.folder;
+  return "DIR, which tangency-verify generate CORPUS --out DIR --seed " +
+         std::to_string(rows.seed) + (rows.rows > 0 ? " --rows " + std::to_string(rows.rows) : "") +
+         " writes";
+}
+
 ExitStatus run(const Options& options) {
   const CorpusSource source = source_of(options.rows);
   const SetAside aside = set_aside(options.rows, source);
@@ -196,7 +204,7 @@ ExitStatus run(const Options& options) {
   screen.write(mended(report, options.rows.expected));
   judge(report, further);
   outputs.write(report);
-  screen.write(closing_of(report, options.rows.folder));
+  screen.write(closing_of(report, folder_of_rows(options.rows)));
   return report.has_passed() ? passed : failed;
 }
 

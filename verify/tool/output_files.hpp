@@ -39,8 +39,8 @@ class OutputFiles {
 std::string date_of_outputs();
 
 /// The lines at the end: what wrong answers have in common, why it fails, how to look at a row,
-/// annotations where GITHUB_ACTIONS is true, and last the verdict. `corpora` is the folder that was
-/// asked for, or nothing.
+/// annotations where GITHUB_ACTIONS is true, and last the verdict. `corpora` is what `show` needs
+/// behind --corpora, or nothing.
 std::string closing_of(const GradeReport& report, const std::string& corpora);
 
 }  // namespace tangency::inline v0::verify

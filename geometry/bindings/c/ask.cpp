@@ -73,13 +73,6 @@ const tangency_bodies& required(const tangency_bodies* bodies) {
   return *bodies;
 }
 
-const tangency_bodies& by_axes(const tangency_bodies* bodies) {
-  if (required(bodies).by_matrices()) {
-    refuse("bodies", "must be by axes for this question, not by matrices");
-  }
-  return *bodies;
-}
-
 Pairs::Pairs(const tangency_bodies& bodies, const unsigned* pairs, std::size_t count,
              const double* separations) {
   if (pairs == nullptr) require_half(count, bodies.size(), "bodies");
@@ -101,6 +94,12 @@ Pairs::Pairs(std::size_t bodies, std::size_t others, const char* what, const uns
   }
   take(pairs, count, 0);
   require_indices(list_, {bodies, "bodies"}, {others, what});
+}
+
+Vec3 Pairs::separation(const tangency_bodies& bodies, std::size_t k) const noexcept {
+  if (separated()) return separations_[k];
+  const auto [a, b] = list_[k];
+  return bodies.matrix(b).ellipsoid().centre() - bodies.matrix(a).ellipsoid().centre();
 }
 
 void Pairs::take(const unsigned* pairs, std::size_t count, std::size_t first_b) {
