@@ -54,8 +54,8 @@ std::span<const Feature> features() { return kFeatures; }
 
 bool has_feature(std::string_view feature, std::string_view corpus, const TruthTable& truth,
                  const TruthRow& row) {
-  const double length = truth.kind == CorpusKind::floats ? 0x1p24 * row.size : row.size;
-  const double gap = row.gap ? row.gap->high / length : 0;
+  const double unit = truth.kind == CorpusKind::floats ? std::ldexp(row.size, 24) : row.size;
+  const double gap = row.gap ? row.gap->high / unit : 0;
   if (feature == "touching") return touches(row);
   if (feature == "near") return gap != 0 && std::abs(gap) <= kNear;
   if (feature == "nested") return is_nested(row.relation);

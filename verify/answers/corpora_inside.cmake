@@ -3,6 +3,7 @@
 # that holds the tables of golden corpora, byte for byte, and no path of this machine:
 # verify/answers/corpus_source.hpp.
 cmake_minimum_required(VERSION 3.25)
+file(STRINGS "${FOLDER}/VERSION" version LIMIT_COUNT 1)
 set(texts "")
 set(rows "")
 set(number 0)
@@ -34,6 +35,8 @@ ${rows}};
 }  // namespace
 
 std::span<const BuiltInCorpus> built_in_corpora() { return kCorpora; }
+
+std::string_view built_in_version() { return \"${version}\"; }
 
 }  // namespace tangency::inline v0::verify
 ")

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 #include <tangency/verify/answers/truth_table.hpp>
 
@@ -48,6 +49,21 @@ CorpusSource::CorpusSource(const fs::path& folder) : folder_(folder) {
   std::ranges::sort(names_);
 }
 
+CorpusSource::CorpusSource(std::span<const CorpusInfo> corpora, Maker make)
+    : infos_(corpora), make_(std::move(make)) {
+  for (const CorpusInfo& corpus : corpora) names_.emplace_back(corpus.name);
+  std::ranges::sort(names_);
+}
+
+std::string CorpusSource::version() const {
+  if (make_) return {};
+  if (!folder_) return std::string(built_in_version());
+  std::ifstream file(*folder_ / "VERSION");
+  std::string version;
+  std::getline(file, version);
+  return version;
+}
+
 std::string CorpusSource::place() const { return folder_ ? folder_->string() : "--corpus"; }
 
 void CorpusSource::require(const std::string& name) const {
@@ -72,6 +88,7 @@ std::vector<std::string> CorpusSource::chosen(const std::vector<std::string>& wa
 }
 
 CorpusKind CorpusSource::kind(const std::string& name) const {
+  if (make_) return std::ranges::find(infos_, name, &CorpusInfo::name)->kind;
   const CorpusTable table = truth(name);
   return kind_of_truth(tables::Reader(table.named()).header());
 }
@@ -88,6 +105,11 @@ CorpusTable CorpusSource::table(const std::string& name, std::string_view BuiltI
                                 std::string_view suffix) const {
   const std::string file = name + std::string(suffix);
   if (folder_) return {(*folder_ / file).string(), contents(*folder_ / file)};
+  if (make_) {
+    if (!made_.contains(name)) made_[name] = make_(name);
+    const CorpusText& made = made_[name];
+    return {file, suffix == kTruthSuffix ? made.truth : made.inputs};
+  }
   const auto found = std::ranges::find(built_in_corpora(), name, &BuiltInCorpus::name);
   assert(found != built_in_corpora().end());
   return {file, std::string((*found).*built_in)};

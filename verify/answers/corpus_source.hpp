@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Where golden corpora come from: this program, which holds those of verify/corpora, or a folder
-/// that has NAME.csv and NAME.truth.csv of each (verify/corpus/corpus.hpp).
+/// Where golden corpora come from: this program, which holds those of verify/corpora, a folder
+/// that has NAME.csv and NAME.truth.csv of each, or a generator (verify/corpus/corpus.hpp).
 ///
 /// A program needs no file of its own at run time: what it holds is the text of the files, byte for
 /// byte. All errors are tables::Error. Not for two threads at once, but for two sources.
@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +30,10 @@ struct BuiltInCorpus {
 /// Those in this program, sorted by name: written by corpora_inside.cmake when it is built.
 std::span<const BuiltInCorpus> built_in_corpora();
 
+/// Version of their rows and truth, which verify/corpora/VERSION states: another one where a row or
+/// what is true of it has changed.
+std::string_view built_in_version();
+
 /// A table of a corpus, owned.
 struct CorpusTable {
   std::string file;  ///< its path, or its name where it is in this program
@@ -43,6 +49,9 @@ class CorpusSource {
   CorpusSource();
   /// Those of a folder. Throws where it cannot be read.
   explicit CorpusSource(const std::filesystem::path& folder);
+  /// Those that `make` writes, each once, when it is first asked for.
+  using Maker = std::function<CorpusText(const std::string& name)>;
+  CorpusSource(std::span<const CorpusInfo> corpora, Maker make);
 
   /// Sorted.
   const std::vector<std::string>& names() const { return names_; }
@@ -51,6 +60,9 @@ class CorpusSource {
   /// `wanted` in its order, or where it is empty every corpus of kind pairs. Throws for an unknown
   /// name, one that is named twice, and where there is no corpus of pairs.
   std::vector<std::string> chosen(const std::vector<std::string>& wanted) const;
+
+  /// Empty where none is stated.
+  std::string version() const;
 
   /// These three require one of names(), and throw for a file that cannot be read.
   CorpusKind kind(const std::string& name) const;
@@ -62,8 +74,11 @@ class CorpusSource {
                     std::string_view suffix) const;
   std::string place() const;
 
-  std::optional<std::filesystem::path> folder_;  // nothing: this program
+  std::optional<std::filesystem::path> folder_;  // nothing: this program, or what makes them
   std::vector<std::string> names_;
+  std::span<const CorpusInfo> infos_;  // of those that are made
+  Maker make_;
+  mutable std::map<std::string, CorpusText> made_;
 };
 
 }  // namespace tangency::inline v0::verify

@@ -55,18 +55,34 @@ constexpr std::array kCorpora{
 };
 
 // FNV-1a: every family has a seed of its own, whatever stands before it.
-std::uint64_t seed_of(std::string_view corpus, std::string_view family) {
+std::uint64_t seed_of(std::string_view corpus, std::string_view family, std::uint64_t seed) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const std::string_view text : {corpus, family}) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   }
+  for (; seed > 0; seed >>= 8) hash = (hash ^ (seed & 0xff)) * 0x100000001b3;
   return hash;
 }
 
-CorpusText started(const CorpusInfo& corpus, std::string_view about) {
+// What to draw: how many rows of a family, and from which seed.
+struct Drawing {
+  std::size_t rows;
+  std::uint64_t seed;
+
+  std::size_t rows_of(std::size_t committed) const {
+    return rows == kWholeFamily ? committed : rows;
+  }
+  std::string options() const {
+    if (seed == 0) return {};
+    return " --seed " + std::to_string(seed) +
+           (rows == kWholeFamily ? "" : " --rows " + std::to_string(rows));
+  }
+};
+
+CorpusText started(const CorpusInfo& corpus, const Drawing& drawing, std::string_view about) {
   const std::string name(corpus.name);
-  const std::string licence = "# SPDX-License-Identifier: GPL-3.0-or-later\n";
-  const std::string made = "# Made by `tangency-verify generate " + name + "`.";
+  const std::string licence = "# SPDX-License-Identifier: CC0-1.0\n";
+  const std::string made = "# Made by `tangency-verify generate " + name + drawing.options() + "`.";
   return {licence + "# Golden corpus " + name + ": " + std::string(corpus.what) + ".\n" + made +
               " Hex floats: exactly the doubles meant.\n",
           licence + "# What is true of " + name + ".csv.\n" + made + std::string(about)};
@@ -74,14 +90,14 @@ CorpusText started(const CorpusInfo& corpus, std::string_view about) {
 
 template <class Format, class Input>
 CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>>& families,
-                  std::size_t most) {
-  CorpusText text = started(corpus, Format::about);
+                  const Drawing& drawing) {
+  CorpusText text = started(corpus, drawing, Format::about);
   text.inputs += std::string(Format::inputs) + '\n';
   text.truth += "row,family," + std::string(Format::truth) + '\n';
   std::size_t row = 0;
   for (const InputFamily<Input>& family : families) {
-    const auto next = family.sequence(seed_of(corpus.name, family.name));
-    for (std::size_t i = 0; i < std::min(family.count, most); ++i, ++row) {
+    const auto next = family.sequence(seed_of(corpus.name, family.name, drawing.seed));
+    for (std::size_t i = 0; i < drawing.rows_of(family.count); ++i, ++row) {
       Input input = next();
       TruthLines lines = Format::lines(input);
       while (lines.empty()) lines = Format::lines(input = next());
@@ -95,21 +111,21 @@ CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>
 }
 
 // Of neighbours. Every family has a box of its own, one after another along x.
-CorpusText neighbour_tables(const CorpusInfo& corpus) {
+CorpusText neighbour_tables(const CorpusInfo& corpus, const Drawing& drawing) {
   const bool periodic = corpus.cell != std::array<double, 3>{};
   std::vector<RawEllipsoid> bodies;
   std::vector<std::string> names;
   double box = 0;
   for (const auto& family : neighbour_families(periodic)) {
-    const auto next = family.sequence(seed_of(corpus.name, family.name));
-    for (std::size_t k = 0; k < family.count; ++k) {
+    const auto next = family.sequence(seed_of(corpus.name, family.name, drawing.seed));
+    for (std::size_t k = 0; k < drawing.rows_of(family.count); ++k) {
       bodies.push_back(next());
       bodies.back().centre[0] += box;
       names.push_back(family.name);
     }
     box += kNeighbourBox;
   }
-  CorpusText text = started(corpus,
+  CorpusText text = started(corpus, drawing,
                             " Pairs: exact, in integers (verify/oracles/relation.hpp). Columns:\n"
                             "# verify/corpus/corpus.hpp.\n");
   text.inputs += "x,y,z,r1,r2,r3,qw,qx,qy,qz,cell.x,cell.y,cell.z\n";
@@ -169,11 +185,12 @@ CorpusText corpus_of(std::span<const NamedPair> pairs, std::string_view comment)
   return text;
 }
 
-CorpusText generate(std::string_view name, std::size_t most_per_family) {
+CorpusText generate(std::string_view name, std::size_t rows, std::uint64_t seed) {
+  const Drawing drawing{rows, seed};
   const auto found = std::ranges::find(kCorpora, name, &CorpusInfo::name);
   if (found == kCorpora.end()) throw std::invalid_argument("no corpus has this name");
   const auto made = [&]<class Format>(Format, const auto& families) {
-    return tables<Format>(*found, families, most_per_family);
+    return tables<Format>(*found, families, drawing);
   };
   switch (found->kind) {
     case CorpusKind::pairs:
@@ -195,9 +212,9 @@ CorpusText generate(std::string_view name, std::size_t most_per_family) {
     case CorpusKind::floats:
       return made(FloatFormat(), float_families());
     case CorpusKind::neighbours:
-      return neighbour_tables(*found);
+      return neighbour_tables(*found, drawing);
   }
-  return made(PairFormat(), pair_families(name));
+  return made(PairFormat(), pair_families(name, seed));
 }
 
 }  // namespace tangency::inline v0::verify

@@ -39,6 +39,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -92,9 +93,11 @@ struct CorpusText {
 
 inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 
-/// Of neighbours always whole. Throws std::invalid_argument for a name that corpora() does not
-/// list.
-CorpusText generate(std::string_view name, std::size_t most_per_family = kWholeFamily);
+/// The committed rows, or with another seed than 0 others of the same families.
+/// @param rows  of every family; kWholeFamily: as many as the committed corpus has. A family of
+///              integers has no more than 300.
+/// Throws std::invalid_argument for a name that corpora() does not list.
+CorpusText generate(std::string_view name, std::size_t rows = kWholeFamily, std::uint64_t seed = 0);
 
 /// The header of a table of pairs, and the cells of one.
 std::string_view pair_columns();

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
+#include <utility>
 
 #include <tangency/verify/oracles/newton_ascent.hpp>
 #include <tangency/verify/oracles/primitives.hpp>

@@ -5,6 +5,7 @@
 /// proven by intervals.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>

@@ -80,10 +80,11 @@ Pair exchanged_by_chance(Draw& draw, const Pair& pair) {
 
 using PairFamilies = std::vector<InputFamily<EllipsoidPair>>;
 
-/// Of the corpus of pairs of this name.
-PairFamilies pair_families(std::string_view corpus);
-/// Displacement profiles of the published study: the corpus `profiles`.
-PairFamilies profile_families();
+/// Of the corpus of pairs of this name. The seed is for profile_families().
+PairFamilies pair_families(std::string_view corpus, std::uint64_t seed = 0);
+/// Displacement profiles of the published study: the corpus `profiles`. Nothing in them is drawn;
+/// with another seed than 0 their overlap and their steps are others.
+PairFamilies profile_families(std::uint64_t seed = 0);
 
 /// @param extreme_aspect  the largest aspect ratio of the family `extreme`
 std::vector<InputFamily<EllipsePair>> ellipse_families(double extreme_aspect = 1e6);

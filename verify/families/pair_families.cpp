@@ -190,14 +190,14 @@ PairFamilies deep() {
 
 }  // namespace
 
-PairFamilies pair_families(std::string_view corpus) {
+PairFamilies pair_families(std::string_view corpus, std::uint64_t seed) {
   if (corpus == "classes") return classes();
   if (corpus == "near") return near();
   if (corpus == "touching") return touching();
   if (corpus == "symmetric") return symmetric();
   if (corpus == "nested") return nested();
   if (corpus == "extreme") return extreme();
-  if (corpus == "profiles") return profile_families();
+  if (corpus == "profiles") return profile_families(seed);
   return deep();
 }
 

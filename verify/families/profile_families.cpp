@@ -4,6 +4,7 @@
 // spheroids, b/a = 0.7, in four contacts with the normal z, B moved along it, along x, and turned
 // about y and its own centre. Unit of length: the short semi-axis.
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include <tangency/verify/families/families.hpp>
@@ -38,10 +39,23 @@ void turn(RawEllipsoid& body, const Real& angle) {
                       rounded(c * z - s * x)};
 }
 
-EllipsoidPair displaced(const Contact& contact, Motion motion, int step) {
+// How a fresh profile differs from the published one.
+struct Variant {
+  double overlap = kOverlap;
+  double phase = 0;  // of a step
+
+  static Variant drawn_from(std::uint64_t seed) {
+    if (seed == 0) return {};
+    Draw draw(seed);
+    const double overlap = draw.log_uniform(kOverlap / 2, 2 * kOverlap);
+    return {overlap, draw.real(0, 1)};
+  }
+};
+
+EllipsoidPair displaced(const Contact& contact, Motion motion, double step, double overlap) {
   const std::array<double, 3> axes{1 / kShortOverLong, 1, 1};
   EllipsoidPair pair{{{}, axes, contact.a}, {{}, axes, contact.b}};
-  place_b(pair, {0, 0, 1}, -kOverlap);
+  place_b(pair, {0, 0, 1}, -overlap);
   switch (motion) {
     case Motion::normal:
       pair.b.centre[2] += kAlong * step / kSteps;
@@ -57,18 +71,20 @@ EllipsoidPair displaced(const Contact& contact, Motion motion, int step) {
 }
 
 // Steps 0, 1, -1, 2, -2 and so on.
-InputFamily<EllipsoidPair> profile(const Contact& contact, Motion motion, const char* name) {
+InputFamily<EllipsoidPair> profile(const Contact& contact, Motion motion, const char* name,
+                                   const Variant& variant) {
   return drawn_family(std::string(contact.name) + ' ' + name, 2 * kSteps + 1,
-                      [contact, motion, i = 0](Draw&) mutable {
+                      [contact, motion, variant, i = 0](Draw&) mutable {
                         const int step = (i % 2 == 1 ? i + 1 : -i) / 2;
                         ++i;
-                        return displaced(contact, motion, step);
+                        return displaced(contact, motion, step + variant.phase, variant.overlap);
                       });
 }
 
 }  // namespace
 
-PairFamilies profile_families() {
+PairFamilies profile_families(std::uint64_t seed) {
+  const Variant variant = Variant::drawn_from(seed);
   const auto side = long_axis_along(1, 0, 0), end = long_axis_along(0, 0, 1);
   PairFamilies families;
   for (const Contact& contact :
@@ -76,9 +92,9 @@ PairFamilies profile_families() {
         Contact{"end-end", end, end},
         // No plane of symmetry is left and neither body turns about an own axis.
         Contact{"skew", long_axis_along(2, 1, 1), long_axis_along(2, -2, 1)}}) {
-    families.push_back(profile(contact, Motion::normal, "normal"));
-    families.push_back(profile(contact, Motion::tangential, "tangential"));
-    families.push_back(profile(contact, Motion::rotation, "rotation"));
+    families.push_back(profile(contact, Motion::normal, "normal", variant));
+    families.push_back(profile(contact, Motion::tangential, "tangential", variant));
+    families.push_back(profile(contact, Motion::rotation, "rotation", variant));
   }
   return families;
 }

@@ -29,6 +29,10 @@ FamilyReport quantities(CorpusKind kind, const Grade& g, const FamilyGrade& f) {
   counts.push_back({"rows without a gap", "", fault, f.without_gap, g.judges_gaps});
   counts.push_back({"broken bounds", "broken", fault, f.broken_bounds, g.claims_bounds});
   counts.push_back({"reversed normals", "reversed", fault, f.reversed, g.judges_normals});
+  counts.push_back(
+      {"rows not claimed", "not claimed", information, f.not_claimed, g.all.not_claimed > 0});
+  counts.push_back({"expected failures", "expected", information, f.expected_failures,
+                    g.all.expected_failures > 0});
   for (const ErrorName& error : error_names(kind)) {
     family.errors.push_back({error.name, error.title, error.unit, f.*error.summary});
   }
@@ -187,6 +191,14 @@ std::string verdict_of(const GradeReport& report) {
     }
   }
   text += ", " + std::to_string(faults) + " faulty lines or cells";
+  for (const auto& [name, what] : {std::pair("rows not claimed", " rows not claimed"),
+                                   std::pair("expected failures", " failed as expected")}) {
+    const std::size_t aside = number(sum, name);
+    if (aside > 0) text += ", " + std::to_string(aside) + what;
+    const auto features = std::ranges::find(report.facts, "not claimed", &Facts::value_type::first);
+    if (aside > 0 && std::string_view(name) == "rows not claimed" && features != report.facts.end())
+      text += " (" + features->second + ')';
+  }
   for (const Errors& errors : sum.errors) {
     if (errors.summary.count == 0) continue;
     text += std::string(", largest ") + errors.title + ' ' + shown(errors.summary.largest);
@@ -233,9 +245,10 @@ const CorpusReport& add(GradeReport& report, const CorpusGrade& grade) {
   CorpusReport corpus{.name = grade.corpus,
                       .file = grade.inputs.file,
                       .run = grade.run,
-                      .is_dead = grade.run && g.all.unanswered == g.all.rows,
+                      .is_dead = grade.run && g.all.rows > 0 && g.all.unanswered == g.all.rows,
                       .families = {},
                       .whole = quantities(grade.kind, g, g.all),
+                      .mended = g.mended,
                       .faults = g.faults,
                       .fault_count = g.fault_count};
   for (const FamilyGrade& family : g.families) {

@@ -101,7 +101,8 @@ struct CorpusReport {
   bool is_repeated = false;  ///< dead in the same way as in an earlier corpus
   std::vector<FamilyReport> families;
   FamilyReport whole;
-  std::vector<std::string> faults;  ///< the first lines and cells that cannot be read
+  std::vector<std::size_t> mended{};  ///< rows of expected failures that did not fail
+  std::vector<std::string> faults;    ///< the first lines and cells that cannot be read
   std::size_t fault_count = 0;
 };
 

@@ -9,13 +9,14 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
 
 constexpr const char* kHelp = R"(
 Writes DIR/NAME.csv, the inputs, and DIR/NAME.truth.csv, what is true of them: the same
-bytes every time. The larger corpora take half a minute.
+bytes every time. The larger corpora take half a minute. --seed draws other rows.
 
 Exit status: 0 written; 2 refused command line, or a failed write.
 
@@ -40,7 +41,7 @@ std::string check_name(const std::string& name) {
 }
 
 // What cannot be written is refused before anything is computed.
-void write(const std::filesystem::path& folder, const std::string& name) {
+void write(const std::filesystem::path& folder, const std::string& name, const RowChoice& choice) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) {
@@ -48,7 +49,7 @@ void write(const std::filesystem::path& folder, const std::string& name) {
   }
   tables::OutputFile inputs((folder / (name + ".csv")).string());
   tables::OutputFile truth((folder / (name + ".truth.csv")).string());
-  const CorpusText text = generate(name);
+  const CorpusText text = generate(name, choice.rows > 0 ? choice.rows : kWholeFamily, choice.seed);
   inputs.write(text.inputs);
   truth.write(text.truth);
   inputs.commit();
@@ -61,6 +62,7 @@ void add_generate(tables::Program& program) {
   struct Options {
     bool list = false;
     std::string name, folder;
+    RowChoice choice;
   };
   const auto options = std::make_shared<Options>();
   tables::Command& command = program.subcommand("generate", "Writes a corpus and its truth");
@@ -73,6 +75,7 @@ void add_generate(tables::Program& program) {
   command.option("--out", options->folder, "Folder to write to; made where it is missing")
       .excludes(list_flag)
       .type_name("DIR");
+  add_seed_options(command, options->choice);
   command.footer(kHelp);
   command.runs([options] {
     if (options->list) {
@@ -81,7 +84,8 @@ void add_generate(tables::Program& program) {
     }
     if (options->name.empty()) throw tables::UsageError("NAME or --list is required");
     if (options->folder.empty()) throw tables::UsageError("--out is required");
-    write(options->folder, options->name);
+    require_seed(options->choice);
+    write(options->folder, options->name, options->choice);
     return passed;
   });
 }

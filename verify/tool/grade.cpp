@@ -27,6 +27,7 @@
 #include <tangency/verify/tool/asking.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 #include <tangency/verify/tool/output_files.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
 #include <tangency/version.hpp>
 
 namespace tangency::inline v0::verify {
@@ -76,7 +77,8 @@ Example:
 )";
 
 struct Options {
-  std::string answers, tool, corpora, baseline;
+  std::string answers, tool, baseline;
+  RowChoice rows;
   OutputPaths outputs;
   std::string definition = "common-normal";
   std::vector<std::string> names;
@@ -86,10 +88,13 @@ struct Options {
   double seconds = 300;  // chosen: a thousand times what a corpus takes
 };
 
-CorpusGrade graded(const Options& options, const CorpusSource& source, const std::string& name) {
+CorpusGrade graded(const Options& options, const CorpusSource& source, const SetAside& aside,
+                   const std::string& name) {
   const CorpusTable table = source.truth(name);
-  const TruthTable truth =
+  TruthTable truth =
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
+  leave_out(aside.not_claimed, name, truth);
+  aside.expected.mark(name, truth);
   if (truth.rows.empty()) {
     throw tables::Error({.file = table.file, .rule = "a corpus must have rows"});
   }
@@ -112,7 +117,7 @@ std::string allowed(const std::optional<double>& most, const char* unit) {
   return most ? tables::to_text(*most) + unit : "any";
 }
 
-GradeReport begun(const Options& options) {
+GradeReport begun(const Options& options, const CorpusSource& source) {
   const Thresholds& limits = options.thresholds;
   const bool is_tool = !options.tool.empty();
   GradeReport report{.title = is_tool ? options.tool : options.answers,
@@ -127,6 +132,7 @@ GradeReport begun(const Options& options) {
                   {"largest normal error allowed", allowed(limits.normal_error, "")},
                   {"tangency-verify", report.program_version},
                   {"date", report.date + 'Z'}};
+  for (const auto& fact : facts_of(options.rows, source)) report.facts.push_back(fact);
   return report;
 }
 
@@ -157,14 +163,29 @@ std::string differences(const Comparison& beside, const std::string& file) {
   return text;
 }
 
+// Expected failures that are none any more.
+std::string mended(const GradeReport& report, const std::string& expected) {
+  std::vector<std::string> rows, lines;
+  for (const CorpusReport& corpus : report.corpora) {
+    for (const std::size_t row : corpus.mended) {
+      rows.push_back(corpus.name + ',' + std::to_string(row));
+    }
+  }
+  append_named(lines, "BETTER than " + expected + " expects, which need not name it: ", rows);
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
 ExitStatus run(const Options& options) {
-  const CorpusSource source = corpus_source(options.corpora);
+  const CorpusSource source = source_of(options.rows);
+  const SetAside aside = set_aside(options.rows, source);
   const Baseline baseline = options.baseline.empty() ? Baseline() : read_baseline(options.baseline);
   OutputFiles outputs(options.outputs);
   tables::OutputFile screen("-");
-  GradeReport report = begun(options);
+  GradeReport report = begun(options, source);
   for (const std::string& name : source.chosen(options.names)) {
-    screen.write(as_table(add(report, graded(options, source, name))) + '\n');
+    screen.write(as_table(add(report, graded(options, source, aside, name))) + '\n');
   }
   std::vector<std::string> further;
   if (!options.baseline.empty()) {
@@ -172,9 +193,10 @@ ExitStatus run(const Options& options) {
     screen.write(differences(beside, options.baseline));
     append_named(further, "worse than the baseline: ", beside.worse);
   }
+  screen.write(mended(report, options.rows.expected));
   judge(report, further);
   outputs.write(report);
-  screen.write(closing_of(report, options.corpora));
+  screen.write(closing_of(report, options.rows.folder));
   return report.has_passed() ? passed : failed;
 }
 
@@ -226,7 +248,7 @@ void add_grade(tables::Program& program) {
       .option("--corpus", options->names,
               "Which; several for a tool (default: all corpora of pairs of ellipsoids)")
       .type_name("NAME");
-  add_corpora_option(command, options->corpora);
+  add_row_options(command, options->rows);
   add_definition_option(command, options->definition);
   Thresholds& limits = options->thresholds;
   const tables::Option max_wrong =
@@ -259,7 +281,7 @@ void add_grade(tables::Program& program) {
       .check(number(true))
       .type_name("X");
   add_output_options(command, options->outputs);
-  command.footer(kHelp);
+  command.footer(help_on_features() + kHelp);
   command.runs([options, max_wrong] {
     require_fitting(*options);
     options->demands_words = max_wrong.given();

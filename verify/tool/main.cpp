@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+
+#include <tangency/verify/answers/corpus_source.hpp>
 #include <tangency/verify/tool/command_line.hpp>
 #include <tangency/version.hpp>
 
@@ -24,8 +27,9 @@ Exit status:
 
 int main(int argc, char** argv) {
   using namespace tangency::verify;
-  tangency::tables::Program program("tangency-verify", kProgramDescription,
-                                    TANGENCY_VERSION_STRING);
+  tangency::tables::Program program(
+      "tangency-verify", kProgramDescription,
+      TANGENCY_VERSION_STRING ", corpora " + std::string(built_in_version()));
   program.footer(kProgramHelp);
 #ifdef TANGENCY_HAS_ORACLES
   add_generate(program);
