@@ -79,7 +79,7 @@ struct Drawing {
   }
 };
 
-CorpusText started(const CorpusInfo& corpus, std::string_view about, const Drawing& drawing) {
+CorpusText started(const CorpusInfo& corpus, const Drawing& drawing, std::string_view about) {
   const std::string name(corpus.name);
   const std::string licence = "# SPDX-License-Identifier: CC0-1.0\n";
   const std::string made = "# Made by `tangency-verify generate " + name + drawing.options() + "`.";
@@ -91,7 +91,7 @@ CorpusText started(const CorpusInfo& corpus, std::string_view about, const Drawi
 template <class Format, class Input>
 CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>>& families,
                   const Drawing& drawing) {
-  CorpusText text = started(corpus, Format::about, drawing);
+  CorpusText text = started(corpus, drawing, Format::about);
   text.inputs += std::string(Format::inputs) + '\n';
   text.truth += "row,family," + std::string(Format::truth) + '\n';
   std::size_t row = 0;
@@ -111,24 +111,23 @@ CorpusText tables(const CorpusInfo& corpus, const std::vector<InputFamily<Input>
 }
 
 // Of neighbours. Every family has a box of its own, one after another along x.
-CorpusText neighbour_tables(const CorpusInfo& corpus, std::uint64_t seed) {
+CorpusText neighbour_tables(const CorpusInfo& corpus, const Drawing& drawing) {
   const bool periodic = corpus.cell != std::array<double, 3>{};
   std::vector<RawEllipsoid> bodies;
   std::vector<std::string> names;
   double box = 0;
   for (const auto& family : neighbour_families(periodic)) {
-    const auto next = family.sequence(seed_of(corpus.name, family.name, seed));
-    for (std::size_t k = 0; k < family.count; ++k) {
+    const auto next = family.sequence(seed_of(corpus.name, family.name, drawing.seed));
+    for (std::size_t k = 0; k < drawing.rows_of(family.count); ++k) {
       bodies.push_back(next());
       bodies.back().centre[0] += box;
       names.push_back(family.name);
     }
     box += kNeighbourBox;
   }
-  CorpusText text = started(corpus,
+  CorpusText text = started(corpus, drawing,
                             " Pairs: exact, in integers (verify/oracles/relation.hpp). Columns:\n"
-                            "# verify/corpus/corpus.hpp.\n",
-                            {kWholeFamily, seed});
+                            "# verify/corpus/corpus.hpp.\n");
   text.inputs += "x,y,z,r1,r2,r3,qw,qx,qy,qz,cell.x,cell.y,cell.z\n";
   text.truth += "row,family,j,ix,iy,iz,relation\n";
   const auto pairs = true_pairs(bodies, corpus.cell);
@@ -213,7 +212,7 @@ CorpusText generate(std::string_view name, std::size_t rows, std::uint64_t seed)
     case CorpusKind::floats:
       return made(FloatFormat(), float_families());
     case CorpusKind::neighbours:
-      return neighbour_tables(*found, seed);
+      return neighbour_tables(*found, drawing);
   }
   return made(PairFormat(), pair_families(name, seed));
 }

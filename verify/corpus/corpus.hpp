@@ -95,7 +95,7 @@ inline constexpr std::size_t kWholeFamily = static_cast<std::size_t>(-1);
 
 /// The committed rows, or with another seed than 0 others of the same families.
 /// @param rows  of every family; kWholeFamily: as many as the committed corpus has. A family of
-///              integers has no more than 300. Of neighbours always as many as committed.
+///              integers has no more than 300. Of neighbours a row is a body.
 /// Throws std::invalid_argument for a name that corpora() does not list.
 CorpusText generate(std::string_view name, std::size_t rows = kWholeFamily, std::uint64_t seed = 0);
 

@@ -46,25 +46,10 @@
 #include <vector>
 
 #include <tangency/geometry/tables/csv.hpp>
+#include <tangency/verify/grade/finding.hpp>
 #include <tangency/verify/grade/judge.hpp>
 
 namespace tangency::inline v0::verify {
-
-enum class Problem { wrong, missing, broken_bound, reversed, gap_error, normal_error };
-
-/// What is at fault in the answer to one row.
-struct Finding {
-  std::size_t row;
-  Problem problem;
-  std::string column;    ///< "relation", "nx ny nz"; nothing where the whole row is missing
-  std::string answered;  ///< as it stands in the answers, or nothing
-  std::string truth;     ///< a word or a number, as an answer would say it; nothing where none is
-  double error = 0;      ///< in the unit of its summary
-};
-
-/// What an error may be of.
-enum class ErrorKind : std::size_t { gap, normal, area, time };
-inline constexpr std::size_t kErrorKinds = 4;
 
 struct FamilyGrade {
   std::string name;
@@ -89,9 +74,6 @@ struct ErrorName {
 /// Of the errors that this kind of corpus may have.
 std::span<const ErrorName> error_names(CorpusKind kind);
 
-/// What errors of normals are given in.
-constexpr double normal_unit(CorpusKind kind) { return kind == CorpusKind::floats ? 0x1p-24 : 1; }
-
 struct Grade {
   std::vector<FamilyGrade> families;
   FamilyGrade all;                  ///< of the whole corpus
@@ -104,13 +86,6 @@ struct Grade {
   bool judges_gaps = false;     ///< gaps were answered
   bool judges_normals = false;  ///< normals were answered
   bool claims_bounds = false;   ///< gap_error was answered
-};
-
-/// Asked of every row even where the answers' header does not offer it; of numbers the largest
-/// error without a finding.
-struct Demands {
-  bool words = false;
-  std::optional<double> gap{}, normal{};
 };
 
 /// `answers` is a path, or the table itself. Never throws for what stands in it.

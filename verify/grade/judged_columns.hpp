@@ -14,7 +14,8 @@
 #include <string_view>
 
 #include <tangency/geometry/tables/csv.hpp>
-#include <tangency/verify/grade/grade.hpp>
+#include <tangency/verify/answers/truth_table.hpp>
+#include <tangency/verify/grade/finding.hpp>
 
 namespace tangency::inline v0::verify {
 

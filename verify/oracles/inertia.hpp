@@ -46,4 +46,9 @@ struct Inertia {
 /// the entries minors of the (unimodularly transformed) matrix, so they do not grow beyond those.
 Inertia inertia(IntegerMatrix m, int size);
 
+/// The exact relation (relation.hpp, by the pencil alone) of two surfaces by their forms in (x, y,
+/// z, 1), either sign of each. Throws std::invalid_argument unless both are real ellipsoids.
+struct ExactRelation;
+ExactRelation exact_relation_by_pencil(const IntegerMatrix& a, const IntegerMatrix& b);
+
 }  // namespace tangency::inline v0::verify

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include <tangency/verify/oracles/inertia.hpp>
-#include <tangency/verify/oracles/relation_of_forms.hpp>
 #include <tangency/verify/oracles/square_free.hpp>
 #include <tangency/verify/oracles/witness_guess.hpp>
 

@@ -7,7 +7,6 @@
 
 #include <tangency/verify/oracles/inertia.hpp>
 #include <tangency/verify/oracles/jacobi.hpp>
-#include <tangency/verify/oracles/relation_of_forms.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {

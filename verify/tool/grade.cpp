@@ -44,6 +44,8 @@ any of these; what its header names is asked of every row:
   nx ny nz     unit normal from a to b; of ellipses nx ny
   crossings, area   of ellipses
   type         of quadrics
+  result, t1, t2   of rays; status, time, latest   of times of contact
+  i j ix iy iz     a pair of neighbours, without row; docs/grading.md
 A tool gets the inputs on standard input, a table without comment lines whose numbers are
 hex floats, in the columns of `tangency contact`, `ellipse` or `classify`.
 
