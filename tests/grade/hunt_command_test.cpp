@@ -100,6 +100,7 @@ TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
   EXPECT_EQ(no_column.status, 2);
   EXPECT_TRUE(has(no_column.err, "--tool: its answers have no column nx, ny, nz")) << no_column.err;
   EXPECT_EQ(hunt(kKernel, {"--goal", "speed"}).status, 2);
+  EXPECT_EQ(hunt(kKernel, {"--answers", "0"}).status, 2);
   EXPECT_EQ(hunt(kKernel, {"--from", "ellipses"}).status, 2);
   const TemporaryFolder folder;
   const Finished rubbish = hunt(kKernel, {"--state", folder.write("state.json", "[1]")});

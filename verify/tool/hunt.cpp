@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -96,6 +97,13 @@ std::string check_positive(const std::string& text) {
   double value = 0;
   if (!tables::parse_number(text, value) && value > 0) return {};
   return text + " is not a finite number > 0";
+}
+
+std::string check_count(const std::string& text) {
+  std::size_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem == std::errc() && end == text.data() + text.size() && value > 0) return {};
+  return text + " is not a whole number from 1";
 }
 
 // Set by SIGINT and SIGTERM: the search has to end. The second signal does what it always does.
@@ -318,7 +326,7 @@ void add_hunt(tables::Program& program) {
       command
           .option("--answers", options->answers,
                   "Answers after which the search ends (default: 20000, or no end with --seconds)")
-          .between<std::size_t>(1, std::numeric_limits<std::size_t>::max())
+          .check(check_count)
           .type_name("N");
   command.option("--seconds", options->seconds, "Seconds after which the search ends")
       .check(check_positive)
