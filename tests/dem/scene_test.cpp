@@ -101,9 +101,8 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "scene.toml:6: particles.grain.colour: no such key; allowed are count, mean_radius, "
             "elongation, flatness, density");
   EXPECT_EQ(refusal_with("[cell]", "[sell]"),
-            "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, body, "
-            "contact, stage, "
-            "output");
+            "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, wall, "
+            "body, contact, stage, output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
             "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, axes, "

@@ -197,7 +197,8 @@ TEST(TimeOfContact, AbsurdSpeedsEndInAStatus) {
   }
 }
 
-TEST(TimeOfContact, DoesNotChangeWithAPowerOfTwoUnitOfTime) {
+// geometry/time_of_contact.hpp (5)
+TEST(TimeOfContact, DoesNotChangeWithAPowerOfTwoUnitOfTimeOrLength) {
   const Ellipsoid a({0, 0, 0}, {1, 0.1, 0.5}, Quaterniond(0.3, -0.5, 0.1, 0.8));
   const Ellipsoid b({4, 0.3, 0}, {0.2, 2, 0.5}, Quaterniond(0.1, 0.5, 0.7, -0.2));
   const Motion ma = flight({0.1, 0, 0.1}, {0.3, 0.1, 2}), mb{{-0.1, 0, 0}, {0, 1, 1}, {0.1, 0, 0}};
@@ -214,6 +215,20 @@ TEST(TimeOfContact, DoesNotChangeWithAPowerOfTwoUnitOfTime) {
     EXPECT_EQ(other.time, s * one.time) << s;
     EXPECT_EQ(other.latest, s * one.latest) << s;
     EXPECT_EQ(other.gap.gap, one.gap.gap) << s;
+  }
+  for (const double s : {0x1p-300, 0x1p-20, 0x1p300}) {
+    const auto body = [&](const Ellipsoid& e) {
+      return Ellipsoid(s * e.centre(), s * e.semi_axes(), e.orientation());
+    };
+    const auto motion = [&](const Motion& m) {
+      return Motion{s * m.velocity, m.angular_velocity, s * m.pivot_arm};
+    };
+    const TimeOfContact other =
+        time_of_contact(body(a), motion(ma), body(b), motion(mb), 16, kTolerance);
+    EXPECT_EQ(other.status, one.status) << s;
+    EXPECT_EQ(other.time, one.time) << s;
+    EXPECT_EQ(other.latest, one.latest) << s;
+    EXPECT_EQ(other.gap.gap, s * one.gap.gap) << s;
   }
 }
 
