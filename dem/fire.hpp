@@ -7,7 +7,8 @@
 /// friction are a hundred and more times slower than those that bound the time step: a rate that
 /// stops the fast ones lets the slow ones creep. Here velocities are turned towards the forces
 /// while they run downhill, and taken away as soon as they run uphill, so that each stretch lasts
-/// as long as its own modes let it. What is compared and measured: docs/simulator.md.
+/// as long as its own modes let it. What is compared and measured: docs/simulator.md. Contacts lose
+/// nothing to their approach meanwhile.
 ///
 /// (1) Velocities without force and forces without velocity change nothing but that what does not
 ///     run downhill stops.

@@ -165,10 +165,13 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
   const ContactTotals totals = contacts.totals();
   if (totals.contacts == 0) return balance;
   balance.mean_contact_force = totals.force_length / static_cast<double>(totals.contacts);
-  balance.inertial_fraction =
-      all.sum / static_cast<double>(all.with_contacts) / balance.mean_contact_force;
-  balance.largest_unbalanced_ratio /= balance.mean_contact_force;
-  balance.largest_unbalanced_moment_ratio /= balance.mean_contact_force;
+  // A damped contact that opens bears nothing.
+  const auto to_contact_force = [&](double x) {
+    return x == 0.0 ? 0.0 : x / balance.mean_contact_force;
+  };
+  balance.inertial_fraction = to_contact_force(all.sum / static_cast<double>(all.with_contacts));
+  balance.largest_unbalanced_ratio = to_contact_force(all.force);
+  balance.largest_unbalanced_moment_ratio = to_contact_force(all.moment);
   return balance;
 }
 

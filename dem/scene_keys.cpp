@@ -113,7 +113,7 @@ constexpr std::array kKeys{
     Key{"contact", "restitution", real, "-", "1.0", between(kLeastRestitution, 1.0), "", "",
         "Speed of parting over speed of approach, along the normal where two bodies meet, of an "
         "impact; contacts are damped so that it comes out, to 1e-3 with a time_step_factor of "
-        "0.04"},
+        "0.04; relax and unload without damping leave it out"},
 
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,

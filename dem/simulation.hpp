@@ -74,7 +74,8 @@ class Simulation {
   const State& state() const { return state_; }
   /// As given.
   const Scene& scene() const { return scene_; }
-  /// The scene's, with the current stage's friction.
+  /// The scene's, with the current stage's friction, and without restitution where the stage has
+  /// no rate of damping (fire.hpp).
   const ContactLaws& laws() const { return laws_; }
   /// Have all stages ended?
   bool finished() const { return state_.stage == scene_.stages.size(); }
@@ -148,7 +149,7 @@ class Simulation {
 
   Scene scene_;
   State state_;
-  ContactLaws laws_;  ///< the scene's, with the current stage's friction
+  ContactLaws laws_;  ///< laws()
   Loading loading_;   ///< the current stage's, with its growth's stress
   std::string changed_laws_;
   bool turns_ = true;                 ///< is there anything that could turn, or seem to?

@@ -32,7 +32,7 @@ ctest_is() {
     green:0) ;;
     green:*) cat tested; fail "CTest fails, and the fault is mended" ;;
     red:0) fail "CTest passes in spite of the fault" ;;
-    red:*) grep -q "FAILED: .* wrong" tested || { cat tested; fail "CTest does not say what is wrong"; } ;;
+    red:*) grep -q "FAILED [1-9][0-9]* wrong answers are more than 0; the first: " tested || { cat tested; fail "CTest does not say what is wrong"; } ;;
   esac
 }
 # What the step of the workflow runs, as .github/actions/grade/action.yml calls it.
@@ -57,11 +57,14 @@ ctest_is green
 step_is passed: 0
 ! grep -q '^::error ' graded || fail "the step that passes has an annotation"
 
-# Every name that the action's step reads is an input, and every input is read.
+# Every name that the action's step reads is an input, every input is read, and each goes to the variable of its name.
 action=$source/.github/actions/grade/action.yml
 declared=$(awk '/^inputs:/ { on = 1; next } /^[a-z]/ { on = 0 } on && /^  [a-z]+:$/ { sub(":", ""); print $1 }' "$action" | sort)
 read=$(grep -o 'inputs\.[a-z]*' "$action" | sed 's/inputs\.//' | sort -u)
 [ "$declared" = "$read" ] || fail "inputs declared: $declared; read: $read"
+while read -r variable input; do
+  [ "$variable" = "GRADE_${input^^}" ] || fail "$variable is the input $input"
+done < <(sed -n 's/^ *\(GRADE_[A-Z]*\): \${{ inputs\.\([a-z]*\) }}$/\1 \2/p' "$action")
 for variable in $(grep -o 'GRADE_[A-Z]*' "$action" | sort -u); do
   grep -q "$variable" "$source/.github/actions/grade/grade.sh" || fail "$variable is read by nothing"
 done

@@ -105,6 +105,19 @@ TEST(Settling, EndsWhereEveryBodyLiesAndTheFloorBearsAllWeights) {
   EXPECT_EQ(balance.rattlers, 0);
 }
 
+// Dampers that forces went by before velocities were taken away kept these moving for ever.
+TEST(Settling, EndsWhereContactsOfBodiesAndWallsHaveARestitution) {
+  std::string scene = with(poured(30, "restitution = 0.3\n"), "6.0, 30.0]", "6.0, 24.0]");
+  scene = with(scene, "[contact.needle-wall]\nfriction_coefficient = 0.2\n", "");
+  scene = with(scene, "seed = 3\n", "");
+  scene = with(scene, "duration = 4000", "duration = 2500");
+  const Simulation simulation = at_end(scene + "max_cycles = 10000\n");
+  const Observation seen = simulation.observe();
+  EXPECT_LE(seen.balance.largest_unbalanced_ratio, 0.05);
+  EXPECT_EQ(seen.balance.rattlers, 0);
+  EXPECT_LT(std::abs(seen.energy_error), 2e-3 * seen.account.gravity);
+}
+
 TEST(Settling, IsNotOverWhileABodyFalls) {
   std::string scene = poured(2, "");
   scene = with(scene, "kind = \"servo\"\nname = \"pour\"\nduration = 4000\n",

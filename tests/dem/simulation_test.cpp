@@ -347,6 +347,12 @@ struct Recount {
   }
 };
 
+// Its bounding spheres filled more of the cell than random placement allows.
+TEST(Simulation, OfTheSceneOfNeedlesThatSettleFindsRoomForAll) {
+  const Simulation simulation(load_scene(std::string(TANGENCY_SCENES) + "/settle-1000.toml"));
+  EXPECT_EQ(simulation.state().particles.size(), 1000u);
+}
+
 class Assembly : public testing::TestWithParam<const char*> {};
 
 TEST_P(Assembly, ComesToItsStressAndIntoBalance) {
