@@ -247,7 +247,8 @@ class Run {
     const Observation seen = simulation_.observe();
     const std::string ended = "stage " + simulation_.stage().name + " ended with ";
     const double fraction = seen.balance.inertial_fraction;
-    if (fraction > kSoundInertialFraction)
+    // An impact or a body that rolls is meant to move.
+    if (fraction > kSoundInertialFraction && !simulation_.stage().drive->moves_freely())
       warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
            short_text(kSoundInertialFraction) + ": " +
            advice_on_motion(simulation_, seen, kSoundInertialFraction));
@@ -338,7 +339,7 @@ class Run {
   double more_cycles() const {
     const double known = simulation_.cycles_needed().cycles;
     const Drive& stage = *simulation_.stage().drive;
-    if (!stage.stress_tolerance) return known;
+    if (!stage.stress_tolerance && !stage.max_unbalanced_ratio) return known;
     const double least = stage.max_unbalanced_ratio ? 0.1 : 0.001;
     const double done = std::clamp(simulation_.stage_fraction(), least, 0.9);
     return std::max(known,

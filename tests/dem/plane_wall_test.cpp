@@ -120,9 +120,9 @@ TEST(PlaneWall, ThatHitsABallDrivesItOffByItsRestitution) {
   for (const double given : {0.2, 0.5, 1.0}) {
     const double speed = 2.0;
     std::string scene = ball(kTilted, "velocity = " + numbers(speed * kTilted) + "\n",
-                             "restitution = " + number(given) + "\n", Vec3::Zero(), 0.5);
+                             "restitution = " + number(given) + "\n", Vec3::Zero(), 0.1);
     scene = with(scene, "time_step_factor = 0.1", "time_step_factor = 0.04");
-    const Simulation simulation = after(scene, 0.3);
+    const Simulation simulation = after(scene, 0.1);
     const State& state = simulation.state();
     EXPECT_NEAR(state.particles.velocity[0].dot(kTilted), (1.0 + given) * speed, 4e-3);
     EXPECT_NEAR(state.cell.planes[0].height_of(Vec3::Constant(20.0)), -speed * state.time, 1e-9);
@@ -139,7 +139,7 @@ std::string pressed() {
          "[contact]\nnormal_stiffness = 5e7\nfriction_coefficient = 0.3\nrestitution = 0.5\n"
          "[contact.grain-wall]\nfriction_coefficient = 0.1\n[[stage]]\nkind = \"place\"\n"
          "arrangement = \"random\"\nbounding_fraction = 0.2\n[[stage]]\nkind = \"servo\"\n"
-         "name = \"press\"\nduration = 15000\ndamping = 0.05\n[[stage]]\nkind = \"relax\"\n"
+         "name = \"press\"\nduration = 9500\ndamping = 0.05\n[[stage]]\nkind = \"relax\"\n"
          "max_unbalanced_ratio = 0.02\ndamping = 0.1\n";
 }
 
@@ -157,7 +157,12 @@ TEST(PlaneWall, ThatHoldsAStressBearsItInTheEnd) {
 TEST(PlaneWall, IsSavedWithTheBitsThatItGoesOnWith) {
   const auto file = std::filesystem::path(testing::TempDir()) / "plane_wall.state";
   Simulation whole = at_stage(pressed(), 1);
-  for (int k = 0; k < 3000; ++k) whole.step();
+  const auto pushes = [](const State& state) {
+    const auto count = static_cast<std::int32_t>(state.particles.size());
+    return state.contacts.borne_by(count + 6, state.list).force > 0.0;
+  };
+  for (int k = 0; k < 3000 && !pushes(whole.state()); ++k) whole.step();
+  ASSERT_TRUE(pushes(whole.state()));
   save_state(whole.state(), file);
   Simulation resumed(whole.scene(), load_state(file));
   for (int k = 0; k < 300; ++k) {
