@@ -65,8 +65,8 @@ struct Accuracy {
   static constexpr Accuracy certified() { return {0.0, 0.0, true}; }
   /// gap_error at most 16 u L more than a length. @param length  at least 0
   static constexpr Accuracy within(double length) { return {0.0, length, false}; }
-  /// The same, of gaps up to a length alone: Accuracy::standard().up_to(0.1).
-  /// @param gap  the cutoff
+  /// The same, of gaps up to a length alone, whatever the cutoff was: standard().up_to(0.1).
+  /// @param gap  the cutoff, at least 0, asserted by the calls that take it
   constexpr Accuracy up_to(double gap) const { return {of_size, length, normals, gap}; }
 };
 

@@ -187,7 +187,7 @@ STRUCTS = (
         Field("length", "double", "length", "tolerance, >= 0"),
         Field("normals", "int", "", "not 0: normals and points to rounding too"),
         Field("has_cutoff", "int", "", "not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for "
-                                    "bodies by matrices"),
+                                    "bodies by matrices, and where size ends before cutoff"),
         Field("cutoff", "double", "length", ">= 0; not read where has_cutoff is 0"),
     )),
     Struct("contact_columns", "Answers of tangency_contacts().", _GAP + (

@@ -171,6 +171,9 @@ TEST(CErrors, OfSingleValues) {
   const tangency_accuracy limited{sizeof limited, 0, 0, 0, 1, kNan};
   expect_refused(two.contact(nullptr, nullptr, &limited), TANGENCY_BAD_ARGUMENT, kNoRow,
                  "accuracy.cutoff = nan: must be >= 0");
+  const tangency_accuracy cut_short{offsetof(tangency_accuracy, cutoff), 0, 0, 0, 1, 1};
+  expect_refused(two.contact(nullptr, nullptr, &cut_short), TANGENCY_BAD_ARGUMENT, kNoRow,
+                 "accuracy.has_cutoff: must be 0 where accuracy.size ends before cutoff");
   double level = 0;
   expect_refused(tangency_level_of_confidence(1.5, 3, &level), TANGENCY_BAD_ARGUMENT, kNoRow,
                  "confidence = 1.5: must be > 0 and < 1");

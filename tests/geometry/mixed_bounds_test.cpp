@@ -65,6 +65,7 @@ struct Derived {
   Wide value;               ///< (V'), or (V) where that is less: of a lane in double
   Wide step;                ///< (T) and (E) of the value
   Wide rest;                ///< half of what the error of the rest may gain: (B)
+  Wide ball;                ///< gap + rho, or less
   Wide sum() const { return value + step + rest; }
 };
 
@@ -134,14 +135,18 @@ Derived derived(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, const Gap
   const Newton at = newton_at(a, b, n);
   const Vec3 left = at.rest - at.k * (gap.normal - n);
   const Wide left2 = step > 0x1p-16L ? 0.75L * left.squaredNorm() : 0;
-  return {step, thin * step, kU * (by_mixed ? mixed : std::min(mixed, in_double)), of_step,
-          0.5L * (0.5625L * left2 + 4.5L * error * error) / ball};
+  return {step,
+          thin * step,
+          kU * (by_mixed ? mixed : std::min(mixed, in_double)),
+          of_step,
+          0.5L * (0.5625L * left2 + 4.5L * error * error) / ball,
+          ball};
 }
 
-/// The first tier of a batch, with a step before the last one whatever the tolerance: answers that
-/// are not its own are `local`.
-Columns stepped_once(detail::PairTask task, const std::vector<Vec3>& previous,
-                     const Accuracy& accuracy) {
+/// The first tier of a batch: answers that are not its own are `local`.
+/// @param stepped  with a step before the last one whatever the tolerance
+Columns first_tier(detail::PairTask task, const std::vector<Vec3>& previous,
+                   const Accuracy& accuracy, bool stepped) {
   task.previous_normals = previous.data();
   task.tolerance = accuracy.length;
   Columns answers(task.count);
@@ -150,7 +155,7 @@ Columns stepped_once(detail::PairTask task, const std::vector<Vec3>& previous,
     const std::size_t count = std::min(detail::kBlock, task.count - first);
     detail::gather(task, first, count, *work, nullptr);
     work->take_answers();
-    work->block.coarse = std::numeric_limits<double>::infinity();
+    if (stepped) work->block.coarse = std::numeric_limits<double>::infinity();
     const std::uint64_t settled = detail::mixed_gap_lanes(work->block);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t k = first + i;
@@ -207,11 +212,45 @@ void expect_bounds(const Followed& f, const Accuracy& accuracy, bool cold) {
       check(answers, false);
       signed_gaps(moving, apart, answers.all(), accuracy);
     } else {
-      answers = stepped_once({"follow_gaps", array, apart}, f.previous, accuracy);
+      answers = first_tier({"follow_gaps", array, apart}, f.previous, accuracy, true);
       check(answers, false);
-      answers = stepped_once({"follow_gaps", moving, apart}, f.previous, accuracy);
+      answers = first_tier({"follow_gaps", moving, apart}, f.previous, accuracy, true);
     }
     check(answers, false);
+  });
+}
+
+/// Lanes of a coarse tolerance, which answer at the normal that they are given: s = 0, e = r.
+void expect_bounds_without_a_step(const Followed& f, const Accuracy& accuracy) {
+  const Indexed in(f.pairs);
+  std::vector<Vec3> axes;
+  std::vector<Quaternion> turns;
+  for (const Ellipsoid& body : in.bodies)
+    axes.push_back(body.semi_axes()), turns.push_back(body.orientation());
+  const std::size_t count = f.previous.size();
+  const PairList apart{in.pairs, in.separations};
+  at_every_level([&] {
+    const BodyArray array(in.bodies);
+    const MovingBodies moving(axes, turns);
+    const auto check = [&](const Columns& answers) {
+      std::size_t lanes = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Gap gap = answers[i];
+        if (gap.status != GapStatus::ok) continue;
+        ++lanes;
+        const Ellipsoid &a = f.pairs.a[i], &b = f.pairs.b[i];
+        EXPECT_LE((gap.normal - f.previous[i].normalized()).norm(), 0x1p-22) << i;
+        const Derived terms = derived(a, b, gap.normal, gap, false, true);
+        const Wide r2 = newton_at(a, b, gap.normal).rest.squaredNorm();
+        const Wide least = terms.sum() + 0.5L * 0.5625L * r2 / terms.ball;
+        EXPECT_GE(gap.gap_error, least * (1 - 0x1p-10L)) << i;
+        const Gap single = follow_gap(a, b, in.separations[i], f.previous[i]);
+        EXPECT_LE(std::abs(gap.gap - single.gap), gap.gap_error + single.gap_error) << i;
+      }
+      EXPECT_GE(lanes, count / 3);
+    };
+    check(first_tier({"follow_gaps", array, apart}, f.previous, accuracy, false));
+    check(first_tier({"follow_gaps", moving, apart}, f.previous, accuracy, false));
   });
 }
 
@@ -303,6 +342,21 @@ TEST(MixedBounds, HaveTheRoundingsOfTheBallWhereItIsSmallest) {
             draw.power(-10, -7.5));
   }
   expect_bounds(f, Accuracy::within(0x1p-6), false);
+}
+
+// (L): every second pair is far away, the others are about as deep as the ball allows.
+TEST(MixedBounds, HaveAllOfTheRestWhereNoStepIsTaken) {
+  Followed f{{"no step", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 7)};
+  while (f.previous.size() < kCount) {
+    const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
+    const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
+    const double rho = a.least_radius() + b.least_radius();
+    const double gap =
+        f.previous.size() % 2 == 0 ? draw.power(-4, 8) : -rho * (1 - draw.power(-10, -4));
+    f.place(draw, a, b, draw.direction(), gap, draw.power(-12, -8));
+  }
+  expect_bounds_without_a_step(f, Accuracy::within(0x1p-4));
 }
 
 }  // namespace

@@ -119,6 +119,9 @@ Accuracy accuracy_of(const tangency_accuracy* accuracy) {
   if (!(given.length >= 0.0)) refuse_value("accuracy.length", given.length, "must be >= 0");
   const Accuracy every_pair{given.of_size, given.length, given.normals != 0};
   if (given.has_cutoff == 0) return every_pair;
+  // Else a caller that says no cutoff would have 0, which is one.
+  if (accuracy->size < sizeof given)
+    refuse("accuracy.has_cutoff", "must be 0 where accuracy.size ends before cutoff");
   if (!(given.cutoff >= 0.0)) refuse_value("accuracy.cutoff", given.cutoff, "must be >= 0");
   return every_pair.up_to(given.cutoff);
 }

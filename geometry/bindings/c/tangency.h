@@ -272,7 +272,7 @@ typedef struct tangency_accuracy {
   int normals;
   /**
    * not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for bodies by
-   * matrices
+   * matrices, and where size ends before cutoff
    */
   int has_cutoff;
   /** >= 0; not read where has_cutoff is 0 (unit: length) */

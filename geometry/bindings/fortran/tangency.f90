@@ -192,7 +192,7 @@ module tangency
     ! not 0: normals and points to rounding too
     integer(c_int) :: normals = 0_c_int
     ! not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for bodies by
-    ! matrices
+    ! matrices, and where size ends before cutoff
     integer(c_int) :: has_cutoff = 0_c_int
     ! >= 0; not read where has_cutoff is 0 (unit: length)
     real(c_double) :: cutoff = 0.0_c_double
