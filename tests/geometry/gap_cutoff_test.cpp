@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <span>
@@ -30,8 +31,11 @@ using testing::kSeed;
 using testing::same_bits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of the smaller of a pair's smallest semi-axes would do; the families are of about that size.
+// A length. The bodies that are asked about are of sizes about 1.
 constexpr double kCutoff = 0.125;
+// A touch, the smallest length, an ordinary one, one that no lane takes, and one that no gap is
+// above.
+constexpr double kCutoffs[] = {0.0, 5e-324, kCutoff, 1e30, std::numeric_limits<double>::max()};
 
 const std::vector<std::pair<std::string, Accuracy>>& points() {
   static const std::vector<std::pair<std::string, Accuracy>> all = {
@@ -43,35 +47,31 @@ const std::vector<std::pair<std::string, Accuracy>>& points() {
 }
 
 /// Pairs of a family, B moved along the normal until the gap is about the cutoff and what is drawn
-/// by its logarithm, of either sign: from a rounding to ten times the bodies.
-Family about_the_cutoff(const Family& from, std::size_t most) {
+/// by its logarithm, of either sign: from a rounding to ten times the bodies, or the cutoff where
+/// that is more. About the largest double nothing can be placed: pairs are apart by 1 there.
+Family about_the_cutoff(const Family& from, std::size_t most, double cutoff = kCutoff) {
   Family to{from.name, {}, {}};
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> power(-17.0, 1.0);
+  const double about = cutoff < 1e300 ? cutoff : 1.0;
   for (std::size_t i = 0; i < std::min(most, from.a.size()); ++i) {
     const Gap now = signed_gap(from.a[i], from.b[i]);
-    const double off = std::pow(10.0, power(random)) * (i % 2 == 0 ? 1.0 : -1.0);
+    const double size = std::max(1.0, about);
+    const double off = std::pow(10.0, power(random)) * (i % 2 == 0 ? size : -size);
     to.a.push_back(from.a[i]);
-    to.b.push_back(from.b[i].moved_to(from.b[i].centre() + (kCutoff + off - now.gap) * now.normal));
+    to.b.push_back(from.b[i].moved_to(from.b[i].centre() + (about + off - now.gap) * now.normal));
   }
   return to;
 }
 
-const std::vector<Family>& families() {
-  static const std::vector<Family> all = [] {
-    std::vector<Family> some;
-    for (const Family& f : testing::drawn_families()) {
-      // Of lengths far from 1 one side of the cutoff is empty.
-      const double size = f.a[0].largest_semi_axis();
-      if (size > 0x1p-10 && size < 0x1p10) some.push_back(about_the_cutoff(f, 150));
-    }
-    return some;
-  }();
-  return all;
+/// Of lengths far from 1 one side of a cutoff is empty.
+bool is_of_size_one(const Family& f) {
+  const double size = f.a[0].largest_semi_axis();
+  return size > 0x1p-10 && size < 0x1p10;
 }
 
-/// The same pairs in every form that the calls take, with normals of a moment ago; of every third
-/// pair there is none.
+/// The same pairs in every form that the calls take, with previous normals in turn: none, one of a
+/// moment ago, one that is far off.
 struct Forms {
   explicit Forms(const Family& f) : family(f), in(f), array(in.bodies) {
     for (const Ellipsoid& body : in.bodies) {
@@ -80,9 +80,10 @@ struct Forms {
     }
     moving = MovingBodies(semi_axes, orientations);
     for (std::size_t i = 0; i < f.a.size(); ++i) {
-      const Vec3 n = signed_gap(f.a[i], f.b[i]).normal;
-      const Vec3 turned = n + 1e-4 * Vec3(0.3, -0.5, 0.8).cross(n);
-      previous.push_back(i % 3 == 0 ? Vec3(Vec3::Zero()) : turned);
+      const Vec3 n = signed_gap(f.a[i], f.b[i]).normal, off = Vec3(0.3, -0.5, 0.8).cross(n);
+      const double by = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 1e-4 : 3.0;
+      previous.push_back(i % 3 == 0 ? Vec3(Vec3::Zero()) : Vec3(0x1p40 * (n + by * off)));
+      floats.push_back(previous.back().cast<float>());
     }
   }
   std::size_t size() const { return in.pairs.size(); }
@@ -92,6 +93,7 @@ struct Forms {
   Indexed in;
   BodyArray array;
   std::vector<Vec3> semi_axes, previous;
+  std::vector<Vec3f> floats;  ///< previous, rounded
   std::vector<Quaternion> orientations;
   MovingBodies moving;
 };
@@ -119,6 +121,18 @@ const std::vector<std::pair<std::string, Ask>>& calls() {
          std::vector<Gap> gaps(f.size());
          signed_gaps(f.family.a, f.family.b, gaps, accuracy);
          return gaps;
+       }},
+      {"moving",
+       [](const Forms& f, Accuracy accuracy) {
+         return by_columns(
+             f, [&](const GapColumns& to) { signed_gaps(f.moving, f.apart(), to, accuracy); });
+       }},
+      {"normals written where they are read",
+       [](const Forms& f, Accuracy accuracy) {
+         return by_columns(f, [&](const GapColumns& to) {
+           std::ranges::copy(f.previous, to.normal.begin());
+           follow_gaps(f.array, f.apart(), to.normal, to, accuracy);
+         });
        }},
       {"followed array",
        [](const Forms& f, Accuracy accuracy) {
@@ -151,27 +165,40 @@ bool expect_kept(const Gap& limited, const Gap& whole, double cutoff) {
   return true;
 }
 
-// geometry/gap_batch.hpp (9)
-TEST(GapCutoff, PairsBeyondAreAboveTheirBoundAndTheOthersAreToTheBitAsWithoutOne) {
-  for (const Family& family : families()) {
-    const Forms forms(family);
-    std::ptrdiff_t beyond = 0, within = 0;
-    at_every_level([&] {
-      for (const auto& [point, accuracy] : points()) {
-        for (const auto& [call, ask] : calls()) {
-          SCOPED_TRACE(family.name + ", " + call + ", " + point);
-          const std::vector<Gap> whole = ask(forms, accuracy);
-          const std::vector<Gap> limited = ask(forms, accuracy.up_to(kCutoff));
-          for (std::size_t i = 0; i < forms.size(); ++i) {
-            SCOPED_TRACE(i);
-            ++(expect_kept(limited[i], whole[i], kCutoff) ? beyond : within);
-          }
+/// At every level, point and call.
+/// @return  how many answers are beyond, and how many are not
+std::pair<std::ptrdiff_t, std::ptrdiff_t> expect_all_kept(const Forms& forms, double cutoff) {
+  std::ptrdiff_t beyond = 0, within = 0;
+  at_every_level([&] {
+    for (const auto& [point, accuracy] : points()) {
+      for (const auto& [call, ask] : calls()) {
+        SCOPED_TRACE(call + ", " + point);
+        const std::vector<Gap> whole = ask(forms, accuracy);
+        const std::vector<Gap> limited = ask(forms, accuracy.up_to(cutoff));
+        for (std::size_t i = 0; i < forms.size(); ++i) {
+          SCOPED_TRACE(i);
+          ++(expect_kept(limited[i], whole[i], cutoff) ? beyond : within);
         }
       }
-    });
-    EXPECT_GT(beyond, 0) << family.name;
-    EXPECT_GT(within, 0) << family.name;
+    }
+  });
+  return {beyond, within};
+}
+
+// geometry/gap_batch.hpp (9)
+TEST(GapCutoff, PairsBeyondAreAboveTheirBoundAndTheOthersAreToTheBitAsWithoutOne) {
+  std::size_t turn = 0;
+  for (const Family& family : testing::drawn_families()) {
+    if (!is_of_size_one(family)) continue;
+    for (const double cutoff : {kCutoff, kCutoffs[turn++ % std::size(kCutoffs)]}) {
+      const Forms forms(about_the_cutoff(family, cutoff == kCutoff ? 40 : 10, cutoff));
+      SCOPED_TRACE(family.name + ", " + std::to_string(cutoff));
+      const auto [beyond, within] = expect_all_kept(forms, cutoff);
+      EXPECT_EQ(beyond > 0, cutoff < 1e300);
+      EXPECT_GT(within, 0);
+    }
   }
+  EXPECT_GE(turn, std::size(kCutoffs));
 }
 
 // geometry/gap_batch.hpp (2): other pairs leave a block, other pairs fill it.
@@ -194,26 +221,37 @@ TEST(GapCutoff, AnAnswerDoesNotDependOnTheOrderNorOnTheNumberOfThePairs) {
 }
 
 TEST(GapCutoff, FloatColumnsHaveALowerBoundThatIsNoHigherThanTheDoubleOne) {
-  const Forms forms(about_the_cutoff(testing::contacts(verify::contact_classes()[0], 300), 300));
-  at_every_level([&] {
-    for (const auto& [point, accuracy] : points()) {
-      SCOPED_TRACE(point);
-      std::vector<Gap> doubles(forms.size());
-      std::vector<float> gap(forms.size()), error(forms.size());
-      std::vector<GapStatus> status(forms.size());
-      const Accuracy limited = accuracy.up_to(kCutoff);
-      signed_gaps(forms.array, {forms.in.pairs, {}}, doubles, limited);
-      signed_gaps(forms.array, {forms.in.pairs, {}},
-                  FloatGapColumns{.gap = gap, .gap_error = error, .status = status}, limited);
-      for (std::size_t i = 0; i < forms.size(); ++i) {
-        ASSERT_EQ(status[i], doubles[i].status) << i;
-        if (status[i] != GapStatus::beyond) continue;
-        EXPECT_LE(static_cast<double>(gap[i]), doubles[i].gap) << i;
-        EXPECT_GE(static_cast<double>(gap[i]), doubles[i].gap * (1 - 0x1p-22)) << i;
-        EXPECT_EQ(error[i], std::numeric_limits<float>::infinity()) << i;
+  const Family family = testing::contacts(verify::contact_classes()[0], 100);
+  for (const double cutoff : kCutoffs) {
+    const Forms forms(about_the_cutoff(family, 100, cutoff));
+    std::vector<Vec3> normals;
+    for (const Vec3f& n : forms.floats) normals.push_back(n.cast<double>());
+    at_every_level([&] {
+      for (const auto& [point, accuracy] : points()) {
+        SCOPED_TRACE(point + ", " + std::to_string(cutoff));
+        std::vector<Gap> doubles(forms.size());
+        std::vector<float> gap(forms.size()), error(forms.size());
+        std::vector<GapStatus> status(forms.size());
+        const FloatGapColumns floats{.gap = gap, .gap_error = error, .status = status};
+        const Accuracy limited = accuracy.up_to(cutoff);
+        const auto check = [&] {
+          for (std::size_t i = 0; i < forms.size(); ++i) {
+            ASSERT_EQ(status[i], doubles[i].status) << i;
+            if (status[i] != GapStatus::beyond) continue;
+            EXPECT_LE(static_cast<double>(gap[i]), doubles[i].gap) << i;
+            EXPECT_GE(static_cast<double>(gap[i]), doubles[i].gap * (1 - 0x1p-22)) << i;
+            EXPECT_EQ(error[i], std::numeric_limits<float>::infinity()) << i;
+          }
+        };
+        signed_gaps(forms.array, {forms.in.pairs, {}}, doubles, limited);
+        signed_gaps(forms.array, {forms.in.pairs, {}}, floats, limited);
+        check();
+        follow_gaps(forms.array, forms.apart(), normals, doubles, limited);
+        follow_gaps(forms.array, forms.apart(), forms.floats, floats, limited);
+        check();
       }
-    }
-  });
+    });
+  }
 }
 
 TEST(GapCutoff, BoundedGapsKnowNothingAboveOfAPairBeyond) {
