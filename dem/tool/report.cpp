@@ -45,9 +45,7 @@ svg text.stage { fill: #667; font-size: 11px; }
 /// Chosen: rounding leaves 1e-12, a shear test starts where stresses differ at some 1e-3.
 constexpr double kLeastDistortion = 1e-3;
 
-std::string shown(double x, const char* format = "%.4g") {
-  return std::isfinite(x) ? tables::formatted(format, x) : "-";
-}
+std::string shown(double x, const char* format = "%.4g") { return tables::formatted(format, x); }
 
 struct Headed {
   std::string name, unit;
