@@ -71,7 +71,7 @@ TEST(Explanation, EveryKindOfFaultSaysWhatWasAnswered) {
               "} $1 == 4 { $13 = 1e-300 } $1 != 5 { print }"),
       "near", {"--max-gap-error", "1e-12"});
   for (const char* text : {"row 1: gap = 7, true is ", " L\n",
-                           "row 2: relation = none, which cannot be read\n", ": the other way\n",
+                           "row 2: relation = none, which is no answer\n", ": the other way\n",
                            "row 4: gap_error = 1e-300, but the error is ", "row 5: no answer\n"}) {
     EXPECT_TRUE(report.says(text)) << text << '\n' << report.run.out;
   }
