@@ -35,6 +35,9 @@ using Vec3f = Eigen::Vector3f;
 /// The sign of gap is that of the double one, and so of the exact relation: where the nearest float
 /// would be 0 and the gap is not, the smallest float of its sign stands there, 2^-149, a subnormal
 /// (which is 0 to a caller whose processor flushes those). 0 is an external touch.
+///
+/// Of a pair `beyond` a cutoff the gap is the lower bound rounded down instead: no higher than the
+/// true gap, finite, and by its rounding perhaps 0 or not above the cutoff.
 struct FloatGapColumns {
   /// Gap::gap. Infinite, of its sign, beyond the range of floats.
   std::span<float> gap = {};

@@ -35,7 +35,8 @@ void overlaps(const BodyArray& bodies, const PairList& list, std::span<std::uint
               int threads = 1) noexcept;
 
 /// overlaps_by_filter() of every pair: nothing where only the exact tier would know. In bounded
-/// time, and allocates nothing but for threads.
+/// time, and allocates nothing but for threads. An answer is that of the single call; near a touch
+/// lanes may know what it does not, or the other way round, and which may depend on the list.
 void overlaps_by_filter(const BodyArray& bodies, const PairList& list,
                         std::span<std::optional<bool>> answers, int threads = 1) noexcept;
 

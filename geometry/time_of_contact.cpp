@@ -88,7 +88,7 @@ int exponent_of_path(const Motion& motion, int time) {
 }
 
 /// The pair in units of length and time, powers of two, in which squares of what is on the way do
-/// not overflow, nor those of bodies underflow that are not 2^-1000 of it.
+/// not overflow, and bodies are no smaller than the start can be seen in.
 struct Problem {
   MovingPair pair;
   double horizon, tolerance;
@@ -101,14 +101,21 @@ Problem problem(const Ellipsoid& a, const Motion& motion_a, const Ellipsoid& b,
   const auto start = detail::scaled_pair<Ellipsoid>({a, b});
   constexpr int kLongest = 500;  // of the way
   constexpr int kWidest = 100;   // rad, of a turn: rounding hides it from 2^46 on
+  constexpr double kLeast = std::numeric_limits<double>::min();
   const int time = horizon > 0.0 ? exponent_of(horizon) : 0;
+  const int path = std::max(exponent_of_path(motion_a, time), exponent_of_path(motion_b, time));
+  const int way = std::max(start.exponent, path - kLongest);
+  constexpr double kSeen = 0x1p60 * kLeast;  // chosen: what is subnormal of d is below u of it
+  const auto seen = [&](const Ellipsoid& e) {
+    return way == start.exponent ||
+           scaled_by_power(e.semi_axes(), start.exponent - way).minCoeff() >= kSeen;
+  };
   const bool within = exponent_of(motion_a.angular_velocity) + time < kWidest &&
-                      exponent_of(motion_b.angular_velocity) + time < kWidest;
+                      exponent_of(motion_b.angular_velocity) + time < kWidest && seen(start.a) &&
+                      seen(start.b);
   const Motion &by_a = within ? motion_a : Motion{}, &by_b = within ? motion_b : Motion{};
-  const int path = std::max(exponent_of_path(by_a, time), exponent_of_path(by_b, time));
-  const int length = std::max(start.exponent, path - kLongest), shift = start.exponent - length;
+  const int length = within ? way : start.exponent, shift = start.exponent - length;
   const auto body = [&](const Ellipsoid& e) {
-    constexpr double kLeast = std::numeric_limits<double>::min();
     return Ellipsoid(Vec3::Zero(), scaled_by_power(e.semi_axes(), shift).cwiseMax(kLeast),
                      e.orientation());
   };

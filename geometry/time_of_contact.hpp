@@ -60,8 +60,9 @@ struct TimeOfContact {
 /// slower than 2 resolution / tolerance, or a start that is apart by less. A pass whose least gap
 /// is above `resolution` is `none`.
 ///
-/// Any scale of lengths and times. Of a body that turns by 2^100 rad or more within the horizon
-/// nothing is known beyond the start, and the status is `not_converged` or `touching_at_start`.
+/// Any scale of lengths and times. Of a body that turns by 2^100 rad or more within the horizon, or
+/// that moves by more than 2^1400 times a semi-axis, nothing is known beyond the start, and the
+/// status is `not_converged` or `touching_at_start`.
 ///
 /// Does not allocate, but where only the exact relation can tell a start or a pass from a touch.
 /// @param a,b  the bodies, in this order

@@ -42,8 +42,7 @@ HWY_INLINE FloatMask far_at(const FloatPairs& pairs, const FloatLook& at, const 
   return to_float(far);
 }
 
-/// A step uphill, of the mean radius of curvature: quicker than the start of Perram and Wertheim,
-/// and for a bound nearly as good.
+/// A step uphill, of the mean radius of curvature; for a bound any unit vector does (k).
 HWY_INLINE FloatVec3 uphill(const FloatPairs& pairs, const FloatVec3& n, const FloatLook& at) {
   const auto twice_radius =
       [](const FloatSymmetric3& shape, const FloatVec3& point, const FloatPack& inverse_h)

@@ -72,7 +72,8 @@ struct LaneBlock {
   /// Of L: pairs of a tolerance from here on take one step less at first, which is mostly enough.
   /// Measured.
   double coarse = 0x1p-24;
-  /// Of float_overlap_lanes() before anything is proven: no answer depends on it, but its time.
+  /// Of float_overlap_lanes() before anything is proven: no yes or no depends on it, but its time,
+  /// and what is left open.
   int yes_no_steps = 0;
   bool polish = false;  ///< one step more than the gap needs, for the normal's sake
   /// May a normal of a moment ago be followed to where more than one of them may be best? Asked

@@ -232,6 +232,31 @@ TEST(TimeOfContact, DoesNotChangeWithAPowerOfTwoUnitOfTimeOrLength) {
   }
 }
 
+void expect_gap_at_start(const TimeOfContact& found, const Ellipsoid& a, const Ellipsoid& b) {
+  const Gap start = signed_gap(a, b);
+  EXPECT_LE(std::abs(found.gap.gap - start.gap), found.gap.gap_error + start.gap_error);
+  EXPECT_NE(found.status, Status::contact);  // none of these is in contact at once
+}
+
+TEST(TimeOfContact, BodiesThatAreLostOnTheirWayAreSeenAtTheStart) {
+  const Ellipsoid a({0, 0, 0}, {1, 2, 3}), b({10, 0, 0}, {1, 1, 2});
+  const Vec3 across(1, 1, 1);
+  const TimeOfContact fast =
+      time_of_contact(a, flight(1e308 * across), b, flight({0, 0, 0}), 1e308, 1e-9);
+  EXPECT_EQ(fast.status, Status::not_converged);
+  expect_gap_at_start(fast, a, b);
+  const TimeOfContact slow =
+      time_of_contact(a, flight(1e160 * across), b, flight({0, 0, 0}), 1e299, 1e-9);
+  EXPECT_EQ(slow.status, Status::not_converged);
+  expect_gap_at_start(slow, a, b);
+  const Ellipsoid grain({0, 0, 0}, 1e-300 * Vec3(1, 2, 3)),
+      other({1e-299, 0, 0}, {1e-300, 1e-300, 2e-300});
+  const TimeOfContact away =
+      time_of_contact(grain, flight({-1e200, 0, 0}), other, flight({0, 0, 0}), 1, 1e-6);
+  EXPECT_EQ(away.status, Status::not_converged);
+  expect_gap_at_start(away, grain, other);
+}
+
 TEST(TimeOfContact, OfAnyFiniteMotionsIsAStatusThatHolds) {
   constexpr double kMost = std::numeric_limits<double>::max();
   const Ellipsoid a({0, 0, 0}, {1, 0.1, 0.5});
@@ -250,6 +275,7 @@ TEST(TimeOfContact, OfAnyFiniteMotionsIsAStatusThatHolds) {
         EXPECT_TRUE(found.time >= 0.0 && found.time <= found.latest && found.latest <= horizon)
             << which << ' ' << horizon << ' ' << found.time << ' ' << found.latest;
         EXPECT_GE(found.resolution, 0.0) << which << ' ' << horizon;  // and a number
+        if (found.time == 0.0) expect_gap_at_start(found, a, b);
         if (which != 0 && horizon != 0.0) continue;
         EXPECT_EQ(found.status,
                   b.centre().x() == 2 ? Status::touching_at_start : Status::none);  // at rest

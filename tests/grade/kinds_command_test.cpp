@@ -112,12 +112,17 @@ TEST(GradeKinds, APairThatIsListedTwiceIsAFault) {
 
 // Answers rounded to float are off by half of a unit at most, where none is deeper than L.
 TEST(GradeKinds, FloatsAreGradedInTheirOwnUnit) {
-  const Report rounded = grade_tool(
-      asked("contact", "NR > 1 { $3 = sprintf(\"%.8g\", $3) } { print $1, $2, $3 }"), "float32");
+  const Report rounded =
+      grade_tool(asked("contact",
+                       "NR > 1 { for (k = 3; k < 7; ++k) $k = sprintf(\"%.8g\", $k) } "
+                       "{ print $1, $2, $3, $4, $5, $6 }"),
+                 "float32");
   EXPECT_EQ(rounded.run.status, 0) << rounded.run.out;
-  const double largest = rounded.value("float32/all/gap error, largest");
-  EXPECT_LT(largest, 1);
-  EXPECT_GT(largest, 1e-3);
+  for (const char* name : {"gap", "normal"}) {
+    const double largest = rounded.value("float32/all/" + std::string(name) + " error, largest");
+    EXPECT_LT(largest, 1) << name;
+    EXPECT_GT(largest, 1e-3) << name;
+  }
   EXPECT_TRUE(rounded.says("gap error / 2^-24 L"));
 }
 

@@ -26,12 +26,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::string shown(double value, const char* format) { return tables::formatted(format, value); }
-
 // Both values, with as many digits as tell them apart.
 std::string both(const std::string& name, double now, double before) {
   for (const char* format : {"%.4g", "%.17g"}) {
-    const std::string a = shown(now, format), b = shown(before, format);
+    const std::string a = tables::formatted(format, now);
+    const std::string b = tables::formatted(format, before);
     if (a != b || format[2] == '1') return name + ": " + a + ", was " + b;
   }
   return name;
