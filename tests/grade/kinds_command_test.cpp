@@ -126,6 +126,34 @@ TEST(GradeKinds, FloatsAreGradedInTheirOwnUnit) {
   EXPECT_TRUE(rounded.says("gap error / 2^-24 L"));
 }
 
+TEST(GradeKinds, JsonCountsWhatTheRowsOfAKindAre) {
+  const auto unit = [](const std::string& corpus, const std::string& count) {
+    const Report report = grade_tool("true", corpus);
+    for (const auto& entry : report.values) {
+      if (entry.at("name") == corpus + "/all/" + count) return entry.at("unit").get<std::string>();
+    }
+    return std::string("none");
+  };
+  for (const char* corpus : {"near", "ellipses", "matrices", "float32"}) {
+    EXPECT_EQ(unit(corpus, "pairs"), "pairs") << corpus;
+  }
+  for (const char* corpus : {"quadrics", "points", "walls", "rays", "times"}) {
+    EXPECT_EQ(unit(corpus, "pairs"), "rows") << corpus;
+    EXPECT_EQ(unit(corpus, "missing answers"), "rows") << corpus;
+  }
+  EXPECT_EQ(unit("neighbours", "pairs"), "bodies");
+  EXPECT_EQ(unit("neighbours", "missing answers"), "pairs");
+}
+
+TEST(GradeKinds, TheHelpNamesTheCommandAndTheErrorsOfEveryKind) {
+  const std::string help = run_tool({"grade", "--help"}).out;
+  for (const char* text :
+       {"`tangency contact`", "`ellipse`", "`classify`", "`point`", "`wall`", "`ray`", "`time`",
+        "`neighbours`", "t error", "time error", "area error", "2^-24", "i j ix iy iz"}) {
+    EXPECT_NE(help.find(text), std::string::npos) << text;
+  }
+}
+
 TEST(GradeKinds, AToolThatAnswersPairsIsAskedForNoOtherKind) {
   const Report report = grade({"--tool", kKernel});
   EXPECT_EQ(report.run.status, 0);

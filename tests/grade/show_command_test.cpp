@@ -158,6 +158,38 @@ TEST(ShowCommand, TheLammpsBoxHoldsBothBodiesAndShapesAreDiameters) {
   EXPECT_GT(std::stod(box[2]), -0.9766655287279431 + 1.7483018257818994);
 }
 
+TEST(ShowCommand, EveryKindIsShownWithItsAnswerAndSaysWhatItHasNot) {
+  for (const auto& [corpus, call, truth] :
+       {std::tuple("points", "point", "  gap          2.41"), std::tuple("walls", "wall", "a_in_b"),
+        std::tuple("rays", "ray", "  t1 "), std::tuple("times", "time", "  earliest "),
+        std::tuple("matrices", "contact", "  m.size ")}) {
+    const std::string text =
+        shown({corpus, "3", "--tool", TANGENCY_CONTACT " " + std::string(call)});
+    EXPECT_TRUE(holds(text, truth)) << text;
+    EXPECT_TRUE(holds(text, "\nanswered\n")) << text;
+    EXPECT_TRUE(holds(text, "\nnothing of it is wrong\n")) << text;
+    EXPECT_TRUE(holds(text, "\nThere is no other code: ")) << text;
+    EXPECT_FALSE(holds(text, "--- cpp")) << text;
+  }
+  EXPECT_TRUE(holds(shown({"float32", "3", "--tool", kKernel}), "--- cpp"));
+}
+
+// Both are asked for a pair from either side: 3 is the first body of it, 13 the second.
+TEST(ShowCommand, ABodyOfAListHasThePairsThatItIsIn) {
+  const std::string tool = TANGENCY_CONTACT " neighbours --periodic 80,16,8";
+  for (const char* body : {"3", "13"}) {
+    const std::string text = shown({"neighbours-periodic", body, "--tool", tool});
+    EXPECT_TRUE(holds(text, "\ntrue\n  i 3 j 13 ix 0 iy 0 iz 0 relation overlap\n")) << text;
+    EXPECT_TRUE(holds(text, "\nanswered\n  i 3 j 13 ix 0 iy 0 iz 0\n")) << text;
+    EXPECT_TRUE(holds(text, "\nThis is one body of a list; ")) << text;
+  }
+  const std::string less = shown({"neighbours-periodic", "3", "--tool", "echo i,j,ix,iy,iz"});
+  EXPECT_TRUE(holds(less,
+                    "\nanswered\n  no pair with this body\nwrong\n"
+                    "  missing-answer: no j ix iy iz = 13 0 0 0\n"))
+      << less;
+}
+
 TEST(ShowCommand, RefusesWhatItCannotShow) {
   const TemporaryFolder folder;
   const auto refusal = [](std::vector<std::string> arguments) {
@@ -173,6 +205,8 @@ TEST(ShowCommand, RefusesWhatItCannotShow) {
   EXPECT_TRUE(holds(refusal({"near", "1", "--as", "cobol"}), "cobol"));
   EXPECT_TRUE(holds(refusal({"quadrics", "1", "--as", "cpp"}), "has no code but csv"));
   EXPECT_TRUE(holds(refusal({"quadrics", "1", "--svg", folder.path("x.svg")}), "has no picture"));
+  EXPECT_TRUE(holds(refusal({"times", "1", "--as", "cpp"}), "has no code but csv"));
+  EXPECT_TRUE(holds(refusal({"times", "1", "--svg", folder.path("x.svg")}), "has no picture"));
   EXPECT_TRUE(holds(refusal({"near", "1", "--tool", "true", "--answers", "x"}), "exclude"));
   EXPECT_TRUE(holds(refusal({"near", "1", "--svg", "/none/x.svg"}), "/none/x.svg: "));
   EXPECT_EQ(folder.names(), std::vector<std::string>{});
