@@ -185,7 +185,7 @@ Neighbours neighbours(std::span<const MatrixEllipsoid> bodies, const NeighbourQu
   }
   NeighbourQuestion wider = question;  // all whose true bodies may be within the reach
   wider.answers = NeighbourAnswers::pairs;
-  if (wider.reach >= 0.0) wider.reach += 2.0 * rounding * (1.0 + 0x1p-50);
+  if (wider.reach >= 0.0) wider.reach = (wider.reach + 2.0 * rounding) * (1.0 + 0x1p-50);
   const std::vector<NearPair> candidates = neighbours(rounded, wider).pairs;
 
   const Mat3& edges = question.lattice.edges;

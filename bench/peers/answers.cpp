@@ -36,7 +36,8 @@ using Peers = std::vector<std::unique_ptr<Peer>>;
 
 Peers graded_peers() {
   Peers peers = all_peers();
-  std::ranges::move(plain_perram_wertheim_peers(), std::back_inserter(peers));
+  for (auto* without_library : {&plain_perram_wertheim_peers, &bounding_spheres_peers})
+    std::ranges::move(without_library(), std::back_inserter(peers));
   return peers;
 }
 

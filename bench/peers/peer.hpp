@@ -83,12 +83,14 @@ class Peer {
 /// PeerDescription::call of Simbody's own way to a contact, which this library is measured against.
 inline constexpr const char* kSimbodyTracker = "ConvexImplicitPair::trackContact";
 
-/// Each with its default options first and then the tightest useful ones.
+/// Each with its default options first and then the tightest useful ones; none where the library
+/// was not installed when this was built.
 std::vector<std::unique_ptr<Peer>> simbody_peers();
 std::vector<std::unique_ptr<Peer>> fcl_peers();
 std::vector<std::unique_ptr<Peer>> mujoco_peers();
 std::vector<std::unique_ptr<Peer>> all_peers();
-/// No library, and none of all_peers(): the loop that simulation codes write for themselves.
+/// No libraries, and none of all_peers(): what simulation codes write for themselves.
 std::vector<std::unique_ptr<Peer>> plain_perram_wertheim_peers();
+std::vector<std::unique_ptr<Peer>> bounding_spheres_peers();
 
 }  // namespace tangency::peers

@@ -128,10 +128,17 @@ class Run {
   }
 
  private:
-  /// What the assembly was given since the run began: by its boundary, by gravity and by growth.
+  /// What the assembly was given since the run began: by its boundary, by gravity and by growth, of
+  /// each the largest of any row up to there. What goes to and fro comes to nothing in the end.
   double work_done(std::size_t row) const {
-    return std::abs(value("boundary_work", row)) + std::abs(value("gravity_work", row)) +
-           std::abs(value("growth_work", row));
+    double sum = 0.0;
+    for (const char* name : {"boundary_work", "gravity_work", "growth_work"}) {
+      double largest = 0.0;
+      for (const double work : history_.column(name).first(row + 1))
+        largest = std::max(largest, std::abs(work));
+      sum += largest;
+    }
+    return sum;
   }
 
   /// A plane assembly has no stress across its plane.

@@ -71,7 +71,7 @@ bool is_of_row(const Simulation& simulation, const History& history, std::size_t
         },
         field.value);
     const double in_row = history.column(field.name)[row];
-    if (in_row != value && !(std::isnan(in_row) && std::isnan(value))) return false;
+    if (in_row != value && (std::isfinite(in_row) || std::isfinite(value))) return false;
   }
   return true;
 }

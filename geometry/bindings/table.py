@@ -186,7 +186,8 @@ STRUCTS = (
         Field("of_size", "double", "1", "tolerance in parts of the size of the pair, >= 0"),
         Field("length", "double", "length", "tolerance, >= 0"),
         Field("normals", "int", "", "not 0: normals and points to rounding too"),
-        Field("has_cutoff", "int", "", "not 0: no answer is wanted of pairs whose gap is above cutoff"),
+        Field("has_cutoff", "int", "", "not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for "
+                                    "bodies by matrices"),
         Field("cutoff", "double", "length", ">= 0; not read where has_cutoff is 0"),
     )),
     Struct("contact_columns", "Answers of tangency_contacts().", _GAP + (
@@ -430,7 +431,7 @@ FUNCTIONS = (
     Function("perram_wertheim_factors", "The Perram-Wertheim contact function.",
              (_BODIES,) + _PAIRS + (_answers("factor_columns"), _THREADS)),
     Function("gap_derivatives", "First and second derivatives of the gap. Of a body by a matrix those by its "
-                                "semi-axes are NaN.", (_BODIES,) + _PAIRS + (
+                                "semi-axes are NaN. A pair beyond a cutoff is degenerate.", (_BODIES,) + _PAIRS + (
         Argument("normals", "double[3]", "of tangency_contacts() for the same pairs", "1"),
         Argument("statuses", "int[]", "of tangency_contacts() for the same pairs"),
         _answers("derivative_columns"), _THREADS)),

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Usage: adopts.sh SOURCE TANGENCY_VERIFY WORK
+# Usage: adopts.sh SOURCE TANGENCY_VERIFY WORK [built]
 # A project that knows nothing of this one adopts the grader by the lines of docs/grading.md alone, in its
 # CTest and in its workflow. It has a fault: both go red, and say why; the fault is mended: both go
-# green.
+# green. With `built` the step has no TANGENCY_VERIFY and builds the grader, as in the documented workflow.
 set -euo pipefail
 source=$1 verify=$2 work=$3
+of_the_step=$verify
+[ "${4:-}" != built ] || of_the_step=
 page=$source/docs/grading.md
 fail() { echo "$*"; exit 1; }
 rm -rf "$work"
@@ -39,7 +41,7 @@ ctest_is() {
 step_is() {
   local status=0
   rm -rf contact-grade summary
-  env GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY="$work/summary" GRADE_BINARY="$verify" \
+  env GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY="$work/summary" GRADE_BINARY="$of_the_step" \
       GRADE_TOOL="$(input tool)" GRADE_OPTIONS="$(input options)" \
       "$source/.github/actions/grade/grade.sh" >graded 2>&1 || status=$?
   [ "$status" = "$2" ] || { tail -n 20 graded; fail "the step ends with $status, not $2"; }
@@ -56,6 +58,13 @@ sed -i 's/w = -q\[0\]/w = q[0]/' my_contact.cpp
 ctest_is green
 step_is passed: 0
 ! grep -q '^::error ' graded || fail "the step that passes has an annotation"
+# A step that is refused shows nothing of the grade before it.
+status=0
+rm -f summary
+env GITHUB_STEP_SUMMARY="$work/summary" GRADE_BINARY="$of_the_step" GRADE_TOOL="$(input tool)" GRADE_OPTIONS="--corpus nowhere" \
+    "$source/.github/actions/grade/grade.sh" >refused 2>&1 || status=$?
+[ "$status" = 2 ] || { cat refused; fail "a corpus that is not there ends the step with $status, not 2"; }
+[ ! -s summary ] && [ -z "$(ls contact-grade)" ] || fail "a step that is refused shows an earlier grade"
 
 # Every name that the action's step reads is an input, every input is read, and each goes to the variable of its name.
 action=$source/.github/actions/grade/action.yml

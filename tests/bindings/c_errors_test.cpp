@@ -120,7 +120,7 @@ TEST(CErrors, OfPairsSeparationsAndNormals) {
                                           &two.derivatives, 1),
                  TANGENCY_BAD_ROW, 0,
                  "statuses: row 0: status = 7: must be "
-                 "TANGENCY_STATUS_OK or TANGENCY_STATUS_LOCAL");
+                 "TANGENCY_STATUS_OK, TANGENCY_STATUS_LOCAL or TANGENCY_STATUS_BEYOND");
 }
 
 TEST(CErrors, OfOtherThings) {

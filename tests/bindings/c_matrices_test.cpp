@@ -3,6 +3,7 @@
 // errors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -71,6 +72,13 @@ TEST(CMatrices, BallsAreThoseOfTheAxes) {
     to.gap = gap, to.gap_error = error;
     return tangency_balls(c, balls, 2, meetings.data(), kBodies, &to, 1);
   });
+  const CBodies matrices(TANGENCY_FORM_SHAPE, both.shapes.data(), kBodies, 9);
+  std::vector<double> error(kBodies);
+  auto to = empty_columns<tangency_contact_columns>();
+  to.gap_error = error.data();
+  ASSERT_EQ(tangency_balls(matrices, balls, 2, meetings.data(), kBodies, &to, 1), TANGENCY_OK);
+  for (std::size_t k = 0; k < kBodies; ++k)
+    EXPECT_GE(error[k], both.given[k].rounding()) << "what was rounded is in it: " << k;
 }
 
 TEST(CMatrices, BoundedGapsHoldTheTrueOne) {
@@ -150,20 +158,38 @@ TEST(CMatrices, NeighboursAreAllThatShareAPoint) {
 
 TEST(CMatrices, NeighboursWithinAReachLeaveOutNoneThatIsNearer) {
   const Both both;
-  const double reach = 0.7;
-  const Neighbours found =
-      neighbours(both.given, {.reach = reach, .answers = NeighbourAnswers::gaps});
-  std::size_t at = 0;
+  const CBodies c(TANGENCY_FORM_SHAPE, both.shapes.data(), kBodies, 9);
+  std::vector<double> least;  // of the true gaps, of all pairs
   for (unsigned a = 0; a < kBodies; ++a) {
     for (unsigned b = a + 1; b < kBodies; ++b) {
       const Gap gap = signed_gap(both.given[a], both.given[b]);
-      const bool listed = at < found.size() && found.pairs[at].a == a && found.pairs[at].b == b;
-      EXPECT_EQ(listed, gap.gap - gap.gap_error <= reach) << a << ' ' << b;
-      if (!listed) continue;
-      EXPECT_EQ(found.gap[at++], gap.gap);
+      least.push_back(gap.gap - gap.gap_error);
     }
   }
-  EXPECT_EQ(at, found.size());
+  std::vector<double> sorted = least;
+  std::ranges::sort(sorted);
+  // Also at the least gap of a pair, which its gap_error alone brings within the reach.
+  for (const double reach : {0.7, *std::ranges::upper_bound(sorted, 0.5)}) {
+    auto question = empty_columns<tangency_neighbour_question>();
+    question.reach = reach, question.answers = TANGENCY_NEIGHBOUR_ANSWERS_GAPS;
+    tangency_neighbours* list = nullptr;
+    ASSERT_EQ(tangency_neighbours_create(&list, c, &question, nullptr, 2), TANGENCY_OK);
+    auto found = empty_columns<tangency_neighbour_columns>();
+    ASSERT_EQ(tangency_neighbours_columns(list, &found), TANGENCY_OK);
+    const std::size_t count = tangency_neighbours_count(list);
+    std::size_t at = 0, of_all = 0;
+    for (unsigned a = 0; a < kBodies; ++a) {
+      for (unsigned b = a + 1; b < kBodies; ++b) {
+        const bool listed = at < count && found.pairs[2 * at] == a && found.pairs[2 * at + 1] == b;
+        EXPECT_EQ(listed, least[of_all++] <= reach) << a << ' ' << b << ' ' << reach;
+        if (!listed) continue;
+        EXPECT_EQ(found.gap[at++], signed_gap(both.given[a], both.given[b]).gap);
+      }
+    }
+    EXPECT_EQ(at, count);
+    EXPECT_GT(count, 20U);
+    tangency_neighbours_destroy(list);
+  }
 }
 
 TEST(CMatrices, OtherGapsHaveNoErrorAndDerivativesNoSemiAxes) {

@@ -110,6 +110,23 @@ TEST(ReportCommand, OfAResumedRunShowsTheStagesOwnCycles) {
   }
 }
 
+/// Scenes that move on purpose: an impact, whose contact bears nothing just before it opens, and a
+/// ball that rolls down a plane.
+class SceneOfMotion : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(SceneOfMotion, RunsWithoutAWarningAndIsReported) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out");
+  const Finished run = run_tool(
+      {"run", std::string(TANGENCY_SCENES) + "/" + GetParam() + ".toml", "--out", out, "--quiet"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  const Finished report = run_tool({"report", out});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_NE(report.out.find("inertial fraction"), report.out.npos) << report.out;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneOfMotion, ::testing::Values("impact", "slope"));
+
 /// A page is sound markup: every tag that is opened is closed in its turn.
 void expect_balanced(const std::string& page) {
   std::vector<std::string> open;

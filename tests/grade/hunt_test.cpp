@@ -103,6 +103,16 @@ TEST(Moves, EachMakesOtherPairsOfEllipsoids) {
   }
 }
 
+TEST(Moves, PlaceBAtTheGapThatIsAskedFor) {
+  for (const double distance : {2.5, 1.75}) {
+    for (const double gap : {0.125, -0.125}) {
+      EllipsoidPair pair = balls(distance);
+      place_at_gap(pair, nearness(gap_bracket(pair.a, pair.b)), gap);
+      EXPECT_NEAR(pair.b.centre[0], 2 + gap, 1e-12) << distance;
+    }
+  }
+}
+
 TEST(Search, LeadsToFaultsAndMakesThemSimple) {
   Judge judge(Goal::relation, {});
   Search search(judge, near_alone(), kSeed);

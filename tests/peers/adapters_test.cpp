@@ -222,6 +222,22 @@ TEST(Peers, DescribeThemselves) {
   EXPECT_EQ(peers().size(), 17u);
 }
 
+TEST(BoundingSpheres, NeverDenyAnOverlapAndKnowSpheres) {
+  const auto peers = bounding_spheres_peers();
+  verify::ManufacturedContacts contacts(verify::contact_classes()[1], 7);
+  for (int i = 0; i < 100; ++i) {
+    const auto c = contacts.next();
+    const auto seen = ask(*peers.front(), c.a, c.b);
+    ASSERT_TRUE(seen && seen->gap && seen->normal);
+    EXPECT_LE(*seen->gap, c.gap) << i;
+    EXPECT_GE(seen->overlap, c.gap < 0) << i;
+  }
+  const RawEllipsoid a{{0, 0, 0}, {1, 1, 1}}, b{{0, 3, 4}, {1.5, 1.5, 1.5}};
+  const auto seen = ask(*peers.front(), a, b).value();
+  EXPECT_EQ(seen.gap, 2.5);
+  EXPECT_EQ(seen.normal, (Point{0, 0.6, 0.8}));
+}
+
 TEST(PlainPerramWertheim, GivesTheGapOfItsDefinitionForModeratePairs) {
   const auto peers = plain_perram_wertheim_peers();
   verify::ManufacturedContacts contacts(verify::contact_classes()[1], 7);

@@ -13,6 +13,8 @@ if [ -z "$binary" ]; then
   binary=$root/build/grade/verify/tool/tangency-verify
 fi
 mkdir -p "$results"
+# What an earlier grade has left is not of this one, which may be refused and write nothing.
+rm -f "$results"/grade.{html,xml,sarif,json} "$results"/summary.{json,md}
 # As a shell reads them: quotes and all.
 eval "options=(${GRADE_OPTIONS:-})"
 status=0

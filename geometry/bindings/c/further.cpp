@@ -26,10 +26,12 @@ constexpr std::array<const char*, 9> kMotion{"vx", "vy", "vz", "wx", "wy", "wz",
 /// What contact_curvature() is for: geometry/curvature.hpp.
 constexpr double kMostAspect = 1e70;
 
-/// As a normal of an answer: finite, and unit but for rounding.
-void require_unit(const double* normals, std::size_t count) {
+/// As a normal of an answer: finite, and unit but for rounding. Of rows beyond a cutoff it is not
+/// looked at.
+void require_unit(const double* normals, std::size_t count, const int* statuses = nullptr) {
   require_finite_rows("normals", normals, 3, count, kNormal.data());
   for (std::size_t k = 0; k < count; ++k) {
+    if (statuses != nullptr && statuses[k] == TANGENCY_STATUS_BEYOND) continue;
     const double length = vectors(normals)[k].norm();
     // 2^-40: far above the rounding of a unit vector, far below what a wrong one is off. Chosen.
     if (!(std::abs(length - 1.0) <= 0x1p-40)) {
@@ -160,14 +162,15 @@ int tangency_gap_derivatives(const tangency_bodies* bodies, const unsigned* pair
   return guarded([&] {
     const tangency_derivative_columns to = known(answers, "answers");
     const Pairs list(required(bodies), pairs, count, separations);
-    require_unit(normals, count);
     if (statuses == nullptr && count > 0) refuse("statuses", "must not be NULL");
     for (std::size_t k = 0; k < count; ++k) {
-      if (statuses[k] != TANGENCY_STATUS_OK && statuses[k] != TANGENCY_STATUS_LOCAL) {
+      if (statuses[k] != TANGENCY_STATUS_OK && statuses[k] != TANGENCY_STATUS_LOCAL &&
+          statuses[k] != TANGENCY_STATUS_BEYOND) {
         refuse_row("statuses", k, "status", statuses[k],
-                   "must be TANGENCY_STATUS_OK or TANGENCY_STATUS_LOCAL");
+                   "must be TANGENCY_STATUS_OK, TANGENCY_STATUS_LOCAL or TANGENCY_STATUS_BEYOND");
       }
     }
+    require_unit(normals, count, statuses);
     const std::vector<Ellipsoid>& all = bodies->prepared().ellipsoids;
     each(count, threads, [&](std::size_t k) {
       Gap gap{};  // of which status and normal are used

@@ -270,7 +270,10 @@ typedef struct tangency_accuracy {
   double length;
   /** not 0: normals and points to rounding too */
   int normals;
-  /** not 0: no answer is wanted of pairs whose gap is above cutoff */
+  /**
+   * not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for bodies by
+   * matrices
+   */
   int has_cutoff;
   /** >= 0; not read where has_cutoff is 0 (unit: length) */
   double cutoff;
@@ -878,6 +881,7 @@ TANGENCY_API int tangency_perram_wertheim_factors(const tangency_bodies* bodies,
 
 /**
  * First and second derivatives of the gap. Of a body by a matrix those by its semi-axes are NaN.
+ * A pair beyond a cutoff is degenerate.
  * @param bodies  as they were made
  * @param pairs  places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
  * count + k (2 a row)

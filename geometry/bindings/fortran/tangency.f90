@@ -191,7 +191,8 @@ module tangency
     real(c_double) :: length = 0.0_c_double
     ! not 0: normals and points to rounding too
     integer(c_int) :: normals = 0_c_int
-    ! not 0: no answer is wanted of pairs whose gap is above cutoff
+    ! not 0: no answer is wanted of pairs whose gap is above cutoff; must be 0 for bodies by
+    ! matrices
     integer(c_int) :: has_cutoff = 0_c_int
     ! >= 0; not read where has_cutoff is 0 (unit: length)
     real(c_double) :: cutoff = 0.0_c_double
@@ -866,7 +867,7 @@ module tangency
     end function tangency_perram_wertheim_factors
 
     ! First and second derivatives of the gap. Of a body by a matrix those by its semi-axes are
-    ! NaN.
+    ! NaN. A pair beyond a cutoff is degenerate.
     !   bodies: as they were made
     !   pairs: places of A and B among the bodies, from 0. NULL: of pair k those of bodies k and
     !   count + k (2 a row)

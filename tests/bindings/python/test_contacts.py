@@ -36,6 +36,8 @@ class FormsOfInput(unittest.TestCase):
         self.assertTrue(np.isinf(limited.gap_error[beyond]).all() and not limited.normal[beyond].any())
         for (_, one), (_, other) in zip(limited, self.expected, strict=True):
             np.testing.assert_array_equal(one[~beyond], other[~beyond])
+        derivatives = tangency.gap_derivatives(limited, self.a, self.b)
+        self.assertTrue((derivatives.status[beyond] == tangency.DerivativeStatus.degenerate).all())
 
     def check(self, a, b, **options):
         self.assertTrue(same(tangency.contacts(a, b, **options), self.expected))
@@ -277,7 +279,7 @@ class Errors(Refusals):
         self.refused(f"a: shape (1,): must be (10,), the numbers {names}", None, tangency.contact, [1.0], rows[0])
         self.refused("accuracy = 'best': must be standard, certified, fast, or a length", None, tangency.contacts,
                      rows, rows, accuracy="best")
-        self.refused("accuracy.cutoff = -1: must be >= 0", None, tangency.contacts, rows, rows, up_to=-1.0)
+        self.refused("up_to = -1: must be >= 0", None, tangency.contacts, rows, rows, up_to=-1.0)
         self.refused("separations: row 2: z = nan: must be finite", 2, tangency.contacts, rows, rows,
                      separations=[[1, 1, 1], [1, 1, 1], [1, 1, np.nan], [1, 1, 1]])
         broken = np.zeros(2, [(name, "f8") for name in NAMES if name != "r3"])

@@ -18,19 +18,19 @@ from tangency._questions import (balls, bounded_gaps, classify, common_volumes, 
                                  containments, gap_derivatives, neighbours, other_gaps, overlaps, overlaps_by_filter,
                                  perram_wertheim_factors, points, rays, relations, times_of_contact, walls)
 from tangency._single import Contact, contact
-from tangency._table import (BoundedGaps, CommonVolumes, Containments, Contacts, Curvatures, Definition, Derivatives,
-                             Factors, Form, NeighbourAnswers, Neighbours, OtherGaps, PlaneContacts, PlaneForm,
-                             PlanePoints, Points, Quadrics, QuadricType, Rays, RayStatus, Relation, Relations, Status,
-                             Times, TimeStatus, Walls)
+from tangency._table import (BoundedGaps, CommonVolumes, Containments, Contacts, Curvatures, Definition,
+                             DerivativeStatus, Derivatives, Factors, Form, NeighbourAnswers, Neighbours, OtherGaps,
+                             PlaneContacts, PlaneForm, PlanePoints, Points, Quadrics, QuadricType, Rays, RayStatus,
+                             Relation, Relations, Status, Times, TimeStatus, Walls)
 
 __version__ = version()
 
 __all__ = [
     "Bodies", "BoundedGaps", "Columns", "CommonVolumes", "Contact", "Contacts", "Containments", "Curvatures",
-    "Definition", "Derivatives", "Ellipses", "Factors", "Form", "NeighbourAnswers", "Neighbours", "OtherGaps",
-    "PlaneContacts", "PlaneForm", "PlanePoints", "Points", "QuadricType", "Quadrics", "RayStatus", "Rays", "Relation",
-    "Relations", "Status", "TangencyError", "TimeStatus", "Times", "Walls", "balls", "bounded_gaps", "classify",
-    "common_volumes", "contact", "contact_curvatures", "contacts", "containments", "gap_derivatives",
+    "Definition", "DerivativeStatus", "Derivatives", "Ellipses", "Factors", "Form", "NeighbourAnswers", "Neighbours",
+    "OtherGaps", "PlaneContacts", "PlaneForm", "PlanePoints", "Points", "QuadricType", "Quadrics", "RayStatus", "Rays",
+    "Relation", "Relations", "Status", "TangencyError", "TimeStatus", "Times", "Walls", "balls", "bounded_gaps",
+    "classify", "common_volumes", "contact", "contact_curvatures", "contacts", "containments", "gap_derivatives",
     "instruction_set", "level_of_confidence", "neighbours", "other_gaps", "overlaps", "overlaps_by_filter",
     "perram_wertheim_factors", "plane_contacts", "plane_points", "points", "rays", "relations", "times_of_contact",
     "version", "walls",

@@ -37,6 +37,8 @@ def accuracy_pointer(accuracy: str | float, up_to: float | None = None) -> tuple
         except TangencyError:
             raise TangencyError(f"accuracy = {accuracy!r}: must be {', '.join(ACCURACIES)}, or a length") from None
     cutoff = 0.0 if up_to is None else real(up_to, "up_to")
+    if not cutoff >= 0.0:
+        raise TangencyError(f"up_to = {cutoff:.17g}: must be >= 0")
     struct = AccuracyStruct(ctypes.sizeof(AccuracyStruct), of_size, length, int(normals), int(up_to is not None),
                             cutoff)
     return ctypes.addressof(struct), struct

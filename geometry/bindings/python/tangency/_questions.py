@@ -45,6 +45,7 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     up_to : float, optional
         No answer is wanted of pairs whose gap is above this length, at least 0. They cost little: their status is
         ``beyond``, gap a lower bound of the true one, gap_error infinite and the rest 0. Other pairs do not notice.
+        Not for bodies by matrices. `gap_derivatives` takes such rows, as ``degenerate``; `contact_curvatures` does not.
     columns : iterable of str, optional
         Which of `Contacts` are wanted; by default all but the bounds, which take longer.
     threads : int
