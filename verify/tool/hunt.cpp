@@ -30,6 +30,7 @@
 #include <tangency/verify/hunt/found_corpus.hpp>
 #include <tangency/verify/hunt/tool_subject.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -343,7 +344,10 @@ void add_hunt(tables::Program& program) {
       .check(check_positive)
       .shows_default()
       .type_name("X");
-  command.option("--seed", options->seed, "Another seed, another hunt").shows_default();
+  command.option("--seed", options->seed, "Another seed, another hunt")
+      .check(check_seed)
+      .shows_default()
+      .type_name("N");
   const tables::Option answers =
       command
           .option("--answers", options->answers,
