@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/exchange_commands.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -98,6 +99,31 @@ std::string format_of(std::string_view text) {
   return second.find("Lattice=") != second.npos ? "xyz" : "lammps-data";
 }
 
+Sample read_of_kind(const std::string& kind, const std::string& name, const std::string& text,
+                    std::optional<int> frame) {
+  if (kind == "gsd") return read_gsd(name, text, frame);
+  if (kind == "lammps-dump") return read_lammps_dump(name, text, frame);
+  return kind == "xyz" ? read_extended_xyz(name, text, frame) : read_lammps_data(name, text);
+}
+
+/// Numbers of a file are finite; quotients of them may not be.
+void require_finite(const std::string& name, const Sample& sample) {
+  const auto check = [&](const auto& columns, const char* column, const auto& is_finite) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (is_finite(columns[k])) continue;
+      throw tables::Error({.file = name,
+                           .column = "body " + std::to_string(k) + ", " + column,
+                           .value = "inf",
+                           .rule = "must be a double, from the numbers of its mass and size"});
+    }
+  };
+  const auto all_finite = [](const Vec3& v) { return v.allFinite(); };
+  check(sample.position, "place", all_finite);
+  check(sample.velocity, "velocity", all_finite);
+  check(sample.angular_velocity, "angular velocity", all_finite);
+  check(sample.density, "density", [](double v) { return std::isfinite(v); });
+}
+
 /// @param file  `-` is standard input
 Sample imported(const std::string& file, const std::string& format, std::optional<int> frame) {
   const bool is_input = file == "-";
@@ -107,9 +133,9 @@ Sample imported(const std::string& file, const std::string& format, std::optiona
   const std::string kind = format.empty() ? format_of(text) : format;
   if (frame && kind == "lammps-data")
     throw tables::UsageError("--frame: a data file of LAMMPS has but one");
-  if (kind == "gsd") return read_gsd(name, text, frame);
-  if (kind == "lammps-dump") return read_lammps_dump(name, text, frame);
-  return kind == "xyz" ? read_extended_xyz(name, text, frame) : read_lammps_data(name, text);
+  Sample sample = read_of_kind(kind, name, text, frame);
+  require_finite(name, sample);
+  return sample;
 }
 
 void write(const std::string& file, const std::string& text) {
