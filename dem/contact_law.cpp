@@ -22,6 +22,11 @@ double bisected(double low, double high, double wanted, const F& f) {
   return low;
 }
 
+/// -ln e of a law with zeta = (w + 1/w) / 2, w > 1: 2 h / tanh h with w = exp h.
+double lost_by_creep(double w) {
+  return 2.0 * logarithm(w) * (w * w + 1.0) / ((w - 1.0) * (w + 1.0));
+}
+
 }  // namespace
 
 double damping_ratio_of(double restitution) {
@@ -38,17 +43,22 @@ double damping_ratio_of(double restitution) {
     return cosine_sine(right - t).cosine;
   }
   constexpr double largest = 16.0;  // -ln e is 5.6 there
-  const double w = bisected(1.0, largest, lost, [](double x) {
-    return 2.0 * logarithm(x) * (x * x + 1.0) / (x * x - 1.0);
-  });
+  const double w = bisected(1.0, largest, lost, lost_by_creep);
   return 0.5 * (w + 1.0 / w);
 }
 
 double ContactLaw::restitution() const {
-  const double z = damping_ratio;
-  if (z == 1.0) return std::exp(-2.0);
-  const double root = std::sqrt(std::abs((1.0 - z) * (1.0 + z)));
-  return std::exp(-2.0 * z * (z < 1.0 ? std::acos(z) : std::acosh(z)) / root);
+  if (!dissipates()) return 1.0;
+  const double z = damping_ratio, root = std::sqrt(std::abs((1.0 - z) * (1.0 + z)));
+  double lost = 2.0;  // -ln e, as damping_ratio_of() has it
+  if (z < 1.0) {
+    const double right = 0.5 * std::numbers::pi;
+    const double t = right - bisected(0.0, right, z, [](double x) { return cosine_sine(x).sine; });
+    lost = 2.0 * z * t / root;
+  } else if (z > 1.0) {
+    lost = lost_by_creep(z + root);
+  }
+  return bisected(0.0, 1.0, -lost, logarithm);
 }
 
 NormalResponse ContactLaw::hertz_response(double overlap,

@@ -160,18 +160,14 @@ Balance balance_of(const Particles& particles, const Contacts& contacts, const V
   if (const auto others = static_cast<std::int64_t>(particles.size()) - all.rattlers; others > 0)
     balance.mechanical_coordination =
         static_cast<double>(all.of_others) / static_cast<double>(others);
-  balance.largest_unbalanced_ratio = all.force;
-  balance.largest_unbalanced_moment_ratio = all.moment;
   const ContactTotals totals = contacts.totals();
-  if (totals.contacts == 0) return balance;
-  balance.mean_contact_force = totals.force_length / static_cast<double>(totals.contacts);
-  // A damped contact that opens bears nothing.
-  const auto to_contact_force = [&](double x) {
-    return x == 0.0 ? 0.0 : x / balance.mean_contact_force;
-  };
-  balance.inertial_fraction = to_contact_force(all.sum / static_cast<double>(all.with_contacts));
-  balance.largest_unbalanced_ratio = to_contact_force(all.force);
-  balance.largest_unbalanced_moment_ratio = to_contact_force(all.moment);
+  // A damped contact overlaps a while longer than it pushes.
+  if (!(totals.force_length > 0.0)) return balance;
+  const double mean = totals.force_length / static_cast<double>(totals.contacts);
+  balance.mean_contact_force = mean;
+  balance.inertial_fraction = all.sum / static_cast<double>(all.with_contacts) / mean;
+  balance.largest_unbalanced_ratio = all.force / mean;
+  balance.largest_unbalanced_moment_ratio = all.moment / mean;
   return balance;
 }
 

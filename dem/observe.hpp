@@ -64,8 +64,7 @@ double friction_angle_deg(const Mat3& stress, int dimensions = 3);
 
 /// How far the particles are from equilibrium. A particle is out of balance by the resultant of
 /// all forces on it, of its contacts and its weight; ratios are to the mean length of a contact
-/// force, 0 without contacts and where no force acts, infinite where weights act on bodies whose
-/// contacts bear nothing.
+/// force, 0 where no contact bears a force.
 struct Balance {
   double mean_contact_force = 0.0;  ///< mean |force| over the contacts
   /// Mean resultant of the particles that have contacts, over the mean contact force.

@@ -211,16 +211,19 @@ constexpr std::array kKeys{
     Key{"stage", "max_strain_rate", real, "1/s", "", kPositive, "", kPressedKinds,
         "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "max_strain_rate", real, "1/s", "(by the stress)", kPositive, "", "shear",
-        "The same; without: 0.05 sqrt(held stress / density) / diameter, an inertial number of "
-        "0.05, or axial_strain_rate where that is more"},
+        "Bound on the size of a servo's linear strain rate; without: 0.05 sqrt(held stress / "
+        "density) / diameter, an inertial number of 0.05, or axial_strain_rate where that is more"},
     Key{"stage", "max_strain_rate", real, "1/s", "(needed to hold a stress)", kPositive, "",
-        "relax servo", "The same"},
+        "relax servo",
+        "Bound on the size of a servo's linear strain rate; a step strains by less than 0.1"},
     Key{"stage", "servo_gain", real, "-", "0.5", kOpenUnitInterval, "", "shear servo",
         "Share of the stress error that the servo removes in a cycle"},
     Key{"stage", "servo_gain", real, "-", "0.2", kOpenUnitInterval, "", "relax unload",
-        "The same; slower, since cell and particles come to rest together"},
+        "Share of the stress error that the servo removes in a cycle; small, since cell and "
+        "particles come to rest together"},
     Key{"stage", "servo_gain", real, "-", "0.005", kOpenUnitInterval, "", "compress grow",
-        "The same; still slower, since these pass through states that hardly bear stress"},
+        "Share of the stress error that the servo removes in a cycle; very small, since these pass "
+        "through states that hardly bear stress"},
     Key{"stage", "published_gain", real, "1/(Pa s)", "(servo_gain)", kPositive, "", kMovingKinds,
         "Gain of the published servo instead: the rate grows by it times the stress error each "
         "cycle; it rings"},
@@ -229,10 +232,11 @@ constexpr std::array kKeys{
         "Rate at which the velocity of a free particle decays; times time_step_factor at most 2"},
     Key{"stage", "damping", real, "sqrt(K_max/m_min)", "(adaptive)", between(0.0, 10.0), "",
         "relax unload",
-        "The same; without: velocities are turned towards the forces, and taken away where they "
-        "run against them, by the fast inertial relaxation engine"},
+        "Rate at which the velocity of a free particle decays; times time_step_factor at most 2; "
+        "without: velocities are turned towards the forces, and taken away where they run against "
+        "them, by the fast inertial relaxation engine"},
     Key{"stage", "rotational_damping", real, "sqrt(K_max/m_min)", "(damping)", between(0.0, 10.0),
-        "", kMovingKinds, "The same rate of the angular velocity, where damping is a number"},
+        "", kMovingKinds, "Rate at which the angular velocity decays, where damping is a number"},
     Key{"stage", "time_step_factor", real, "sqrt(m_min/K_max)", "0.2",
         above_to(0.0, kLargestTimeStepFactor), "", kMovingKinds, "Time step of a cycle"},
     Key{"stage", "friction_coefficient", real, "-", "(that of the contact)", kNotNegative, "",

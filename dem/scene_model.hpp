@@ -54,11 +54,6 @@ struct Drive {
   std::optional<double> axial_strain;          ///< compression reached, logarithmic
   std::optional<std::int64_t> duration;        ///< cycles
   std::int64_t max_cycles;                     ///< a stage that has not ended by then fails
-
-  /// Does nothing strain the cell, hold a stress or damp?
-  bool moves_freely() const {
-    return loading.targets.empty() && loading.strain_rate.isZero(0.0) && damping == 0.0;
-  }
 };
 
 /// States of a stage that a run keeps beside its last one.

@@ -125,6 +125,47 @@ std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
   return text;
 }
 
+std::string short_text(const Vec3& v) {
+  return "[ " + short_text(v[0]) + ", " + short_text(v[1]) + ", " + short_text(v[2]) + " ]";
+}
+
+std::string wall_key(std::size_t k, const std::string& key) {
+  return "wall[" + std::to_string(k) + "]." + key;
+}
+
+/// @throws std::invalid_argument  naming the first wall that has another normal
+void require_same_normals(const std::vector<PlaneWall>& made, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Vec3 &was = made[k].normal, &is = scene.planes[k].normal;
+    if ((was - is).norm() > kSameRelatively)
+      throw std::invalid_argument("a state with " + wall_key(k, "normal") + " = " +
+                                  short_text(was) + "; the scene has " + short_text(is));
+  }
+}
+
+/// "wall[0].velocity = [ 0, 0, 1 ], and here [ 0, 0, 2 ]" of each wall that differs. A state has no
+/// velocity of a wall that the scene holds at a stress, and a wall that moves is elsewhere by
+/// right.
+std::string difference_of_walls(const Cell& made, const Scene& scene) {
+  std::string text;
+  const auto add = [&](const std::string& difference) {
+    text += (text.empty() ? "" : "; ") + difference;
+  };
+  const double same = kSameRelatively * made.edges.diagonal().norm();
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const PlaneWall &was = made.planes[k], &is = scene.planes[k];
+    if (is.held) continue;
+    if ((was.velocity - is.velocity).norm() > kSameRelatively * is.velocity.norm())
+      add(wall_key(k, "velocity") + " = " + short_text(was.velocity) + ", and here " +
+          short_text(is.velocity));
+    const bool moves = was.normal.dot(was.velocity) != 0.0 || is.normal.dot(is.velocity) != 0.0;
+    if (!moves && std::abs(was.offset - is.offset) > same)
+      add(wall_key(k, "point") + " at " + short_text(was.offset) + " along its normal, and here " +
+          short_text(is.offset) + ": it stays where it is");
+  }
+  return text;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
@@ -154,6 +195,8 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
   require_same_particles(state_, scene_);
   changed_laws_ = difference_of_laws(state_.laws, scene_);
   state_.laws = scene_.laws;
+  require_same_normals(state_.cell.planes, scene_);
+  changed_walls_ = difference_of_walls(state_.cell, scene_);
   for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
     PlaneWall& plane = state_.cell.planes[k];
     plane.held = scene_.planes[k].held;
@@ -400,8 +443,10 @@ bool Simulation::is_relaxed() const {
   const auto& growth = this->stage().growth;
   if (!stage.max_unbalanced_ratio && !growth) return true;
   const Balance balance = balance_of(state_.particles, state_.contacts, scene_.gravity);
-  // Where nothing presses, a body that touches nothing has not come down yet.
-  if (stage.loading.targets.empty() && !scene_.gravity.isZero(0.0) && balance.rattlers > 0)
+  // Where nothing presses, a body that touches nothing has not come down yet; nor have those whose
+  // contacts bear nothing.
+  if (stage.loading.targets.empty() && !scene_.gravity.isZero(0.0) &&
+      (balance.rattlers > 0 || balance.mean_contact_force == 0.0))
     return false;
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
   return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=

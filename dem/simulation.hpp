@@ -122,6 +122,9 @@ class Simulation {
   /// What differs between the contact laws that a resumed state was made with and the scene's, one
   /// line; empty where nothing does.
   const std::string& changed_laws() const { return changed_laws_; }
+  /// Alike of the velocities of walls, which become the scene's, and of the places of walls that
+  /// stand still, which stay the state's. Of a stress to hold the state knows nothing.
+  const std::string& changed_walls() const { return changed_walls_; }
 
  private:
   void prepare_stage();
@@ -152,6 +155,7 @@ class Simulation {
   ContactLaws laws_;  ///< laws()
   Loading loading_;   ///< the current stage's, with its growth's stress
   std::string changed_laws_;
+  std::string changed_walls_;
   bool turns_ = true;                 ///< is there anything that could turn, or seem to?
   LeastCell least_;                   ///< of the particles as they are
   double characteristic_time_ = 0.0;  ///< of the masses and the stage's laws

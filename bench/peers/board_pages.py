@@ -79,11 +79,11 @@ h1 { font-size: 1.4rem; } h2 { font-size: 1.1rem; margin-top: 2rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 th, td { padding: .3rem .6rem; border-bottom: 1px solid var(--line); text-align: right;
          white-space: nowrap; }
-th { background: var(--head); }
+th { background: var(--head); white-space: normal; }
 td:first-child, th:first-child { text-align: left; white-space: normal; min-width: 9rem;
   max-width: 24rem; overflow-wrap: anywhere; position: sticky; left: 0; background: var(--back); }
 th:first-child { background: var(--head); }
-td.word { text-align: left; }
+.word { text-align: left; }
 code { font-size: .9em; }
 """
 
@@ -96,10 +96,11 @@ def html_page(codes, corpora, version):
     parts = []
     for heading, header, rows in tables(codes, corpora):
         words = first_number(header)
-        head = "".join(f"<th scope=col>{html.escape(h)}</th>" for h in header)
+        kinds = [" class=word" if i < words else "" for i in range(len(header))]
+        head = "".join(f"<th scope=col{k}>{html.escape(h)}</th>" for k, h in zip(kinds, header))
         body = "".join(
-            "<tr>" + "".join(f"<td{' class=word' if i < words else ''}>{cell(text)}</td>"
-                             for i, text in enumerate(row)) + "</tr>\n" for row in rows)
+            "<tr>" + "".join(f"<td{k}>{cell(text)}</td>" for k, text in zip(kinds, row)) + "</tr>\n"
+            for row in rows)
         parts.append(f"<h2>{html.escape(heading)}</h2>\n<div class=wide tabindex=0><table><thead>"
                      f"<tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n")
     return f"""<!DOCTYPE html>

@@ -46,9 +46,11 @@ std::vector<std::string> slower_strains(const Drive& stage, double share, int di
   if (stage.axial_strain) {
     keys.push_back("axial_strain_rate to " + rounded_down(rate(axial, axial)));
   } else {
-    const Vec3 strain = rate.diagonal(), shear(rate(0, 1), rate(1, 2), rate(2, 0));
+    const bool turns = rate != rate.transpose();  // as a simple shear alone does
+    const Vec3 strain = rate.diagonal(), shear(rate(0, 1), rate(1, 2), rate(0, 2));
     if (!strain.isZero(0.0)) keys.push_back("strain_rate to " + text_of(strain));
-    if (!shear.isZero(0.0)) keys.push_back("shear_rate to " + text_of(shear));
+    if (!shear.isZero(0.0))
+      keys.push_back((turns ? "simple_shear_rate to " : "shear_rate to ") + text_of(shear));
   }
   return keys;
 }
@@ -146,12 +148,11 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
     return "the motion is too fast for its stresses to be static ones; lower " +
            joined(keys, " and ");
   // Velocities decay by damping times the step a cycle, contacts that swing at half that rate.
-  const std::string still = "particles still move though nothing strains them; ";
   // Stages without a rate of damping await balance, and have been spoken of.
   const double a_cycle = 0.5 * stage.damping.value_or(0.0) * stage.time_step_factor;
-  if (!(a_cycle > 0.0)) return still + "raise damping to 0.5";
+  if (!(a_cycle > 0.0)) return "";
   const double more = std::log(fraction / sound) / a_cycle;
-  return still + "raise duration to " +
+  return "particles still move though nothing strains them; raise duration to " +
          whole_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
 }
 

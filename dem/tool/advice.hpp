@@ -13,7 +13,8 @@ namespace tangency::inline v0::dem {
 
 /// For an inertial fraction above `sound`: "the motion is too fast ...; lower max_strain_rate to
 /// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs; where a
-/// stage ends in balance, how much of it to ask for.
+/// stage ends in balance, how much of it to ask for. "" where nothing strains and damping = 0: the
+/// scene asks for motion.
 std::string advice_on_motion(const Simulation& simulation, const Observation& seen, double sound);
 
 /// For a stress that was not held: "raise servo_gain from 0.005 to 0.5", of the servo's keys the

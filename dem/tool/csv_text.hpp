@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Rows of a table as text, cell by cell. What is not finite is an empty cell.
+/// Rows of a table as text, cell by cell. What is not defined, NaN, is an empty cell.
 #pragma once
 
 #include <cmath>
@@ -17,10 +17,10 @@ namespace tangency::inline v0::dem {
 class CsvText {
  public:
   void add(double x) {
-    if (std::isfinite(x))
-      row_.text(tables::to_text(x));
-    else
+    if (std::isnan(x))
       row_.empty();
+    else
+      row_.text(tables::to_text(x));
   }
   /// Three cells.
   void add(const Vec3& v) {

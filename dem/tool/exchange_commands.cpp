@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/exchange_commands.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <tangency/dem/tool/import_text.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 
 namespace tangency::inline v0::dem {
@@ -58,10 +60,12 @@ The format is told by FILE's first bytes, else by --format. Beware of sizes and 
   lammps-dump  columns id; xu yu zu, x y z, xsu ysu zsu or xs ys zs; shapex shapey shapez (DIAMETERS),
                diameter or radius; and if so wanted type, vx vy vz, omegax omegay omegaz, quatw quati
                quatj quatk (W X Y Z), mass. Boundaries that are not periodic become walls
-  gsd          RADII of type_shapes Ellipsoid, diameters of Sphere; quaternion W X Y Z
+  gsd          RADII of type_shapes Ellipsoid, diameters of Sphere; quaternion W X Y Z; places are
+               those of the image that particles/image says
   xyz          extended XYZ: pos; aspherical_shape (RADII) or radius; and if so wanted species or
                type, orientation (X Y Z W), velo, angular_velocity, mass; pbc F becomes walls
-Without a mass the density is 1000. Centres count from the cell's corner. Columns of the table:
+Without a mass the density is 1000, and of gsd the mass is 1, as HOOMD has it. Centres count from the
+cell's corner. Columns of the table:
   type        name of the kind of body: each type, semi-axes and density is a kind
   x y z       centre;  qw qx qy qz  quaternion, body to space, of the length it had
   vx vy vz wx wy wz
@@ -95,14 +99,43 @@ std::string format_of(std::string_view text) {
   return second.find("Lattice=") != second.npos ? "xyz" : "lammps-data";
 }
 
+Sample read_of_kind(const std::string& kind, const std::string& name, const std::string& text,
+                    std::optional<int> frame) {
+  if (kind == "gsd") return read_gsd(name, text, frame);
+  if (kind == "lammps-dump") return read_lammps_dump(name, text, frame);
+  return kind == "xyz" ? read_extended_xyz(name, text, frame) : read_lammps_data(name, text);
+}
+
+/// Numbers of a file are finite; quotients of them may not be.
+void require_finite(const std::string& name, const Sample& sample) {
+  const auto check = [&](const auto& columns, const char* column, const auto& is_finite) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (is_finite(columns[k])) continue;
+      throw tables::Error({.file = name,
+                           .column = "body " + std::to_string(k) + ", " + column,
+                           .value = "inf",
+                           .rule = "must be a double, from the numbers of its mass and size"});
+    }
+  };
+  const auto all_finite = [](const Vec3& v) { return v.allFinite(); };
+  check(sample.position, "place", all_finite);
+  check(sample.velocity, "velocity", all_finite);
+  check(sample.angular_velocity, "angular velocity", all_finite);
+  check(sample.density, "density", [](double v) { return std::isfinite(v); });
+}
+
+/// @param file  `-` is standard input
 Sample imported(const std::string& file, const std::string& format, std::optional<int> frame) {
-  const std::string text = bytes_of_file(file);
+  const bool is_input = file == "-";
+  const std::string text = bytes_of_file(is_input ? "/dev/stdin" : file);
+  const std::string name = is_input ? std::string(tables::kStandardInputName) : file;
+  if (text.empty()) throw tables::Error({.file = name, .rule = "empty: a sample must be there"});
   const std::string kind = format.empty() ? format_of(text) : format;
   if (frame && kind == "lammps-data")
     throw tables::UsageError("--frame: a data file of LAMMPS has but one");
-  if (kind == "gsd") return read_gsd(file, text, frame);
-  if (kind == "lammps-dump") return read_lammps_dump(file, text, frame);
-  return kind == "xyz" ? read_extended_xyz(file, text, frame) : read_lammps_data(file, text);
+  Sample sample = read_of_kind(kind, name, text, frame);
+  require_finite(name, sample);
+  return sample;
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -116,6 +149,15 @@ struct ImportWords {
   int frame = 0;
 };
 
+/// @throws tables::UsageError  where the scene could not name the table, or is the table
+void require_two_files(const std::string& table, const std::string& scene) {
+  if (table == "-")
+    throw tables::UsageError("--out = -: with --scene a file, which the scene names");
+  if (scene == "-") throw tables::UsageError("--scene = -: a file, which lies beside the table");
+  if (fs::weakly_canonical(fs::absolute(table)) == fs::weakly_canonical(fs::absolute(scene)))
+    throw tables::UsageError("--scene = " + scene + ": another file than --out");
+}
+
 int import_file(const ImportWords& words, bool has_frame) {
   if (!words.scene.empty() && words.out.empty())
     throw tables::UsageError("--scene needs --out, the table that the scene names");
@@ -126,11 +168,15 @@ int import_file(const ImportWords& words, bool has_frame) {
     write(words.out.empty() ? "-" : words.out, body_table(sample, kinds));
     return success;
   }
+  require_two_files(words.out, words.scene);
   const fs::path folder = fs::absolute(words.scene).parent_path();
   const std::string table = fs::absolute(words.out).lexically_relative(folder).string();
   const std::string scene = scene_of(sample, kinds, words.file, table);
-  write(words.out, body_table(sample, kinds));
-  write(words.scene, scene);
+  tables::OutputFile table_out(words.out), scene_out(words.scene);
+  table_out.write(body_table(sample, kinds));
+  scene_out.write(scene);
+  table_out.commit();
+  scene_out.commit();
   return success;
 }
 
@@ -160,7 +206,7 @@ void add_import(tables::Program& program) {
   const auto words = std::make_shared<ImportWords>();
   tables::Command& command =
       program.subcommand("import", "Bodies of another program's file as a table for scenes");
-  command.option("FILE", words->file, "File of another program").required();
+  command.option("FILE", words->file, "File of another program; - is standard input").required();
   command.option("--format", words->format, "Which [by the file's first bytes]").one_of(kFormats);
   const tables::Option frame =
       command.option("--frame", words->frame, "Frame, from 0 [the last one]")

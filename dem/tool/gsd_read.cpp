@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,9 @@ namespace {
 
 using namespace gsd;
 using tables::to_text;
+
+/// Names an item, counted from 0 as GSD's own programs do.
+std::string item(const std::string& name, std::size_t k) { return name + "[" + to_text(k) + "]"; }
 
 class GsdReader {
  public:
@@ -62,6 +67,10 @@ class GsdReader {
     std::vector<Number> numbers(entry->rows * entry->columns);
     copy(static_cast<std::uint64_t>(entry->location), numbers.data(),
          numbers.size() * sizeof(Number));
+    if constexpr (std::is_floating_point_v<Number>)
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        if (!std::isfinite(numbers[k]))
+          fail(item(name, k / entry->columns), to_text(numbers[k]), "finite numbers");
     return numbers;
   }
   std::vector<std::string> texts(const std::string& name) const {
@@ -77,6 +86,10 @@ class GsdReader {
 
   [[noreturn]] void fail(const std::string& what, const std::string& allowed) const {
     throw tables::Error({.file = file_, .column = what, .rule = allowed});
+  }
+  [[noreturn]] void fail(const std::string& what, const std::string& value,
+                         const std::string& allowed) const {
+    throw tables::Error({.file = file_, .column = what, .value = value, .rule = allowed});
   }
 
  private:
@@ -116,18 +129,29 @@ class GsdReader {
   std::uint64_t frame_ = 0, last_ = 0;
 };
 
+/// Length. Chosen: within them the volume, the moments of inertia and their quotients with numbers
+/// of 32 bits are neither 0 nor infinite.
+constexpr double kLeastRadius = 1e-30, kMostRadius = 1e30;
+
+bool is_radius(double x) { return x >= kLeastRadius && x <= kMostRadius; }
+std::string radius_rule() {
+  return "from " + to_text(kLeastRadius) + " to " + to_text(kMostRadius);
+}
+
 /// Semi-axes of a type.
 Vec3 radii_of(const GsdReader& in, const std::string& shape) {
   const auto json = nlohmann::json::parse(shape, nullptr, false);
-  const std::string kind = json.is_object() ? json.value("type", "") : "";
+  const bool has_type = json.is_object() && json.contains("type") && json["type"].is_string();
+  const std::string kind = has_type ? json["type"].get<std::string>() : "";
   const auto number = [&](const char* key) {
     const double x = json.contains(key) && json[key].is_number() ? json[key].get<double>() : 0.0;
-    if (!(x > 0.0)) in.fail("particles/type_shapes = " + shape, std::string(key) + " > 0");
+    if (!is_radius(x))
+      in.fail("particles/type_shapes", shape, std::string(key) + " " + radius_rule());
     return x;
   };
   if (kind == "Ellipsoid") return {number("a"), number("b"), number("c")};
   if (kind == "Sphere") return Vec3::Constant(0.5 * number("diameter"));
-  in.fail("particles/type_shapes = " + shape, "shapes of type Ellipsoid or Sphere");
+  in.fail("particles/type_shapes", shape, "shapes of type Ellipsoid or Sphere");
 }
 
 std::vector<Vec3> vectors(const GsdReader& in, const std::string& name, std::size_t count) {
@@ -152,30 +176,47 @@ Mat3 edges_of(const GsdReader& in) {
   const std::vector<double> box(floats.begin(), floats.end());
   if (box.empty()) in.fail("configuration/box", "6 numbers");
   const double lx = box[0], ly = box[1], lz = box[2];
-  if (!(lx > 0.0 && ly > 0.0 && lz > 0.0)) in.fail("configuration/box", "3 edges > 0");
+  if (!(lx > 0.0 && ly > 0.0 && lz > 0.0))
+    in.fail("configuration/box", to_text(lx) + " " + to_text(ly) + " " + to_text(lz),
+            "3 edges > 0");
   Mat3 edges;
   edges << lx, box[3] * ly, box[4] * lz, 0.0, ly, box[5] * lz, 0.0, 0.0, lz;
   return edges;
 }
 
+/// Centres from the cell's corner, in the image of the cell where they are.
+std::vector<Vec3> centres(const GsdReader& in, std::size_t count, const Mat3& edges) {
+  auto all = vectors(in, "particles/position", count);
+  if (all.size() != count) in.fail("particles/position", to_text(count) + " x 3 numbers");
+  const auto images = in.values<std::int32_t>("particles/image", count, 3);
+  const Vec3 centre = 0.5 * edges.rowwise().sum();
+  for (std::size_t i = 0; i < count; ++i) {
+    all[i] += centre;
+    if (!images.empty())
+      all[i] += edges * Vec3(images[3 * i], images[3 * i + 1], images[3 * i + 2]);
+  }
+  return all;
+}
+
 /// Shapes by types; spheres by their diameters where no shapes are given.
 void add_bodies(const GsdReader& in, std::size_t count, Sample& sample) {
-  const auto places = vectors(in, "particles/position", count);
-  if (places.size() != count) in.fail("particles/position", to_text(count) + " x 3 numbers");
+  const auto places = centres(in, count, sample.edges);
   const auto types = in.values<std::uint32_t>("particles/typeid", count, 1);
   const auto shapes = in.texts("particles/type_shapes");
   const auto diameters = in.values<float>("particles/diameter", count, 1);
-  const Vec3 centre = 0.5 * sample.edges.rowwise().sum();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t type = types.empty() ? 0 : types[i];
     if (type >= sample.type_names.size())
-      in.fail("particles/typeid = " + to_text(type), "one of the types");
+      in.fail(item("particles/typeid", i), to_text(type),
+              "below " + to_text(sample.type_names.size()) + ", the number of types");
     const Vec3 radii =
         type < shapes.size() && shapes[type] != "{}" && !shapes[type].empty()
             ? radii_of(in, shapes[type])
             : Vec3(Vec3::Constant(0.5 * (diameters.empty() ? 1.0 : double{diameters[i]})));
-    if (!(radii.array() > 0.0).all()) in.fail("particles/diameter", "numbers > 0");
-    sample.add(static_cast<std::int32_t>(type), places[i] + centre, radii);
+    if (!is_radius(radii[0]))
+      in.fail(item("particles/diameter", i), to_text(2.0 * radii[0]),
+              "twice a radius " + radius_rule());
+    sample.add(static_cast<std::int32_t>(type), places[i], radii);
   }
 }
 
@@ -189,9 +230,10 @@ void add_motion(const GsdReader& in, std::size_t count, Sample& sample) {
   const auto momenta = quaternions(in, "particles/angmom", count);
   for (std::size_t i = 0; i < count; ++i) {
     const Quaternion& q = sample.orientation[i];
-    if (q.coeffs().isZero(0.0)) in.fail("particles/orientation", "quaternions, not 0");
+    if (q.coeffs().isZero(0.0))
+      in.fail(item("particles/orientation", i), "0 0 0 0", "4 numbers, not all 0");
     const double m = mass.empty() ? 1.0 : static_cast<double>(mass[i]);
-    if (!(m > 0.0)) in.fail("particles/mass", "numbers > 0");
+    if (!(m > 0.0)) in.fail(item("particles/mass", i), to_text(m), "a number > 0");
     sample.density[i] = m / volume_of(sample.semi_axes[i]);
     if (momenta.empty()) continue;
     const Vec3 in_body = 0.5 * (q.conjugate() * momenta[i]).vec();

@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <limits>
 
 #include <tangency/dem/observe.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 
 namespace tangency::inline v0::dem {
-namespace {
-/// Of an empty cell.
-constexpr double kNotFinite = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
-
 History::History(const std::filesystem::path& file) {
   tables::Reader reader(file.string());
   const tables::Column stage = reader.header().require("stage");
@@ -27,8 +21,7 @@ History::History(const std::filesystem::path& file) {
   tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     stage_.emplace_back(row.text(stage));
     for (std::size_t k = 0; k < places.size(); ++k)
-      columns_[k].second.push_back(row.text(places[k]).empty() ? kNotFinite
-                                                               : row.number(places[k]));
+      columns_[k].second.push_back(row.number(places[k]));
   });
 }
 

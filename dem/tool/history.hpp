@@ -19,7 +19,6 @@ namespace tangency::inline v0::dem {
 /// A history's columns, one entry a row; they are those of history_fields().
 class History {
  public:
-  /// Empty cells are NaN.
   /// @throws tables::Error  a file that cannot be read, lacks a column, or holds what is no number
   explicit History(const std::filesystem::path& file);
 

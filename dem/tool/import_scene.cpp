@@ -58,6 +58,19 @@ std::string walls_of(const Sample& sample) {
   return walls.empty() ? "" : "walls = \"" + walls + "\"\n";
 }
 
+/// As it stands within the quotes of a string of TOML. Of a comment it leaves one line.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += tables::formatted("\\u%04x", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
 }  // namespace
 
 Sample with_descending_axes(Sample sample) {
@@ -128,7 +141,7 @@ std::string scene_of(const Sample& sample, const BodyKinds& kinds, const std::st
     throw SceneError(source + ": " + to_text(kinds.kinds.size()) +
                      " kinds of bodies, by type, semi-axes and density: a scene takes up to " +
                      to_text(kMostKinds) + "; round the sizes");
-  std::string text = "# From " + source +
+  std::string text = "# From " + escaped(source) +
                      ". What such files do not have is to be added: [contact] and the stages that "
                      "follow.\nschema = 1\n\n[cell]\nsize = " +
                      three(sample.edges.diagonal()) + "\n" + walls_of(sample);
@@ -140,8 +153,8 @@ std::string scene_of(const Sample& sample, const BodyKinds& kinds, const std::st
             "\nflatness = " + to_text(axes[1] / axes[2]) + "\ndensity = " + to_text(kind.density) +
             "\n";
   }
-  return text + "\n[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\nfile = \"" + table +
-         "\"\n";
+  return text + "\n[[stage]]\nkind = \"place\"\narrangement = \"explicit\"\nfile = \"" +
+         escaped(table) + "\"\n";
 }
 
 }  // namespace tangency::inline v0::dem

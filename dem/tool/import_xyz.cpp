@@ -74,7 +74,7 @@ class ExtendedXyz {
     if (const auto time = value_of(line, "Time")) sample.time = number_of(*time, "Time");
     std::map<std::string, std::int32_t> types;
     for (std::int64_t k = 0; k < count; ++k) {
-      if (!in_.next() || in_.words().size() < width_)
+      if (!in_.next() || in_.words().size() != width_)
         in_.fail("row", in_.line(), to_text(count) + " rows of " + to_text(width_) + " values");
       read_row(sample, types);
     }
@@ -132,6 +132,9 @@ class ExtendedXyz {
   double number(const std::string& name, std::size_t part = 0) const {
     return in_.number(properties_.at(name).first + part, name);
   }
+  double positive(const std::string& name, std::size_t part = 0) const {
+    return in_.positive(properties_.at(name).first + part, name);
+  }
   Vec3 vector(const std::string& name) const {
     return {number(name), number(name, 1), number(name, 2)};
   }
@@ -142,9 +145,10 @@ class ExtendedXyz {
         has(name) ? std::string(in_.words()[properties_.at(name).first]) : "1";
     const auto [type, is_new] = types.emplace(species, static_cast<std::int32_t>(types.size()));
     if (is_new) sample.type_names.push_back(species);
-    const Vec3 radii =
-        has("radius") ? Vec3(Vec3::Constant(number("radius"))) : vector("aspherical_shape");
-    if (!(radii.array() > 0.0).all()) in_.fail("aspherical_shape", in_.line(), "radii > 0");
+    const Vec3 radii = has("radius")
+                           ? Vec3(Vec3::Constant(positive("radius")))
+                           : Vec3(positive("aspherical_shape"), positive("aspherical_shape", 1),
+                                  positive("aspherical_shape", 2));
     sample.add(type->second, vector("pos"), radii);
     if (has("orientation")) {
       const Quaternion q(number("orientation", 3), number("orientation"), number("orientation", 1),
@@ -154,8 +158,7 @@ class ExtendedXyz {
     }
     if (has("velo")) sample.velocity.back() = vector("velo");
     if (has("angular_velocity")) sample.angular_velocity.back() = vector("angular_velocity");
-    if (has("mass"))
-      sample.density.back() = in_.positive(properties_.at("mass").first, "mass") / volume_of(radii);
+    if (has("mass")) sample.density.back() = positive("mass") / volume_of(radii);
   }
 
   LineReader in_;

@@ -104,8 +104,7 @@ logarithmic and count from the start of the stage:
   mean_normal_force     N, of a contact; a push is positive
   mean_overlap          m, of a contact
   inertial_fraction     mean unbalanced force (of contacts and weight) of a particle that has
-                        contacts, over the mean contact force; empty where weights act on
-                        particles whose contacts bear nothing
+                        contacts, over the mean contact force; 0 where no contact bears one
   kinetic_energy        J, of the motion relative to the cell, half a step ago
   elastic_energy        J, stored by the contacts
   boundary_work gravity_work growth_work branch_work

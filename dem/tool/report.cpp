@@ -45,9 +45,7 @@ svg text.stage { fill: #667; font-size: 11px; }
 /// Chosen: rounding leaves 1e-12, a shear test starts where stresses differ at some 1e-3.
 constexpr double kLeastDistortion = 1e-3;
 
-std::string shown(double x, const char* format = "%.4g") {
-  return std::isfinite(x) ? tables::formatted(format, x) : "-";
-}
+std::string shown(double x, const char* format = "%.4g") { return tables::formatted(format, x); }
 
 struct Headed {
   std::string name, unit;
@@ -130,10 +128,17 @@ class Run {
   }
 
  private:
-  /// What the assembly was given since the run began: by its boundary, by gravity and by growth.
+  /// What the assembly was given since the run began: by its boundary, by gravity and by growth, of
+  /// each the largest of any row up to there. What goes to and fro comes to nothing in the end.
   double work_done(std::size_t row) const {
-    return std::abs(value("boundary_work", row)) + std::abs(value("gravity_work", row)) +
-           std::abs(value("growth_work", row));
+    double sum = 0.0;
+    for (const char* name : {"boundary_work", "gravity_work", "growth_work"}) {
+      double largest = 0.0;
+      for (const double work : history_.column(name).first(row + 1))
+        largest = std::max(largest, std::abs(work));
+      sum += largest;
+    }
+    return sum;
   }
 
   /// A plane assembly has no stress across its plane.

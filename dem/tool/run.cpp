@@ -102,11 +102,14 @@ class Run {
                                 : tables::Progress::Shown::everywhere) {
     cost_.threads = threads();
     if (options.profile) simulation_.record(&cost_.profile.emplace());
+    note_work();
   }
 
   int execute() {
     if (const std::string& changed = simulation_.changed_laws(); !changed.empty())
       warn("goes on under other contact laws: the state was made with " + changed);
+    if (const std::string& changed = simulation_.changed_walls(); !changed.empty())
+      warn("goes on with other walls: the state was made with " + changed);
     for (const double strain : results_.kept().missed_strains())
       warn("stage " + simulation_.stage().name + " passed the axial strain " +
            tables::to_text(strain) + " of save_strains before cycle " +
@@ -160,6 +163,7 @@ class Run {
       simulation_.step();
     }
     ++cost_.cycles;
+    note_work();
     cost_.listed_pair_cycles += static_cast<double>(simulation_.state().list.pairs().size());
 
     const OutputIntervals& every = simulation_.scene().output;
@@ -177,6 +181,14 @@ class Run {
       last_checkpoint_ = Clock::now();
     }
     if (progress_.is_due()) show_progress();
+  }
+
+  void note_work() {
+    const EnergyAccount& now = simulation_.state().energy;
+    for (const auto work :
+         {&EnergyAccount::start, &EnergyAccount::boundary, &EnergyAccount::gravity,
+          &EnergyAccount::growth, &EnergyAccount::branch})
+      work_.*work = std::max(work_.*work, std::abs(now.*work));
   }
 
   void show_progress() {
@@ -247,20 +259,20 @@ class Run {
     const Observation seen = simulation_.observe();
     const std::string ended = "stage " + simulation_.stage().name + " ended with ";
     const double fraction = seen.balance.inertial_fraction;
-    // An impact or a body that rolls is meant to move.
-    if (fraction > kSoundInertialFraction && !simulation_.stage().drive->moves_freely())
-      warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
-           short_text(kSoundInertialFraction) + ": " +
-           advice_on_motion(simulation_, seen, kSoundInertialFraction));
+    if (fraction > kSoundInertialFraction) {
+      const std::string advice = advice_on_motion(simulation_, seen, kSoundInertialFraction);
+      if (!advice.empty())
+        warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
+             short_text(kSoundInertialFraction) + ": " + advice);
+    }
     const double step = simulation_.time_step_ratio();
     if (step > kSoundTimeStepRatio)
       warn(ended + "time step " + short_text(step) + " of the critical one, above " +
            short_text(kSoundTimeStepRatio) +
            ": what it computed may be wrong without looking it; " +
            advice_on_step(simulation_, 1.0 / step));
-    const EnergyAccount& account = seen.account;
-    const double through = account.start + std::abs(account.boundary) + std::abs(account.gravity) +
-                           std::abs(account.growth) + std::abs(account.branch);
+    const double through =
+        work_.start + work_.boundary + work_.gravity + work_.growth + work_.branch;
     // An error of second order in the step; halved at least, since what is large may not be so yet.
     const double error = std::abs(seen.energy_error) / through;
     if (std::abs(seen.energy_error) > kSoundEnergyError * through)
@@ -389,6 +401,9 @@ class Run {
   Results results_;
   tables::Progress progress_;
   RunCost cost_;
+  /// The largest size of each work, from where the run goes on: what goes to and fro comes to
+  /// nothing in the end.
+  EnergyAccount work_;
 };
 
 Simulation simulation_of(const RunOptions& options) {

@@ -56,7 +56,10 @@ struct VtkEntry {
   std::int64_t cycle;
   double time;
 };
-/// @param folder_and_ending  the file of a cycle is folder/CYCLE + ending
+/// The file of a cycle is folder/CYCLE + ending.
+/// @param entries  in the order of the index
+/// @param folder  without a slash at its end
+/// @param ending  with its point
 std::string vtk_collection(std::span<const VtkEntry> entries, const std::string& folder,
                            const std::string& ending);
 

@@ -89,6 +89,53 @@ TEST(RestUnderGravity, IsInBalanceAndGivesNoWarning) {
     }
 }
 
+/// A ball that falls by twice its radius, and bounces without losses.
+std::string bouncing(int duration) {
+  return "schema = 1\n[cell]\nsize = [4.0, 4.0, 8.0]\nwalls = \"xyz\"\n[motion]\n"
+         "gravity = [0.0, 0.0, -9.81]\n[particles.ball]\ncount = 1\nmean_radius = 0.5\n"
+         "[contact]\nnormal_stiffness = 1e8\n[[stage]]\nkind = \"place\"\n"
+         "arrangement = \"explicit\"\n[[body]]\ntype = \"ball\"\nposition = [2.0, 2.0, 1.5]\n"
+         "[[stage]]\nkind = \"servo\"\ndamping = 0.0\nduration = " +
+         std::to_string(duration) + "\n[output]\nframe_interval = 0\nhistory_interval = 1\n";
+}
+
+// The work of gravity is next to nothing at the top, and the forces are far from balance on the
+// floor: both are as the scene wants them.
+TEST(FreeMotion, OfABallThatBouncesGivesNoWarning) {
+  for (const int duration : {990, 1980}) {
+    const TemporaryFolder folder;
+    const Finished run = run_of(folder, bouncing(duration));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.err, "") << duration;
+  }
+}
+
+TEST(ShippedScene, OfImpactAndSlopeRunsToItsEndWithoutAWord) {
+  for (const char* name : {"impact", "slope"}) {
+    const TemporaryFolder folder;
+    const Finished run =
+        run_of(folder, read_file(std::string(TANGENCY_SCENES) + "/" + name + ".toml"));
+    EXPECT_EQ(run.status, 0) << name;
+    EXPECT_EQ(run.err, "") << name;
+  }
+}
+
+TEST(GoingOn, UnderAnotherVelocityOfAWallSaysSo) {
+  const TemporaryFolder folder;
+  const std::string slope = with(read_file(std::string(TANGENCY_SCENES) + "/slope.toml"),
+                                 "duration = 8000", "duration = 10");
+  ASSERT_EQ(run_of(folder, slope).status, 0);
+  const std::string wall = "normal = [1.0, 0.0, 2.0]\n";
+  const std::string moving =
+      folder.write("moving.toml", with(slope, wall, wall + "velocity = [0.0, 1.0, 0.0]\n"));
+  const Finished resumed = run_tool({"run", moving, "--out", folder.path("again"), "--quiet",
+                                     "--resume", folder.path("out/final.state")});
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_EQ(resumed.err,
+            "tangency-dem: goes on with other walls: the state was made with wall[0].velocity = "
+            "[ 0, 0, 0 ], and here [ 0, 1, 0 ]\n");
+}
+
 // It falls by half a radius, and is given the time that the advice names.
 TEST(Advice, OnABodyThatStillMovesIsADurationThatIsLongEnough) {
   const TemporaryFolder folder;
@@ -128,6 +175,8 @@ TEST(Advice, OnFastMotionNamesTheRatesOfTheStage) {
       {"servo", "duration = 100\nstrain_rate = [0.0, 0.5, -0.25]\n",
        "; lower strain_rate to [ 0, 0."},
       {"servo", "duration = 100\nshear_rate = [0.5, 0.0, 0.0]\n", "; lower shear_rate to [ 0."},
+      {"servo", "duration = 100\nsimple_shear_rate = [0.0, 0.0, 0.5]\n",
+       "; lower simple_shear_rate to [ 0, 0, 0."},
       {"servo", "duration = 20\nmean_stress = 30e6\nmax_strain_rate = 0.5\n",
        "; lower max_strain_rate to 0."}};
   for (const Case& one : cases) {

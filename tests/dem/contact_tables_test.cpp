@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `tangency-dem contacts` and `tangency-dem particles`: their tables against the state itself,
 /// which is read here by the library and looked at pair by pair.
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +19,8 @@
 
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
+#include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 #include "../tool/process.hpp"
@@ -180,6 +183,7 @@ Mat3 symmetric_at(const std::vector<double>& row, std::size_t first) {
   return m;
 }
 
+// dem/tool/contact_fields.hpp (3)
 // Contacts with walls are in no row of contacts, and in the stresses of their particles.
 TEST_F(Tables, HaveStressesOfParticlesThatAddUpToThatOfTheCell) {
   for (const std::string cell : {"[cell]\n", "[cell]\nwalls = \"xyz\"\n"}) {
@@ -210,6 +214,7 @@ TEST_F(Tables, HaveTheShearForceAndTheVelocityAtTheContact) {
   }
 }
 
+// dem/tool/contact_fields.hpp (2)
 // Of spheres 1/r of both; of ellipsoids by Euler's formula, the surfaces' own curvatures add up.
 TEST_F(Tables, HaveTheCurvatureOfTheDistance) {
   run(with(sheared_scene(), "elongation = 1.4\n", ""));
@@ -242,6 +247,35 @@ TEST_F(Tables, HaveNoCurvatureAcrossThePlane) {
   for (const auto& row : contacts()) {
     EXPECT_EQ(row[29], 0.0);
     EXPECT_NEAR(row[30], 0.2, 1e-14);
+  }
+}
+
+// dem/tool/contact_fields.hpp (1)
+// The gap of the two bodies a little later and a little earlier, as they move and turn.
+TEST_F(Tables, HaveAVelocityWhoseNormalPartOpensTheGap) {
+  run(sheared_scene());
+  const auto bodies = numbers_of(table("particles"), kParticleHeader);
+  double fastest = 0.0;
+  for (const auto& row : contacts()) fastest = std::max(fastest, vector_at(row, 26).norm());
+  ASSERT_GT(fastest, 0.0);
+  const double step = 1e-5 * particles().semi_axes[0][0] / fastest;
+  const auto moved = [&](double id, double time) {
+    const auto& body = bodies[static_cast<std::size_t>(id)];
+    const Vec3 turn = time * vector_at(body, 15);
+    const Quaternion q(body[8], body[9], body[10], body[11]);
+    const Eigen::AngleAxisd by(turn.norm(), turn.stableNormalized());
+    return Ellipsoid(Vec3(0, 0, 0), vector_at(body, 5), Quaternion(by) * q.normalized());
+  };
+  for (const auto& row : contacts()) {
+    const auto &a = bodies[static_cast<std::size_t>(row[0])],
+               &b = bodies[static_cast<std::size_t>(row[1])];
+    const Vec3 branch = vector_at(row, 12);
+    const Vec3 parting = vector_at(b, 12) + state_.cell.rate * branch - vector_at(a, 12);
+    const auto gap = [&](double time) {
+      return signed_gap(moved(row[0], time), moved(row[1], time), branch + time * parting).gap;
+    };
+    EXPECT_NEAR((gap(step) - gap(-step)) / (2.0 * step), vector_at(row, 26).dot(vector_at(row, 8)),
+                1e-5 * fastest);
   }
 }
 

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,10 +105,93 @@ TEST_F(Exchange, BringsBackNumbersOf32BitsThroughGsd) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto [is, was] = both(kPlaces[axis]);
       const double edge = edges(axis, axis);
-      EXPECT_LT(std::abs(std::remainder(is - was, edge)), 1e-6 * edge) << "an image";
-      EXPECT_TRUE(is > -1e-6 * edge && is < (1.0 + 1e-6) * edge) << "within the box";
+      EXPECT_NEAR(is, was, 1e-6 * edge) << "in the same image";
     }
   }
+}
+
+/// Chunks of a type in a file of GSD: their names and where their numbers begin.
+std::vector<std::pair<std::string, std::size_t>> chunks_of_gsd(const std::string& bytes,
+                                                               std::uint8_t type) {
+  const auto at = [&](std::size_t place, auto number) {
+    std::memcpy(&number, bytes.data() + place, sizeof number);
+    return number;
+  };
+  // Of the header: places of the index and of the names; of an entry: place, name and type.
+  const std::size_t index = at(8, std::uint64_t{}), names = at(24, std::uint64_t{});
+  std::vector<std::string> list;
+  for (std::size_t k = names; bytes[k] != '\0'; k += list.back().size() + 1)
+    list.emplace_back(bytes.c_str() + k);
+  std::vector<std::pair<std::string, std::size_t>> places;
+  for (std::size_t k = index; at(k + 16, std::uint64_t{}) != 0; k += 32)
+    if (at(k + 30, std::uint8_t{}) == type)
+      places.emplace_back(list[at(k + 28, std::uint16_t{})], at(k + 16, std::uint64_t{}));
+  return places;
+}
+
+TEST_F(Exchange, TakesPlacesOfGsdInTheImageThatItSays) {
+  run(scene());
+  std::string bytes = read_file(exported("gsd"));
+  const double x = std::stod(imported(folder_.write("moved.gsd", bytes))[0].at("x"));
+  const auto images = chunks_of_gsd(bytes, 7);  // integers of 32 bits
+  ASSERT_EQ(images.size(), 1u);
+  ASSERT_EQ(images[0].first, "particles/image");
+  const std::int32_t image = 3;
+  std::memcpy(bytes.data() + images[0].second, &image, sizeof image);
+  const double moved = std::stod(imported(folder_.write("moved.gsd", bytes))[0].at("x"));
+  const double edge = dem::load_state(state_).cell.edges(0, 0);
+  EXPECT_NEAR(moved - x, image * edge, 1e-6 * edge);
+}
+
+TEST_F(Exchange, RefusesNumbersOfGsdThatAreNotFinite) {
+  run(scene());
+  const std::string whole = read_file(exported("gsd"));
+  const auto places = chunks_of_gsd(whole, 9);  // floats
+  ASSERT_EQ(places.size(), 7u) << "box, mass, moments, places, orientations, both velocities";
+  for (const auto& [name, place] : places)
+    for (const auto& [value, word] : {std::pair(std::numeric_limits<float>::quiet_NaN(), "nan"),
+                                      std::pair(std::numeric_limits<float>::infinity(), "inf")}) {
+      std::string damaged = whole;
+      std::memcpy(damaged.data() + place + sizeof value, &value, sizeof value);
+      const std::string file = folder_.write("damaged.gsd", damaged);
+      const Finished ended = run_tool({"import", file});
+      EXPECT_EQ(ended.status, 2) << name;
+      EXPECT_EQ(ended.out, "");
+      EXPECT_EQ(ended.err.find(file + ": " + name + "["), 0u) << ended.err;
+      EXPECT_NE(ended.err.find(std::string("] = ") + word + ": finite numbers\n"), ended.err.npos)
+          << ended.err;
+    }
+}
+
+// A scene and its table are two files, of which both appear or none.
+TEST_F(Exchange, WritesASceneBesideItsTableOrNeither) {
+  run(scene());
+  const std::string xyz = exported("xyz"), table = folder_.write("table.csv", "earlier");
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {table, table},
+      {table, folder_.path("out/../table.csv")},
+      {"-", folder_.path("scene2.toml")},
+      {table, "-"},
+      {table, folder_.path("nowhere/scene.toml")}};
+  for (const auto& [out, begun] : cases) {
+    const Finished ended = run_tool({"import", xyz, "--out", out, "--scene", begun});
+    EXPECT_EQ(ended.status, 2) << out << " " << begun;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(read_file(table), "earlier");
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("scene2.toml")));
+  }
+}
+
+TEST_F(Exchange, BeginsASceneThatNamesAnyFile) {
+  run(scene());
+  const std::string odd = "a\"b\\c\nd.csv", begun = folder_.path("begun.toml");
+  const std::string source = folder_.write("s\n\"t.xyz", read_file(exported("xyz")));
+  ASSERT_EQ(run_tool({"import", source, "--out", folder_.path(odd), "--scene", begun}).status, 0);
+  folder_.write("begun.toml", read_file(begun) +
+                                  "[[stage]]\nkind = \"servo\"\nduration = 1\n[contact]\n"
+                                  "normal_stiffness = 1.5e10\n[output]\n");
+  const Finished ended = run_tool({"run", begun, "--out", folder_.path("again"), "--quiet"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
 }
 
 // A cell that shear has tilted is turned: distances, and axes seen from branch vectors, stay.
@@ -210,7 +297,10 @@ TEST_F(Exchange, RefusesWhatIsNoSuchFileInOneLine) {
       {with(xyz, "Lattice=\"", "Lattice=\"nan "), "Lattice = "},
       {gsd.substr(0, gsd.size() / 2), "a whole GSD file: this one is cut off"},
       {with(gsd, "\"Ellipsoid\"", "\"Sandwich?\""), "shapes of type Ellipsoid or Sphere"},
-      {"", "Atoms"}};
+      {with(gsd, "\"Ellipsoid\"", "5          "), "shapes of type Ellipsoid or Sphere"},
+      {with(gsd, "\"a\": ", "\"a\":-"), "from 1e-30 to 1e+30"},
+      {with(xyz, "\n1 ", "\n1 1 "), "27 rows of"},
+      {"", "empty"}};
   const std::string out = folder_.write("table.csv", "earlier");
   for (const auto& [text, message] : cases) {
     const std::string file = folder_.write("bad", text);
@@ -241,6 +331,8 @@ TEST_F(Exchange, SurvivesDamagedFiles) {
       damaged[whole.size() * cut / 12] ^= 0x15;
       const Finished changed = run_tool({"import", folder_.write("changed", damaged)});
       EXPECT_EQ(changed.signal, 0) << format << " " << cut;
+      EXPECT_EQ(changed.out.find("inf"), changed.out.npos) << cut;
+      EXPECT_EQ(changed.out.find(",,"), changed.out.npos) << cut;
     }
   }
 }

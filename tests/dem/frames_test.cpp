@@ -6,16 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <tangency/dem/parallel.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/vtk_file.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 
 #include "../tool/process.hpp"
@@ -88,6 +92,24 @@ TEST(Frames, ForParaViewHaveATensorThatStretchesASphereToTheBody) {
                   .norm(),
               1e-12)
         << "x y z w";
+}
+
+// dem/tool/vtk_file.hpp (1)
+TEST(Frames, ForParaViewHaveTheSameBytesAtEveryThreadCount) {
+  const std::size_t points = 100'000;  // five blocks of places
+  std::vector<double> places(3 * points);
+  std::mt19937_64 draw(20261201);
+  for (double& x : places) x = std::ldexp(static_cast<double>(draw()), -64);
+  const auto text = [&](int threads) {
+    dem::set_threads(threads);
+    dem::VtkPolyData file(dem::VtkPolyData::Cells::points, points);
+    file.places(places);
+    file.add(dem::VtkPolyData::Of::points, "velocity", 3, places);
+    dem::set_threads(0);
+    return file.text();
+  };
+  const std::string alone = text(1);
+  for (const int threads : {2, 3, 8}) EXPECT_TRUE(text(threads) == alone) << threads;
 }
 
 TEST(Frames, ForParaViewAreAllInTheIndexAtTheirTimes) {

@@ -11,7 +11,9 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
+#include <tangency/dem/observe.hpp>
 #include <tangency/dem/plane_wall.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/state_file.hpp>
@@ -177,6 +179,61 @@ TEST(PlaneWall, IsSavedWithTheBitsThatItGoesOnWith) {
   EXPECT_THROW(Simulation(parse_scene(without, "scene.toml"), load_state(file)),
                std::invalid_argument);
   std::filesystem::remove(file);
+}
+
+std::string refusal_of(const std::string& scene, const State& state) {
+  try {
+    const Simulation resumed(parse_scene(scene, "scene.toml"), state);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlaneWall, OfAStateIsThatOfTheSceneOrTheDifferenceIsSaid) {
+  const std::string still = ball(Vec3::UnitZ(), "", "", kDown);
+  const std::string moving = ball(Vec3::UnitZ(), "velocity = [0.0, 0.0, -1.0]\n", "", kDown);
+  const State stood = after(still, 0.01).state(), moved = after(moving, 0.01).state();
+  const auto said = [](const std::string& scene, const State& state) {
+    return Simulation(parse_scene(scene, "scene.toml"), state).changed_walls();
+  };
+  EXPECT_EQ(said(still, stood), "");
+  EXPECT_EQ(said(moving, moved), "") << "it is elsewhere by right";
+  EXPECT_EQ(said(moving, stood), "wall[0].velocity = [ 0, 0, 0 ], and here [ 0, 0, -1 ]");
+  const std::string lower = with(still, "point = [20, 20, 20]", "point = [20, 20, 19.5]");
+  EXPECT_EQ(said(lower, stood),
+            "wall[0].point at 20 along its normal, and here 19.5: it stays where it is");
+  EXPECT_EQ(refusal_of(ball(kTilted, "", "", kDown), stood),
+            "a state with wall[0].normal = [ 0, 0, 1 ]; the scene has [ 0.479426, 0, 0.877583 ]");
+}
+
+const std::string kDamped = "restitution = 0.5\n";
+
+TEST(PlaneWall, ThatTouchesABallAndBearsNothingLeavesNoInfinityInTheHistory) {
+  Simulation simulation(parse_scene(ball(Vec3::UnitZ(), "", kDamped, kDown, 0.01), "scene.toml"));
+  Observation seen = simulation.observe();
+  for (int k = 0; k < 1000 && !(seen.contacts == 1 && seen.mean_normal_force == 0.0); ++k) {
+    simulation.step();
+    seen = simulation.observe();
+  }
+  ASSERT_EQ(seen.contacts, 1);
+  ASSERT_EQ(seen.mean_normal_force, 0.0) << "its damper would pull at the end of the impact";
+  EXPECT_EQ(seen.balance.inertial_fraction, 0.0);
+  EXPECT_EQ(seen.balance.largest_unbalanced_ratio, 0.0);
+  EXPECT_EQ(seen.balance.largest_unbalanced_moment_ratio, 0.0);
+  for (const Field& field : history_fields(0, 0.0, "", 0, seen))
+    if (const double* value = std::get_if<double>(&field.value)) {
+      EXPECT_TRUE(std::isfinite(*value)) << field.name;
+    }
+}
+
+TEST(PlaneWall, BearsTheWeightOfABallWhereARelaxEndsNotWhereItsContactBearsNothing) {
+  const Simulation relaxed =
+      at_end(with(ball(Vec3::UnitZ(), "", kDamped, kDown, 0.01),
+                  "kind = \"servo\"\nduration = 1000000\ndamping = 0.0\n",
+                  "kind = \"relax\"\nmax_unbalanced_ratio = 0.01\ndamping = 0.02\n"));
+  const double weight = relaxed.state().particles.mass[0] * kGravity;
+  EXPECT_NEAR(relaxed.observe().balance.mean_contact_force, weight, 0.02 * weight);
 }
 
 TEST(PlaneWall, WithABodyBehindItIsRefused) {

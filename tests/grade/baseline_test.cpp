@@ -148,13 +148,15 @@ TEST(GradeBaseline, RefusesWhatIsNoGrade) {
     return report.run.err.substr(std::min(report.run.err.size(), file.size()));
   };
   const std::string rule =
-      ": a baseline must be what --json writes, an array of {name, unit, value}\n";
+      ": a baseline must be what --json writes, an array of {name, unit, value}, none of them "
+      "below 0\n";
   EXPECT_EQ(refusal(""), ":1" + rule);
   EXPECT_EQ(refusal("{}"), ":1" + rule);
   EXPECT_EQ(refusal("[\n{\"name\":\"a\",\"value\":1},\n{\"name\":\"b\",\"value\":\"2\"}\n]\n"),
             ":3" + rule);
   EXPECT_EQ(refusal("[{\"name\":\"a\",\"value\":1e999}]"), rule);
   EXPECT_EQ(refusal("[{\"name\":\"a\",\"value\":null}]"), ":2" + rule);
+  EXPECT_EQ(refusal("[{\"name\":\"a\",\"value\":-1}]"), ":2" + rule);
   EXPECT_EQ(refusal("[\n{\"name\":\"a\",\"value\":1},\n{\"name\":\n"), ":4" + rule);
   const Report none = grade_tool(kKernel, "near", {"--baseline", folder.path("none.json")});
   EXPECT_EQ(none.run.status, 2);

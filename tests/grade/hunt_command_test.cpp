@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -92,7 +93,63 @@ TEST(HuntCommand, AnInterruptEndsTheSearchAndShowsWhatWasFound) {
   process.send(SIGINT);
   const Finished run = process.wait();
   EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "\n  not made simple: the hunt had to end\n")) << run.out;
   EXPECT_TRUE(has(run.out, "\ninterrupted\nFAILED: 48 answers: ")) << run.out;
+  EXPECT_EQ(read_file(count), "3\n") << "batches";
+}
+
+TEST(HuntCommand, AnInterruptEndsTheMakingSimpleToo) {
+  const TemporaryFolder folder;
+  const std::string hang = make_pipe(folder.path("hang"));
+  make_pipe(folder.path("here"));
+  // One pair is asked of again where it is made simple: no batch of the search is so short.
+  const std::string tool = "t=$(cat); if [ $(echo \"$t\" | wc -l) = 2 ]; then echo here > " +
+                           folder.path("here") + "; cat " + hang + "; fi; echo \"$t\" | " +
+                           faulty("equal-axes");
+  Process process(
+      {"hunt", "--tool", tool, "--from", "symmetric", "--seed", "20261201", "--answers", "48"});
+  const int here = process.meet_at(folder.path("here"), O_RDONLY);
+  EXPECT_EQ(read_to_end(here), "here\n");
+  process.send(SIGTERM);
+  const Finished run = process.wait();
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "\n  not made simple: the hunt had to end\n")) << run.out;
+  EXPECT_TRUE(has(run.out, "\ninterrupted\nFAILED: 48 answers: ")) << run.out;
+}
+
+// The tool never ends: what ends it is the hunt's own time.
+TEST(HuntCommand, ABatchThatRunsIsEndedWithTheSecondsAndNothingPasses) {
+  const TemporaryFolder folder;
+  const Finished run = hunt("cat " + make_pipe(folder.path("hang")), {"--seconds", "0.05"});
+  EXPECT_EQ(run.status, 2) << run.out;
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(has(run.err, "--seconds: no batch of the tool ended within 0.05 s")) << run.err;
+}
+
+TEST(HuntCommand, AToolThatAnswersNothingIsRefusedWithItsLastWords) {
+  const TemporaryFolder folder;
+  const Finished missing = hunt("./no-such-tool", {"--out", folder.path("found")});
+  EXPECT_EQ(missing.status, 2) << missing.out;
+  EXPECT_EQ(missing.out, "");
+  EXPECT_TRUE(has(missing.err,
+                  "--tool: none of the first 16 pairs is answered: the tool ended with status 127 "
+                  "without an answer: what it printed: "))
+      << missing.err;
+  EXPECT_TRUE(has(missing.err, "not found")) << missing.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("found/hunt.csv")));
+  const Finished silent = hunt("true", {});
+  EXPECT_EQ(silent.status, 2) << silent.out;
+  EXPECT_TRUE(has(silent.err, "the tool ended with status 0 without an answer")) << silent.err;
+  const Finished dead = hunt("kill -9 $$", {});
+  EXPECT_EQ(dead.status, 2) << dead.out;
+  EXPECT_TRUE(has(dead.err, "the tool was ended by signal 9")) << dead.err;
+}
+
+TEST(HuntCommand, ACellThatCannotBeReadIsAFault) {
+  const Finished run =
+      hunt(kKernel + " | sed s/,separate,/,apart,/", {"--from", "near", "--answers", "16"});
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "unreadable cell")) << run.out;
 }
 
 TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
@@ -100,12 +157,26 @@ TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
   EXPECT_EQ(no_column.status, 2);
   EXPECT_TRUE(has(no_column.err, "--tool: its answers have no column nx, ny, nz")) << no_column.err;
   EXPECT_EQ(hunt(kKernel, {"--goal", "speed"}).status, 2);
-  EXPECT_EQ(hunt(kKernel, {"--answers", "0"}).status, 2);
-  EXPECT_EQ(hunt(kKernel, {"--from", "ellipses"}).status, 2);
+  for (const char* answers : {"0", "-1", "1.5"}) {
+    EXPECT_EQ(hunt(kKernel, {"--answers", answers}).status, 2) << answers;
+  }
+  EXPECT_EQ(run_tool({"hunt", "--tool", kKernel, "--answers", "16", "--seed", "-1"}).status, 2);
+  for (const char* name : {"ellipses", "nope"}) {
+    const Finished from = hunt(kKernel, {"--from", name});
+    EXPECT_EQ(from.status, 2);
+    EXPECT_TRUE(has(from.err, "--from: there is no corpus of pairs " + std::string(name) +
+                                  " here; there are: classes deep "))
+        << from.err;
+  }
   const TemporaryFolder folder;
   const Finished rubbish = hunt(kKernel, {"--state", folder.write("state.json", "[1]")});
   EXPECT_EQ(rubbish.status, 2);
   EXPECT_TRUE(has(rubbish.err, "state.json: this is no state of a hunt")) << rubbish.err;
+  for (const std::string& state : {std::string("/dev/zero"), folder.path("")}) {
+    const Finished no_file = hunt(kKernel, {"--state", state});
+    EXPECT_EQ(no_file.status, 2);
+    EXPECT_TRUE(has(no_file.err, state + ": a state must be a regular file")) << no_file.err;
+  }
 }
 
 }  // namespace

@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <tangency/tests/tool/process.hpp>
 #include <tangency/verify/hunt/findings.hpp>
+#include <tangency/verify/hunt/found_corpus.hpp>
+#include <tangency/verify/hunt/tool_subject.hpp>
 
 namespace tangency::testing {
 namespace {
@@ -86,6 +91,71 @@ TEST(Verdict, NumbersAreJudgedToTheirLastDigits) {
             "bound broken");
 }
 
+// Crossed bodies of one centre: f is -3 along x and -3 - tie along y, lower between.
+EllipsoidPair crossed(double tie) { return {{{0, 0, 0}, {1, 2, 3}}, {{0, 0, 0}, {2, 1 + tie, 3}}}; }
+
+// near_tie.hpp (1), (2)
+TEST(Verdict, NormalsThatTheRoundingOfTheInputsMakesTrueAreNoFaults) {
+  const Answer along_y{.gap = -3, .normal = std::array{0.0, 1.0, 0.0}};
+  const Verdict tied = Judge(Goal::normal, {}).verdict(crossed(0x1p-52), along_y);
+  EXPECT_EQ(tied.fault, "");
+  EXPECT_FALSE(tied.open);
+  EXPECT_EQ(fault_of(along_y, crossed(1e-9), Goal::normal), "normal off");
+  const Answer between{.gap = -3, .normal = std::array{std::sqrt(0.5), std::sqrt(0.5), 0.0}};
+  EXPECT_EQ(fault_of(between, crossed(0x1p-52), Goal::normal), "normal off");
+  const Answer longer{.gap = -3, .normal = std::array{0.0, 1.001, 0.0}};
+  EXPECT_EQ(fault_of(longer, crossed(0x1p-52), Goal::normal), "normal off");
+  // On a tip f falls by less than its rounding, and the witness points part by more.
+  const EllipsoidPair tip{{{0, 0, 0}, {100, 1, 1}}, {{100.0011, 0, 0}, {0.001, 0.001, 0.001}}};
+  EXPECT_EQ(fault_of({.gap = 1e-4, .normal = std::array{1.0, 3e-6, 0.0}}, tip, Goal::normal),
+            "normal off");
+}
+
+// The same word in every form of a cell.
+TEST(Verdict, ACellThatCannotBeReadIsAFaultOfEveryGoal) {
+  for (const char* cells : {"banana,0.5,1,0,0,0", "separate,1e999,1,0,0,0",
+                            "separate,0.5,nan,0,0,0", "separate,0.5,1,0,0,x"}) {
+    const std::atomic<bool> never = false;
+    ToolSubject tool("printf 'row,relation,gap,nx,ny,nz,gap_error\\n0," + std::string(cells) + "'",
+                     60, never);
+    const EllipsoidPair pair = balls(2.5);
+    const Answers answers = tool.answers(std::span(&pair, 1));
+    ASSERT_TRUE(answers.at(0));
+    for (const Goal goal : {Goal::relation, Goal::gap, Goal::normal, Goal::certificate}) {
+      EXPECT_EQ(fault_of(*answers[0], pair, goal), "unreadable cell") << cells;
+    }
+  }
+}
+
+TEST(FoundCorpus, KeepsItsRowsAndAppendsThoseOfOtherPairs) {
+  const TemporaryFolder folder;
+  const NamedPair apart{"one kind", "first", balls(2.5)}, deep{"another", "second", balls(1)};
+  FoundCorpus first(folder.path("found"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("found/hunt.csv")));
+  EXPECT_EQ(first.add(std::vector{apart}), 1U);
+  const std::string inputs = read_file(folder.path("found/hunt.csv"));
+  const std::string truth = read_file(folder.path("found/hunt.truth.csv"));
+  FoundCorpus second(folder.path("found"));
+  EXPECT_EQ(second.rows(), 1U);
+  EXPECT_EQ(second.add(std::vector{apart}), 0U);
+  EXPECT_EQ(read_file(folder.path("found/hunt.csv")), inputs);
+  EXPECT_EQ(second.add(std::vector{apart, deep}), 1U);
+  const std::array both{apart, deep};
+  const CorpusText whole = corpus_of(both, "Found by `tangency-verify hunt`.");
+  EXPECT_EQ(read_file(folder.path("found/hunt.csv")), whole.inputs);
+  EXPECT_EQ(read_file(folder.path("found/hunt.truth.csv")), whole.truth);
+  EXPECT_TRUE(whole.truth.starts_with(truth));
+}
+
+TEST(FoundCorpus, RefusesTablesOfOtherColumns) {
+  const TemporaryFolder folder;
+  folder.write("hunt.csv", "a.x\n1\n");
+  EXPECT_THROW(FoundCorpus{folder.path("")}, tables::Error);  // and no truth
+  folder.write("hunt.truth.csv", "row,family\n");
+  EXPECT_THROW(FoundCorpus{folder.path("")}, tables::Error);
+  EXPECT_EQ(read_file(folder.path("hunt.csv")), "a.x\n1\n");
+}
+
 TEST(Moves, EachMakesOtherPairsOfEllipsoids) {
   for (const Move& move : moves()) {
     Draw draw(kSeed);
@@ -100,6 +170,16 @@ TEST(Moves, EachMakesOtherPairsOfEllipsoids) {
     }
     EXPECT_GT(changed, 30U) << move.name;
     EXPECT_GT(fair, 45U) << move.name;
+  }
+}
+
+TEST(Moves, PlaceBAtTheGapThatIsAskedFor) {
+  for (const double distance : {2.5, 1.75}) {
+    for (const double gap : {0.125, -0.125}) {
+      EllipsoidPair pair = balls(distance);
+      place_at_gap(pair, nearness(gap_bracket(pair.a, pair.b)), gap);
+      EXPECT_NEAR(pair.b.centre[0], 2 + gap, 1e-12) << distance;
+    }
   }
 }
 

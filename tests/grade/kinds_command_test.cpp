@@ -112,13 +112,46 @@ TEST(GradeKinds, APairThatIsListedTwiceIsAFault) {
 
 // Answers rounded to float are off by half of a unit at most, where none is deeper than L.
 TEST(GradeKinds, FloatsAreGradedInTheirOwnUnit) {
-  const Report rounded = grade_tool(
-      asked("contact", "NR > 1 { $3 = sprintf(\"%.8g\", $3) } { print $1, $2, $3 }"), "float32");
+  const Report rounded =
+      grade_tool(asked("contact",
+                       "NR > 1 { for (k = 3; k < 7; ++k) $k = sprintf(\"%.8g\", $k) } "
+                       "{ print $1, $2, $3, $4, $5, $6 }"),
+                 "float32");
   EXPECT_EQ(rounded.run.status, 0) << rounded.run.out;
-  const double largest = rounded.value("float32/all/gap error, largest");
-  EXPECT_LT(largest, 1);
-  EXPECT_GT(largest, 1e-3);
+  for (const char* name : {"gap", "normal"}) {
+    const double largest = rounded.value("float32/all/" + std::string(name) + " error, largest");
+    EXPECT_LT(largest, 1) << name;
+    EXPECT_GT(largest, 1e-3) << name;
+  }
   EXPECT_TRUE(rounded.says("gap error / 2^-24 L"));
+}
+
+TEST(GradeKinds, JsonCountsWhatTheRowsOfAKindAre) {
+  const auto unit = [](const std::string& corpus, const std::string& count) {
+    const Report report = grade_tool("true", corpus);
+    for (const auto& entry : report.values) {
+      if (entry.at("name") == corpus + "/all/" + count) return entry.at("unit").get<std::string>();
+    }
+    return std::string("none");
+  };
+  for (const char* corpus : {"near", "ellipses", "matrices", "float32"}) {
+    EXPECT_EQ(unit(corpus, "pairs"), "pairs") << corpus;
+  }
+  for (const char* corpus : {"quadrics", "points", "walls", "rays", "times"}) {
+    EXPECT_EQ(unit(corpus, "pairs"), "rows") << corpus;
+    EXPECT_EQ(unit(corpus, "missing answers"), "rows") << corpus;
+  }
+  EXPECT_EQ(unit("neighbours", "pairs"), "bodies");
+  EXPECT_EQ(unit("neighbours", "missing answers"), "pairs");
+}
+
+TEST(GradeKinds, TheHelpNamesTheCommandAndTheErrorsOfEveryKind) {
+  const std::string help = run_tool({"grade", "--help"}).out;
+  for (const char* text :
+       {"`tangency contact`", "`ellipse`", "`classify`", "`point`", "`wall`", "`ray`", "`time`",
+        "`neighbours`", "t error", "time error", "area error", "2^-24", "i j ix iy iz"}) {
+    EXPECT_NE(help.find(text), std::string::npos) << text;
+  }
 }
 
 TEST(GradeKinds, AToolThatAnswersPairsIsAskedForNoOtherKind) {

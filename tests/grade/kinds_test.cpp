@@ -161,23 +161,52 @@ TEST(FloatCorpus, EveryNumberIsAFloat) {
   });
 }
 
+/// R diag(a^2) R' without rounding: semi-axes are multiplied by |q|^2, with which the entries are
+/// integers.
+RawShapeMatrix shape_matrix(RawEllipsoid& body) {
+  const auto& [w, x, y, z] = body.orientation;
+  const double square = w * w + x * x + y * y + z * z;
+  const std::array<std::array<double, 3>, 3> r{
+      {{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+       {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+       {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
+  RawShapeMatrix shape{body.centre, {}};
+  const std::array<std::array<std::size_t, 2>, 6> places{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const double a = body.semi_axes[e];
+      shape.entries[k] += a * a * r[places[k][0]][e] * r[places[k][1]][e];
+    }
+  }
+  for (double& a : body.semi_axes) a *= square;
+  return shape;
+}
+
 TEST(ShapeMatrix, ItsAxesGiveTheMatrixBackAndItsRelationIsThatOfTheEllipsoids) {
   Draw draw(4);
+  int skewed = 0;
   for (int i = 0; i < 200; ++i) {
-    RawEllipsoid a{{0, 0, 0}, {1, 2, 3}, {1, 0, 0, 0}}, b = a;
+    std::array<RawEllipsoid, 2> body;
     std::array<RawShapeMatrix, 2> m;
+    const bool upright = i % 2 == 0;  // of these many touch
     for (std::size_t k = 0; k < 2; ++k) {
-      RawEllipsoid& body = k == 0 ? a : b;
-      for (std::size_t j = 0; j < 3; ++j) {
-        body.centre[j] = k == 0 ? 0 : draw.integer(-4, 4);
-        body.semi_axes[j] = draw.integer(1, 4);
-        m[k].centre[j] = body.centre[j];
-        m[k].entries[j] = body.semi_axes[j] * body.semi_axes[j];
-        m[k].entries[j + 3] = 0;
+      if (!upright) {
+        do {
+          for (double& part : body[k].orientation) part = draw.integer(-1, 2);
+        } while (body[k].orientation == std::array<double, 4>{});
       }
+      const int scale = upright ? 1 : 3;
+      for (std::size_t j = 0; j < 3; ++j) {
+        body[k].centre[j] = k == 0 ? 0 : scale * draw.integer(-4, 4);
+        body[k].semi_axes[j] = draw.integer(1, 4);
+      }
+      m[k] = shape_matrix(body[k]);
     }
-    EXPECT_EQ(exact_relation(m[0], m[1]), exact_relation(a, b));
+    EXPECT_EQ(exact_relation(m[0], m[1]), exact_relation(body[0], body[1])) << i;
+    skewed += m[0].entries[3] != 0 && m[1].entries[3] != 0;
   }
+  EXPECT_GT(skewed, 30);
   const RawShapeMatrix turned{{1, 2, 3}, {5, 7, 9, 1, -2, 3}};
   const Shape<Real> shape = separation(real(turned), real(turned)).a;
   const std::array<std::array<std::size_t, 2>, 6> places{

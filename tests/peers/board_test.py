@@ -88,7 +88,7 @@ class Board(unittest.TestCase):
     def test_a_name_that_no_code_has_is_refused(self):
         refused = self.board("nobody")
         self.assertEqual((refused.returncode, refused.stderr),
-                         (1, "board: --only = nobody: the name of a code, or a part of one\n"))
+                         (1, "board: --only = nobody: it is found in the name of no code\n"))
 
 
 def ask(program, code, bodies):

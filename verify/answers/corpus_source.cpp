@@ -64,13 +64,17 @@ std::string CorpusSource::version() const {
   return version;
 }
 
-std::string CorpusSource::place() const { return folder_ ? folder_->string() : "--corpus"; }
+std::string CorpusSource::place(const std::string& option) const {
+  return folder_ ? folder_->string() : option;
+}
 
-void CorpusSource::require(const std::string& name) const {
+void CorpusSource::require(const std::string& name, const std::string& option) const {
   if (std::ranges::find(names_, name) != names_.end()) return;
+  if (names_.empty())
+    refuse(place(option), "there is no corpus here: a corpus NAME is a file NAME.truth.csv");
   std::string rule = "there is no corpus " + name + " here; there are:";
   for (const std::string& known : names_) rule += ' ' + known;
-  refuse(place(), rule);
+  refuse(place(option), rule);
 }
 
 std::vector<std::string> CorpusSource::chosen(const std::vector<std::string>& wanted) const {
@@ -91,6 +95,10 @@ CorpusKind CorpusSource::kind(const std::string& name) const {
   if (make_) return std::ranges::find(infos_, name, &CorpusInfo::name)->kind;
   const CorpusTable table = truth(name);
   return kind_of_truth(tables::Reader(table.named()).header());
+}
+
+bool CorpusSource::has_inputs(const std::string& name) const {
+  return !folder_ || fs::exists(*folder_ / (name + std::string(kInputsSuffix)));
 }
 
 CorpusTable CorpusSource::inputs(const std::string& name) const {

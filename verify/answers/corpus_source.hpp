@@ -56,7 +56,8 @@ class CorpusSource {
   /// Sorted.
   const std::vector<std::string>& names() const { return names_; }
   /// Throws for a name that is not one of names(), naming those that are.
-  void require(const std::string& name) const;
+  /// @param option  by which the user named it, for the message where there is no folder
+  void require(const std::string& name, const std::string& option = "--corpus") const;
   /// `wanted` in its order, or where it is empty every corpus of kind pairs. Throws for an unknown
   /// name, one that is named twice, and where there is no corpus of pairs.
   std::vector<std::string> chosen(const std::vector<std::string>& wanted) const;
@@ -64,6 +65,8 @@ class CorpusSource {
   /// Empty where none is stated.
   std::string version() const;
 
+  /// Is there a table of inputs? A folder may have the truth alone. Requires one of names().
+  bool has_inputs(const std::string& name) const;
   /// These three require one of names(), and throw for a file that cannot be read.
   CorpusKind kind(const std::string& name) const;
   CorpusTable inputs(const std::string& name) const;
@@ -72,7 +75,7 @@ class CorpusSource {
  private:
   CorpusTable table(const std::string& name, std::string_view BuiltInCorpus::*built_in,
                     std::string_view suffix) const;
-  std::string place() const;
+  std::string place(const std::string& option = "--corpus") const;
 
   std::optional<std::filesystem::path> folder_;  // nothing: this program, or what makes them
   std::vector<std::string> names_;

@@ -37,10 +37,10 @@ std::string both(const std::string& name, double now, double before) {
 }
 
 [[noreturn]] void refuse(const std::string& path, std::size_t line) {
-  throw tables::Error(
-      {.file = path,
-       .line = line,
-       .rule = "a baseline must be what --json writes, an array of {name, unit, value}"});
+  throw tables::Error({.file = path,
+                       .line = line,
+                       .rule = "a baseline must be what --json writes, an array of {name, unit, "
+                               "value}, none of them below 0"});
 }
 
 Baseline by_name(const std::string& path, const nlohmann::json& values) {
@@ -48,7 +48,7 @@ Baseline by_name(const std::string& path, const nlohmann::json& values) {
   if (!values.is_array() || values.empty()) refuse(path, 1);
   for (const auto& one : values) {
     const bool sound = one.is_object() && one.contains("name") && one["name"].is_string() &&
-                       one.contains("value") && one["value"].is_number();
+                       one.contains("value") && one["value"].is_number() && one["value"] >= 0;
     // As written: a bracket, then a line a value.
     if (!sound) refuse(path, baseline.size() + 2);
     baseline[one["name"].get<std::string>()] = one["value"].get<double>();

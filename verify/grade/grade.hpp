@@ -10,8 +10,8 @@
 ///      sign of a point's gap does, unless that is 0.
 ///      `overlaps` 1 on an external touch is counted apart (`touches`) and never wrong; `contact`
 ///      for a time that grazes is right.
-///  (2) missing: an answer that was asked for and is not there, or is no finite number or known
-///      word.
+///  (2) missing: an answer that was asked for and is not there, or is no finite number, known word,
+///      bound >= 0, or normal whose length is 1 to three digits.
 ///  (3) gap error: |gap - truth| / L, L = |d| + both largest semi-axes (of points and walls that of
 ///      the one body); the difference is taken with 106 bits, so that a correctly rounded gap is
 ///      seen as that. Of floats the unit is 2^-24 L, and of their normals 2^-24.

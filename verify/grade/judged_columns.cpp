@@ -14,6 +14,10 @@ namespace {
 using tables::Column;
 using Sort = JudgedColumns::Sort;
 
+// Derived: rounding to three decimals moves a length by at most 5e-4 (|nx| + |ny| + |nz|), below
+// 8.7e-4. Such a normal is one, whose error is measured; 0 0 0 and 1e300 0 0 are none.
+constexpr double kLengthError = 1e-3;
+
 void judge_relation(AnswerCells& cells, const FoundColumns& at, const TruthTable&,
                     const TruthRow& row) {
   const Column column = *at.judged[0];
@@ -89,6 +93,7 @@ void judge_gap(AnswerCells& cells, const FoundColumns& at, const TruthTable&, co
   const auto &bound_column = at.beside[0], &status = at.beside[1];
   if (!bound_column || cells.text(*bound_column).empty()) return;
   const auto bound = cells.number(*bound_column);
+  if (bound && *bound < 0) return cells.refuse(*bound_column, "a bound must be >= 0");
   const bool local = status && cells.text(*status) == "local";
   if (!bound || !breaks_bound(off, *bound, local)) return;
   cells.verdict().broken = true;
@@ -114,6 +119,8 @@ void judge_direction(AnswerCells& cells, const FoundColumns& at, const TruthTabl
       expected += separator + tables::to_text(truth.maximisers[row.first_normal].normal[k]);
   }
   if (!whole) return;
+  if (!(std::abs(std::hypot(n[0], n[1], n[2]) - 1) <= kLengthError))
+    return cells.refuse(*at.judged[0], "the normal that begins here must have length 1");
   const NormalVerdict found = judge_normal(truth, row, n);
   const double error = found.error / normal_unit(truth.kind);
   cells.verdict().error(ErrorKind::normal) = error;

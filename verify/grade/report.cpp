@@ -17,21 +17,49 @@ namespace {
 constexpr std::size_t kMostFaults = 10;     // chosen: of a family and a problem
 constexpr std::size_t kMostConfusions = 5;  // chosen: what a reader takes in at a glance
 
+// What the rows of a kind are, and what is answered of them.
+struct RowNames {
+  const char *rows, *answers;
+};
+
+RowNames row_names(CorpusKind kind) {
+  switch (kind) {
+    case CorpusKind::pairs:
+    case CorpusKind::ellipses:
+    case CorpusKind::matrices:
+    case CorpusKind::floats:
+      return {"pairs", "pairs"};
+    case CorpusKind::neighbours:
+      return {"bodies", "pairs"};
+    case CorpusKind::quadrics:
+    case CorpusKind::points:
+    case CorpusKind::walls:
+    case CorpusKind::rays:
+    case CorpusKind::times:
+      break;
+  }
+  return {"rows", "rows"};
+}
+
 // The quantities of a grade, in the order of its tables and values.
 FamilyReport quantities(CorpusKind kind, const Grade& g, const FamilyGrade& f) {
   using enum Count::Kind;
-  FamilyReport family{f.name, {{"pairs", "pairs", size, f.rows}}, {}};
+  const RowNames names = row_names(kind);
+  FamilyReport family{f.name, {{"pairs", names.rows, size, f.rows, names.rows}}, {}};
   std::vector<Count>& counts = family.counts;
-  counts.push_back({"wrong relations", "wrong", fault, f.wrong, g.judges_words});
-  counts.push_back({"overlaps on an external touch", "touches", information, f.touches});
-  counts.push_back({"missing answers", "missing", fault, f.missing});
-  counts.push_back({"rows without an answer", "", fault, f.unanswered});
-  counts.push_back({"rows without a gap", "", fault, f.without_gap, g.judges_gaps});
-  counts.push_back({"broken bounds", "broken", fault, f.broken_bounds, g.claims_bounds});
-  counts.push_back({"reversed normals", "reversed", fault, f.reversed, g.judges_normals});
+  counts.push_back({"wrong relations", "wrong", fault, f.wrong, names.answers, g.judges_words});
   counts.push_back(
-      {"rows not claimed", "not claimed", information, f.not_claimed, g.all.not_claimed > 0});
-  counts.push_back({"expected failures", "expected", information, f.expected_failures,
+      {"overlaps on an external touch", "touches", information, f.touches, names.answers});
+  counts.push_back({"missing answers", "missing", fault, f.missing, names.answers});
+  counts.push_back({"rows without an answer", "", fault, f.unanswered, names.rows});
+  counts.push_back({"rows without a gap", "", fault, f.without_gap, names.rows, g.judges_gaps});
+  counts.push_back(
+      {"broken bounds", "broken", fault, f.broken_bounds, names.answers, g.claims_bounds});
+  counts.push_back(
+      {"reversed normals", "reversed", fault, f.reversed, names.answers, g.judges_normals});
+  counts.push_back({"rows not claimed", "not claimed", information, f.not_claimed, names.rows,
+                    g.all.not_claimed > 0});
+  counts.push_back({"expected failures", "expected", information, f.expected_failures, names.rows,
                     g.all.expected_failures > 0});
   for (const ErrorName& error : error_names(kind)) {
     family.errors.push_back({error.name, error.title, error.unit, f.*error.summary});
@@ -106,15 +134,20 @@ void add_problem(const CorpusReport& corpus, Problem problem, std::string_view c
 
 // A tool that died, or that answered nothing: said once, with all corpora where it did so.
 void add_deaths(const std::vector<CorpusReport>& corpora, std::vector<Reason>& reasons) {
-  std::map<std::tuple<bool, std::string, std::string>, std::vector<std::string>> deaths;
+  std::map<std::tuple<bool, std::string, std::string, std::string>, std::vector<std::string>>
+      deaths;
   for (const CorpusReport& corpus : corpora) {
     if (!corpus.run || (corpus.run->sound && !corpus.is_dead)) continue;
-    deaths[{corpus.is_dead, corpus.run->ending, corpus.run->last_words}].push_back(corpus.name);
+    const bool is_rubbish = corpus.is_dead && corpus.run->has_printed && !corpus.faults.empty();
+    deaths[{corpus.is_dead, corpus.run->ending, is_rubbish ? corpus.faults.front() : "",
+            corpus.run->last_words}]
+        .push_back(corpus.name);
   }
   for (const auto& [death, names] : deaths) {
-    const auto& [is_dead, ending, last_words] = death;
+    const auto& [is_dead, ending, rubbish, last_words] = death;
     std::string text = "the tool " + ending + (is_dead ? " without an answer, in " : ", in ");
     for (const std::string& name : names) text += (name == names.front() ? "" : ", ") + name;
+    if (!rubbish.empty()) text += "; of what it printed, " + rubbish;
     if (!last_words.empty()) text += "; its last words: " + last_words;
     reasons.push_back({text, false});
   }
@@ -221,8 +254,9 @@ std::string text_of(const Finding& found, CorpusKind kind) {
       return equation(found) + truth;
     case Problem::missing:
       if (found.column.empty()) return "no answer";
+      if (!found.truth.empty()) return "no " + found.column + " = " + found.truth;
       if (found.answered.empty()) return "no " + found.column;
-      return equation(found) + ", which cannot be read";
+      return equation(found) + ", which is no answer";
     case Problem::broken_bound:
       return equation(found) + ", but the error is " + found.truth;
     case Problem::reversed:
@@ -307,6 +341,9 @@ std::vector<std::string> commonest_confusions(const GradeReport& report) {
 }
 
 void judge(GradeReport& report, const std::vector<std::string>& further) {
+  if (total(report).rows() == 0)
+    report.reasons.push_back(
+        {"no row is judged: all are not claimed, or fail as they are expected to", false});
   add_reasons(report);
   add_wrong(report);
   for (const std::string& text : further) report.reasons.push_back({text, false});

@@ -5,7 +5,7 @@
 /// What is counted, which errors there are and why a grade fails is said here alone; a writer knows
 /// no quantity and no kind of corpus by name.
 ///
-/// (1) A grade has passed if and only if there is no reason to fail.
+/// (1) A grade has passed if and only if there is no reason to fail. That no row was judged is one.
 /// (2) A reason is about rows, and then the families of these rows have failed, or about none of
 ///     them: the tool, lines that cannot be read, the baseline.
 /// (3) Of every family the first ten findings of each problem are named; a tool that died without
@@ -28,6 +28,7 @@ struct RunNote {
   std::string ending;
   std::string last_words;
   double seconds;
+  bool has_printed;  ///< anything on standard output
 };
 
 /// Where the inputs of a corpus stand.
@@ -60,6 +61,7 @@ struct Count {
   const char* title;  ///< of its column in a table; nothing: in none
   Kind kind;
   std::size_t number;
+  const char* unit;      ///< what is counted: pairs, rows or bodies
   bool is_known = true;  ///< false: nothing was answered that it could be counted of
 };
 

@@ -36,7 +36,7 @@ void add_family(const std::string& corpus, const FamilyReport& family,
                                   : count.kind == Count::Kind::information
                                       ? information
                                       : NamedValue::Kind::count;
-    values.push_back({name + count.name, "pairs", kind, static_cast<double>(count.number)});
+    values.push_back({name + count.name, count.unit, kind, static_cast<double>(count.number)});
   }
   for (const Errors& errors : family.errors) {
     const ErrorSummary& s = errors.summary;
@@ -114,7 +114,7 @@ std::string as_json(const GradeReport& report) {
   std::vector<Json> entries;
   for (const NamedValue& one : values_of(report.corpora)) {
     Json entry{{"name", one.name}, {"unit", one.unit}};
-    if (one.unit == "pairs" || one.unit == "cells") {
+    if (one.kind != NamedValue::Kind::error && one.unit != "s") {
       entry["value"] = static_cast<std::size_t>(one.value);
     } else {
       entry["value"] = one.value;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cctype>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <set>
 #include <utility>
@@ -64,6 +65,33 @@ std::string said_text(const Answer& answer) {
   return text.empty() ? "nothing" : text;
 }
 
+// By 100 digits: findings are few. Nothing where the oracle does not prove it, or does not arrive.
+std::optional<double> true_gap(const EllipsoidPair& pair) {
+  try {
+    const auto truth = common_normal_truth(pair);
+    return truth ? std::optional(truth->gap.convert_to<double>()) : std::nullopt;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+HuntFinding finding(const Search& search, Subject& subject, const std::string& fault,
+                    const std::pair<std::uint16_t, const Elite*>& place, std::size_t answers) {
+  const auto& [set, elite] = place;
+  HuntFinding one{fault, elite->source, {}, elite->found, elite->pair, {}};
+  one.simple = shrunk(subject, search.judge(), elite->pair, fault, answers);
+  one.asked = one.simple.answers > 0;
+  if (!one.asked) {
+    one.simple.verdict.fault = fault;
+    one.simple.verdict.error = elite->error;
+    one.simple.verdict.near = elite->near;
+    one.simple.verdict.truth = exact_relation(elite->pair.a, elite->pair.b).relation;
+  }
+  one.again = one.simple.verdict.fault == fault;
+  one.traits = names_of(one.again ? traits(one.simple.pair, one.simple.verdict.near) : set);
+  return one;
+}
+
 // What a corpus may call a family.
 std::string family_name(std::string text) {
   for (char& c : text) {
@@ -79,12 +107,7 @@ std::vector<HuntFinding> of_a_kind(const Search& search, Subject& subject, const
   const std::size_t tried = std::min(places.all.size(), most + 1);
   std::vector<HuntFinding> found;
   for (std::size_t i = 0; i < tried; ++i) {
-    const auto& [set, elite] = places.all[i];
-    HuntFinding one{places.fault, elite->source, {}, elite->found, elite->pair, {}, true};
-    one.simple = shrunk(subject, search.judge(), elite->pair, places.fault, answers);
-    one.again = one.simple.verdict.fault == places.fault;
-    one.traits = names_of(one.again ? traits(one.simple.pair, one.simple.verdict.near) : set);
-    found.push_back(std::move(one));
+    found.push_back(finding(search, subject, places.fault, places.all[i], answers));
   }
   std::ranges::stable_sort(found, {},
                            [](const HuntFinding& one) { return complexity(one.simple.pair); });
@@ -93,6 +116,7 @@ std::vector<HuntFinding> of_a_kind(const Search& search, Subject& subject, const
     const bool is_new = std::ranges::find(kept, one.traits, &HuntFinding::traits) == kept.end();
     if (is_new && kept.size() < most) kept.push_back(std::move(one));
   }
+  for (HuntFinding& one : kept) one.gap = true_gap(one.simple.pair);
   return kept;
 }
 
@@ -136,24 +160,25 @@ std::string finding_text(const HuntFinding& finding, std::size_t number) {
            pair_text(finding.before);
   }
   text += pair_text(simple.pair);
-  const bool touch = simple.verdict.truth == Relation::external_touch;
   text += "  true: " + std::string(name(simple.verdict.truth)) +
-          (touch ? "" : ", gap about " + tables::rounded_text(simple.verdict.near.gap, 6)) +
-          "; answered: " + said_text(simple.answer) + '\n';
+          (finding.gap ? ", gap " + tables::to_text(*finding.gap) : ", a gap that is not proven");
+  text += finding.asked ? "; answered: " + said_text(simple.answer) + '\n'
+                        : "\n  not made simple: the hunt had to end\n";
   if (simple.verdict.error > 0) {
     text += "  error " + tables::rounded_text(simple.verdict.error, 3) + '\n';
   }
   return text;
 }
 
-CorpusText findings_corpus(const std::vector<HuntFinding>& findings, const std::string& comment) {
+std::vector<NamedPair> named(const std::vector<HuntFinding>& findings) {
   std::vector<NamedPair> rows;
   for (const HuntFinding& one : findings) {
     rows.push_back({family_name(one.fault),
-                    one.traits + "; " + one.fault + "; answered " + said_text(one.simple.answer),
+                    one.traits + "; " + one.fault +
+                        (one.asked ? "; answered " + said_text(one.simple.answer) : ""),
                     one.simple.pair});
   }
-  return corpus_of(rows, comment);
+  return rows;
 }
 
 }  // namespace tangency::inline v0::verify

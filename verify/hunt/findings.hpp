@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// What a hunt found: of each kind of fault the simplest pairs, made simpler still, as text and as
-/// a corpus that `grade --corpora` grades by.
+/// rows of a corpus (found_corpus.hpp).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct HuntFinding {
   std::size_t found = 0;  ///< the number of the answer, from 1
   EllipsoidPair before;   ///< as it was found
   Shrunk simple;
-  bool again = true;  ///< asked again, the subject made the same fault
+  bool asked = true;            ///< again; false where the hunt had to end: it is as it was found
+  bool again = true;            ///< asked again, the subject made the same fault
+  std::optional<double> gap{};  ///< the true one, where the oracle proves it
 };
 
 /// Of the `most` most frequent kinds of fault one pair each, or up to three where the kinds are
@@ -38,6 +41,6 @@ std::string pair_text(const EllipsoidPair& pair);
 std::string finding_text(const HuntFinding& finding, std::size_t number);
 
 /// A row a finding, the family its fault.
-CorpusText findings_corpus(const std::vector<HuntFinding>& findings, const std::string& comment);
+std::vector<NamedPair> named(const std::vector<HuntFinding>& findings);
 
 }  // namespace tangency::inline v0::verify

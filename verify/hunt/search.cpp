@@ -127,6 +127,7 @@ std::vector<Search::Candidate> Search::generation() {
 
 void Search::take(const Candidate& candidate, const Verdict& verdict) {
   ++answers_;
+  open_ += verdict.open;
   if (!verdict.fault.empty()) {
     FaultCount& count = faults_[verdict.fault];
     if (count.count++ == 0) count.first = answers_;
@@ -168,6 +169,7 @@ std::string Search::saved(const std::string& question) const {
                        {"question", question},
                        {"generation", generation_},
                        {"answers", answers_},
+                       {"open", open_},
                        {"faults", nlohmann::json::object()},
                        {"archive", nlohmann::json::array()}};
   for (const auto& [name, fault] : faults_) state["faults"][name] = {fault.count, fault.first};
@@ -184,6 +186,7 @@ std::string Search::resume(const std::string& text, const std::string& question)
     }
     generation_ = state.at("generation").get<std::size_t>();
     answers_ = state.at("answers").get<std::size_t>();
+    open_ = state.value("open", std::size_t{0});
     for (const auto& [name, fault] : state.at("faults").items()) {
       faults_[name] = {fault.at(0).get<std::size_t>(), fault.at(1).get<std::size_t>()};
     }

@@ -55,6 +55,8 @@ class Search {
   std::size_t answers() const { return answers_; }
   const Archive& archive() const { return archive_; }
   const std::map<std::string, FaultCount>& faults() const { return faults_; }
+  /// How many answers the oracles did not settle.
+  std::size_t open() const { return open_; }
   Judge& judge() const { return judge_; }
 
   /// As text, with `question` in it: what the hunt was asked.
@@ -84,7 +86,7 @@ class Search {
   Judge& judge_;
   std::vector<Source> sources_;
   std::uint64_t seed_;
-  std::size_t generation_ = 0, answers_ = 0;
+  std::size_t generation_ = 0, answers_ = 0, open_ = 0;
   std::map<const InputFamily<EllipsoidPair>*, Drawn> drawn_;  // of sources_
   Archive archive_;
   std::vector<const Elite*> right_, wrong_;  // of the archive, for draws

@@ -33,8 +33,8 @@ struct Shrunk {
 /// @param fault  of `start`, as the judge names it
 /// @param most  answers to ask for at most
 /// @returns the start, as it is answered now, where nothing simpler has the fault. Its verdict has
-///     another fault or none where the subject now answers it otherwise, and is empty where the
-///     hunt has to end
+///     another fault or none where the subject now answers it otherwise. Where the hunt has to end
+///     before that `answers` is 0 and the verdict is empty; later, it is the simplest so far
 Shrunk shrunk(Subject& subject, Judge& judge, const EllipsoidPair& start, const std::string& fault,
               std::size_t most);
 

@@ -39,6 +39,17 @@ bool has_families(const std::string& name) {
   });
 }
 
+void require_pairs(const CorpusSource& corpora, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  const std::vector<std::string> pairs = corpora.chosen({});
+  for (const std::string& name : names) {
+    if (std::ranges::find(pairs, name) != pairs.end()) continue;
+    std::string rule = "there is no corpus of pairs " + name + " here; there are:";
+    for (const std::string& known : pairs) rule += ' ' + known;
+    throw tables::Error({.file = "--from", .rule = rule});
+  }
+}
+
 }  // namespace
 
 std::vector<EllipsoidPair> read_pairs(tables::Reader& table) {
@@ -53,11 +64,9 @@ std::vector<EllipsoidPair> read_pairs(tables::Reader& table) {
 std::vector<Source> hunt_sources(const CorpusSource& corpora,
                                  const std::vector<std::string>& names) {
   std::vector<Source> sources;
+  require_pairs(corpora, names);
   for (const std::string& name : corpora.chosen(names)) {
     const CorpusTable inputs = corpora.inputs(name);
-    if (corpora.kind(name) != CorpusKind::pairs) {
-      throw tables::Error({.file = inputs.file, .rule = "a hunt starts from corpora of pairs"});
-    }
     tables::Reader reader(inputs.named());
     Source source{name, read_pairs(reader), {}};
     if (source.rows.empty()) {

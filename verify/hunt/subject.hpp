@@ -26,6 +26,7 @@ struct Answer {
   std::optional<double> gap_error{};              ///< a claimed bound
   bool is_local = false;                          ///< the bound is for a local gap
   std::optional<std::array<double, 3>> normal{};  ///< from A to B
+  bool unreadable = false;  ///< a cell is neither empty nor what its column is to hold
 };
 
 using Answers = std::vector<std::optional<Answer>>;

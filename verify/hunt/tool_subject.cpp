@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <tangency/geometry/tables/csv.hpp>
-#include <tangency/verify/answers/tool_run.hpp>
 #include <tangency/verify/answers/truth_table.hpp>
 #include <tangency/verify/corpus/corpus.hpp>
 
@@ -25,10 +25,14 @@ std::string table_of(std::span<const EllipsoidPair> pairs) {
   return text;
 }
 
-std::optional<double> number(const RowCursor& row, const std::optional<Column>& column) {
+// A number that is there, if it is one; a text that is none makes the answer unreadable.
+std::optional<double> number(const RowCursor& row, const std::optional<Column>& column,
+                             Answer& said) {
+  if (!column || row.text(*column).empty()) return std::nullopt;
   double value = 0;
-  if (!column || tables::parse_number(row.text(*column), value)) return std::nullopt;
-  return value;
+  if (!tables::parse_number(row.text(*column), value)) return value;
+  said.unreadable = true;
+  return std::nullopt;
 }
 
 struct Columns {
@@ -45,18 +49,22 @@ struct Columns {
 
   Answer answer(const RowCursor& row) const {
     Answer said;
-    if (relation) said.relation = relation_named(row.text(*relation));
-    if (overlaps) {
+    if (relation && !row.text(*relation).empty()) {
+      said.relation = relation_named(row.text(*relation));
+      said.unreadable = !said.relation;
+    }
+    if (overlaps && !row.text(*overlaps).empty()) {
       const std::string_view text = row.text(*overlaps);
       if (text == "0" || text == "1") said.overlaps = text == "1";
+      said.unreadable = said.unreadable || !said.overlaps;
     }
-    said.gap = number(row, gap);
-    said.gap_error = number(row, gap_error);
+    said.gap = number(row, gap, said);
+    said.gap_error = number(row, gap_error, said);
     said.is_local = status && row.text(*status) == "local";
     std::array<double, 3> n{};
     bool whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto component = number(row, normal[k]);
+      const auto component = number(row, normal[k], said);
       whole = whole && component;
       n[k] = component.value_or(0);
     }
@@ -66,26 +74,26 @@ struct Columns {
 };
 
 bool says_something(const Answer& answer) {
-  return answer.relation || answer.overlaps || answer.gap || answer.normal;
+  return answer.relation || answer.overlaps || answer.gap || answer.normal || answer.unreadable;
 }
 
 }  // namespace
 
-Answers ToolSubject::read(const std::string& text, std::size_t count) {
-  const std::string name = "answers";
-  Answers answers(count);
+// What is wrong with the table; the rows before that are answers all the same.
+std::string ToolSubject::read_table(const std::string& text, Answers& answers) {
   try {
-    tables::Reader reader(tables::NamedText{name, text});
+    tables::Reader reader(tables::NamedText{"what it printed", text});
     const Columns columns(reader.header());
+    const Column place = reader.header().require("row");
+    header_ = true;
     words_ = columns.relation || columns.overlaps;
     gaps_ = columns.gap.has_value();
     bounds_ = columns.gap && columns.gap_error;
     normals_ = std::ranges::all_of(columns.normal, [](const auto& c) { return c.has_value(); });
-    const Column place = reader.header().require("row");
     tables::for_each_row(reader, [&](const RowCursor& row) {
       double index = -1;
       const bool bad = tables::parse_number(row.text(place), index).has_value();
-      if (bad || !(index >= 0 && index < static_cast<double>(count)) ||
+      if (bad || !(index >= 0 && index < static_cast<double>(answers.size())) ||
           index != std::floor(index)) {
         return;
       }
@@ -94,10 +102,28 @@ Answers ToolSubject::read(const std::string& text, std::size_t count) {
       if (const Answer said = columns.answer(row); says_something(said)) answer = said;
     });
   } catch (const tables::Error& error) {
-    // What cannot be read is not said.
-    trouble_ = "what it printed cannot be read: " + std::string(error.what()).substr(name.size());
+    return error.what();
   }
-  return answers;
+  return {};
+}
+
+void ToolSubject::read(const ToolRun& run, std::size_t count, Answers& answers) {
+  Answers said(count);
+  const std::string problem = read_table(run.output, said);
+  const auto some = static_cast<std::size_t>(
+      std::ranges::count_if(said, [](const auto& answer) { return answer.has_value(); }));
+  answered_ += some;
+  if (!problem.empty() || some == 0) {
+    trouble_ = "the tool " + run.ending + (some == 0 ? " without an answer" : "");
+    for (const std::string& more : {problem, run.last_words}) {
+      if (!more.empty()) trouble_ += ": " + more;
+    }
+  }
+  std::ranges::move(said, std::back_inserter(answers));
+}
+
+double ToolSubject::time_left() const {
+  return std::chrono::duration<double>(end_ - std::chrono::steady_clock::now()).count();
 }
 
 void ToolSubject::ask(std::span<const EllipsoidPair> pairs, Answers& answers) {
@@ -105,8 +131,10 @@ void ToolSubject::ask(std::span<const EllipsoidPair> pairs, Answers& answers) {
   // As `grade` allows: ten times the longest answer, and a screen of messages.
   const std::size_t most_bytes = (std::size_t{1} << 16) + 4096 * pairs.size();
   ++starts_;
-  const ToolRun run = run_tool(command_, table_of(pairs), {seconds_, most_bytes});
-  if (*stopped_) return;
+  const double left = std::max(time_left(), 0.0);
+  const ToolRun run = run_tool(command_, table_of(pairs), {std::min(seconds_, left), most_bytes});
+  // A run that the hunt's own end has cut says nothing of the tool.
+  if (*stopped_ || (!run.sound && has_to_end())) return;
   if (!run.sound) {
     trouble_ = "the tool " + run.ending + (run.last_words.empty() ? "" : ": " + run.last_words);
     if (pairs.size() > 1) {
@@ -118,7 +146,7 @@ void ToolSubject::ask(std::span<const EllipsoidPair> pairs, Answers& answers) {
     answers.emplace_back();
     return;
   }
-  std::ranges::move(read(run.output, pairs.size()), std::back_inserter(answers));
+  read(run, pairs.size(), answers);
   // Chosen: between a tenth of a second and two a batch.
   if (run.seconds < 0.1) batch_ = std::min<std::size_t>(2 * batch_, 4096);
   if (run.seconds > 2) batch_ = std::max<std::size_t>(batch_ / 2, 1);

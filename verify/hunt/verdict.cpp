@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <tangency/verify/grade/judge.hpp>
+#include <tangency/verify/hunt/near_tie.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -125,7 +126,7 @@ std::optional<PairTruth> full_truth(const EllipsoidPair& pair, OracleCounts& cou
   try {
     if (auto truth = common_normal_truth(pair)) return truth;
   } catch (const std::exception&) {
-    // An ascent that did not arrive: the oracle says nothing.
+    // An ascent that did not arrive: the oracle says nothing, which counts as open.
   }
   ++counts.open;
   return std::nullopt;
@@ -142,7 +143,7 @@ void judge_gap(const EllipsoidPair& pair, const Answer& answer, const GapBracket
   if (bracket.upper < kInfinity) part.emplace(answer, known(bracket), bracket.size);
   if (!part || !settled(*part)) {
     const auto truth = full_truth(pair, counts);
-    if (!truth) return;
+    if (!truth) return void(verdict.open = true);
     part.emplace(answer, known(*truth), bracket.size);
   }
   verdict.error = part->most();
@@ -162,7 +163,7 @@ void judge_certificate(const EllipsoidPair& pair, const Answer& answer, const Ga
   if (ends.upper < kInfinity) part.emplace(answer, known(ends), ends.size);
   if (!part || (part->may_be_broken() && !part->is_broken())) {
     const auto truth = full_truth(pair, counts);
-    if (!truth) return;
+    if (!truth) return void(verdict.open = true);
     part.emplace(answer, known(*truth), bracket.size);
   }
   verdict.error = part->ratio();
@@ -174,19 +175,24 @@ void judge_normals(const EllipsoidPair& pair, const Answer& answer, const GapBra
                    const Limits& limits, OracleCounts& counts, Verdict& verdict) {
   if (!answer.normal) return void(verdict.fault = "no normal");
   double open = bracket.normal_error + 0x1p-51;
-  std::optional<KnownNormals> normals;
-  if (open < limits.normal_error / 2) {
-    normals.emplace(bracket.normal);
-  } else {
+  const auto is_off = [&](const NormalVerdict& found) {
+    return found.reversed || found.error - open > limits.normal_error;
+  };
+  NormalVerdict found{kInfinity, true};
+  if (open < limits.normal_error / 2) found = KnownNormals(bracket.normal).judged(*answer.normal);
+  // Without a near guess, and before a fault is said.
+  if (is_off(found)) {
     const auto truth = full_truth(pair, counts);
-    if (!truth) return;
-    normals.emplace(*truth);
+    if (!truth) return void(verdict.open = true);
     open = 0x1p-51;
+    found = KnownNormals(*truth).judged(*answer.normal);
+    if (is_off(found) && is_normal_within_rounding(pair, *answer.normal, truth->gap)) {
+      const auto& n = *answer.normal;
+      found = {std::abs(std::hypot(n[0], n[1], n[2]) - 1), false};
+    }
   }
-  const NormalVerdict found = normals->judged(*answer.normal);
   verdict.error = found.error;
-  if (found.error - open > limits.normal_error) verdict.fault = "normal off";
-  if (found.reversed) verdict.fault = "normal reversed";
+  if (is_off(found)) verdict.fault = found.reversed ? "normal reversed" : "normal off";
   verdict.badness = decades(verdict.error);
 }
 
@@ -218,7 +224,7 @@ Verdict Judge::verdict(const EllipsoidPair& pair, const std::optional<Answer>& a
     verdict.fault = "no answer";
     return verdict;
   }
-  verdict.fault = word_fault(*answer, verdict.truth);
+  verdict.fault = answer->unreadable ? "unreadable cell" : word_fault(*answer, verdict.truth);
   verdict.badness = verdict.fault.empty() ? 2 * kDecades - apart : apart;
   if (!verdict.fault.empty()) return verdict;
   switch (goal_) {

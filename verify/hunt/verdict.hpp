@@ -4,10 +4,14 @@
 /// asked (gap_bracket.hpp), else the exact relation, and gap and normals of 100 digits only for an
 /// answer that the goal needs them for and whose relation is right.
 ///
-///  (1) A fault is proven. What the oracles leave open is none.
+///  (1) A fault is proven. What the oracles leave open is none, and is said to be open: a maximum
+///      that is not proven global, or an ascent of 150 digits that does not arrive.
 ///  (2) Faults by the rules of `grade`: an `overlaps` of 1 on an external touch is none. Where
 ///      neither relation nor overlaps is answered the sign of the gap is the yes or no, and a gap
 ///      of 0 is neither.
+///  (3) A normal is off, or reversed, where it is so from every true one and is also none that the
+///      rounding of the inputs makes true (near_tie.hpp).
+///  (4) A cell that cannot be read is a fault of every goal.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +45,7 @@ struct Verdict {
   double error = 0;    ///< of the gap / L, of the normal, or of the gap / gap_error: the goal's
   Nearness near;       ///< of the pair
   Relation truth = Relation::separate;
+  bool open = false;  ///< the oracles do not settle what the goal asks
 };
 
 /// Which oracle was asked, how often.

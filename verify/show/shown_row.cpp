@@ -65,10 +65,13 @@ std::optional<InputRow> input_row(const tables::NamedText& inputs, std::size_t r
   return found;
 }
 
-std::vector<Cells> lines_about(tables::Reader&& table, std::size_t row) {
+std::vector<Cells> lines_about(tables::Reader&& table, std::size_t row,
+                               const std::vector<std::string>& columns) {
   std::vector<Cells> lines;
-  const auto column = table.header().find("row");
-  if (!column) return lines;
+  std::vector<tables::Column> found;
+  for (const std::string& name : columns) {
+    if (const auto column = table.header().find(name)) found.push_back(*column);
+  }
   tables::Block block;
   tables::RowCursor line(table.header());
   while (table.read(block)) {
@@ -76,9 +79,12 @@ std::vector<Cells> lines_about(tables::Reader&& table, std::size_t row) {
     for (;;) {
       try {
         if (!line.next()) break;
-        double number = 0;
-        if (tables::parse_number(line.text(*column), number)) continue;
-        if (number == static_cast<double>(row)) lines.push_back(cells_of(table.header(), line));
+        const auto says_it = [&](tables::Column column) {
+          double number = 0;
+          return !tables::parse_number(line.text(column), number) &&
+                 number == static_cast<double>(row);
+        };
+        if (std::ranges::any_of(found, says_it)) lines.push_back(cells_of(table.header(), line));
       } catch (const tables::Error&) {  // a line of a wrong length: next() goes on after it
       }
     }

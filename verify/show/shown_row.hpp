@@ -26,9 +26,11 @@ struct InputRow {
 };
 std::optional<InputRow> input_row(const tables::NamedText& inputs, std::size_t row);
 
-/// The lines whose column `row` says `row`: of a truth one for every normal, of answers what was
-/// answered. Lines that cannot be read are left out.
-std::vector<Cells> lines_about(tables::Reader&& table, std::size_t row);
+/// The lines of which one of these columns says `row`: of a truth one for every normal, of answers
+/// what was answered, of lists of neighbours the pairs of a body. Lines that cannot be read are
+/// left out.
+std::vector<Cells> lines_about(tables::Reader&& table, std::size_t row,
+                               const std::vector<std::string>& columns = {"row"});
 
 /// Two solids; of ellipses with z = 0 and a third semi-axis along z.
 struct Solids {

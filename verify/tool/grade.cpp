@@ -38,26 +38,36 @@ What is graded is a table with the column row, the number of the input row from 
 any of these; what its header names is asked of every row:
   relation     separate, external_touch, overlap, internal_touch, a_in_b, b_in_a, equal
   overlaps     0 or 1: do the interiors meet
-  gap          signed; and gap_error, a bound on its error that is claimed to hold (of a
-               row with the status local: for a local gap, the true one is not below
-               gap - gap_error)
-  nx ny nz     unit normal from a to b; of ellipses nx ny
+  gap          signed; and gap_error, a bound >= 0 on its error that is claimed to hold (of
+               a row with the status local: for a local gap, the true one is not below
+               gap - gap_error). Of points its sign tells inside from outside
+  nx ny nz     unit normal from a to b, of length 1 to three digits; of ellipses nx ny
   crossings, area   of ellipses
   type         of quadrics
-  result, t1, t2   of rays; status, time, latest   of times of contact
-  i j ix iy iz     a pair of neighbours, without row; docs/grading.md
+  result, t1, t2   of rays
+  status, time, latest   of times of contact; latest is a claimed bound
+  i j ix iy iz     a pair of neighbours, a line a pair, without row
 A tool gets the inputs on standard input, a table without comment lines whose numbers are
-hex floats, in the columns of `tangency contact`, `ellipse` or `classify`.
+hex floats, in the columns of the command that answers its kind: `tangency contact` (pairs,
+shape matrices and floats), `ellipse`, `classify`, `point`, `wall`, `ray`, `time` or
+`neighbours`. docs/grading.md has the kind of every corpus.
 
-The grade, family by family:
-  wrong        answers that differ from the exact relation, crossings or type
+The grade, family by family, of pairs, rows or bodies:
+  wrong        answers that differ from the exact relation, crossings, type, result, status or
+               side; neighbours that are listed and share no point
   touches      overlaps 1 on an external touch: counted here and never as wrong
-  missing      rows without a whole answer, cells that are no number included
-  broken       rows whose error is above their gap_error
+  missing      rows without a whole answer, cells that are no answer included; neighbours that
+               are not listed, those that only touch included
+  broken       rows whose error is above their gap_error; times whose first contact is before
+               `time` or after `latest`
   reversed     normals more than 90 degrees from every true one: those from b to a
-  gap error    |gap - truth| / L, L the distance of the centres and both largest semi-axes
-  normal error length of the difference to the nearest true normal
+  gap error    |gap - truth| / L, L the distance of the centres and both largest semi-axes (of
+               points and walls: from the centre, and the largest semi-axis); of floats in
+               2^-24 L
+  normal error length of the difference to the nearest true normal; of floats in 2^-24
   area error   |area - truth| / area of the smaller ellipse
+  t error      of rays: |t - truth| |direction| / L, L from the origin, the worse of t1 and t2
+  time error   distance of `time` from the true interval, in tolerances
   with median, 99 %, largest and the row of the largest; then rows that are answered twice,
   that the corpus does not have, or that cannot be read.
 
@@ -70,7 +80,7 @@ Files of a grade appear whole, once it has ended; SOURCE_DATE_EPOCH sets the dat
 
 Exit status: 0 every row answered, none wrong, every threshold kept; 1 answers are wrong,
 missing, faulty or beyond a threshold, worse than the baseline, a claimed bound is broken, a
-normal is reversed, or the tool was ended by a signal, hung or printed without end (its own
+normal is reversed, no row is judged, or the tool was ended by a signal, hung or printed without end (its own
 exit status is shown and decides nothing); 2 refused command line or corpus, or a failed
 write.
 
@@ -103,16 +113,19 @@ CorpusGrade graded(const Options& options, const CorpusSource& source, const Set
   const Thresholds& limits = options.thresholds;
   const Demands demands{options.demands_words, limits.gap_error,
                         truth.has_normals ? limits.normal_error : std::nullopt};
-  const CorpusTable inputs = source.inputs(name);
-  InputLines lines = input_lines(inputs, truth.rows.size());
   if (options.tool.empty()) {
     require_readable(options.answers);
+    InputLines lines;  // which only say where a row stands
+    if (source.has_inputs(name)) lines = input_lines(source.inputs(name), truth.rows.size());
     return {name, truth.kind, grade(truth, options.answers, demands), std::nullopt,
             std::move(lines)};
   }
+  const CorpusTable inputs = source.inputs(name);
+  InputLines lines = input_lines(inputs, truth.rows.size());
   const ToolRun run = asked(options.tool, inputs, truth.rows.size(), options.seconds);
   return {name, truth.kind, grade(truth, tables::NamedText{"answers", run.output}, demands),
-          RunNote{run.sound, run.ending, run.last_words, run.seconds}, std::move(lines)};
+          RunNote{run.sound, run.ending, run.last_words, run.seconds, !run.output.empty()},
+          std::move(lines)};
 }
 
 std::string allowed(const std::optional<double>& most, const char* unit) {

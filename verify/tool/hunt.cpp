@@ -27,8 +27,10 @@
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
 #include <tangency/verify/hunt/findings.hpp>
+#include <tangency/verify/hunt/found_corpus.hpp>
 #include <tangency/verify/hunt/tool_subject.hpp>
 #include <tangency/verify/tool/command_line.hpp>
+#include <tangency/verify/tool/row_choice.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -51,15 +53,17 @@ Goals, each with its faults; a wrong relation is a fault of all:
   certificate  the gap is off by more than the gap_error that the tool claims
 
 Of every kind of fault the simplest pairs are kept, and made simpler as long as the fault stays:
-round bodies at the origin, numbers of few digits. They are printed, and written to
-DIR/hunt.csv and DIR/hunt.truth.csv, which `grade --corpora DIR --corpus hunt` grades by.
+round bodies at the origin, numbers of few digits. They are printed, and appended to
+DIR/hunt.csv and DIR/hunt.truth.csv, which `grade --corpora DIR --corpus hunt` grades by. Rows
+that are there stay; a pair that has a row gets no second one.
 
 The same seed and tool give the same findings. Ctrl-C ends the search and shows what was found; a
-second one ends at once. With --state the same command later goes on where it was, and finds
-what it would have found without the break.
+second one ends at once. With --seconds S the search ends after S, and making its findings simple
+after half of S more; a batch that then runs is ended and does not count. With --state the same
+command later goes on where it was, and finds what it would have found without the break.
 
 Exit status: 0 nothing found; 1 found; 2 refused command line or state, a tool that answers
-nothing of the goal, or a failed write.
+nothing or nothing of the goal, no answer within --seconds, or a failed write.
 
 Example:
   $ tangency-verify hunt --tool 'tangency contact' --goal certificate --answers 5000
@@ -146,25 +150,19 @@ class Hunt {
   ExitStatus run() {
     prepare();
     ToolSubject subject(options_.tool, options_.time_limit, interrupted);
-    if (options_.seconds) {
-      subject.end_at(begin_ + std::chrono::duration_cast<Clock::duration>(
-                                  std::chrono::duration<double>(*options_.seconds)));
-    }
+    if (options_.seconds) subject.end_at(after(begin_, *options_.seconds));
     search(subject);
-    return tell(subject);
+    require_any();
+    const std::string trouble = subject.last_trouble();
+    // Chosen: half of the search's time is enough for a fast tool, and can be waited for.
+    if (options_.seconds) subject.end_at(after(Clock::now(), *options_.seconds / 2));
+    return tell(subject, trouble);
   }
 
  private:
   // What cannot be read or written is refused before the tool is started.
   void prepare() {
-    if (!options_.out.empty()) {
-      std::error_code problem;
-      fs::create_directories(options_.out, problem);
-      if (problem) {
-        throw tables::Error({.file = options_.out, .rule = "cannot be made: " + problem.message()});
-      }
-      tables::OutputFile((fs::path(options_.out) / "hunt.csv").string());
-    }
+    if (!options_.out.empty()) kept_.emplace(options_.out);
     if (!options_.state.empty()) {
       if (fs::exists(options_.state)) read_state();
       tables::OutputFile{options_.state};
@@ -172,7 +170,21 @@ class Hunt {
     watch_for_interrupts();
   }
 
+  static Clock::time_point after(Clock::time_point begin, double seconds) {
+    constexpr double kLongest = 1e9;  // chosen: a life
+    return begin + std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(std::min(seconds, kLongest)));
+  }
+
   void read_state() {
+    constexpr std::uintmax_t kMostBytes = 1 << 28;  // chosen: some hundred times what one needs
+    std::error_code unknown;
+    if (!fs::is_regular_file(options_.state, unknown)) {
+      throw tables::Error({.file = options_.state, .rule = "a state must be a regular file"});
+    }
+    if (fs::file_size(options_.state, unknown) > kMostBytes) {
+      throw tables::Error({.file = options_.state, .rule = "this is no state of a hunt"});
+    }
     std::ifstream file(options_.state, std::ios::binary);
     if (!file) {
       throw tables::Error(
@@ -210,17 +222,34 @@ class Hunt {
   }
 
   void require_answers(const ToolSubject& subject) const {
-    if (!subject.last_trouble().empty() || search_.answers() == 0) return;
+    if (search_.answers() == resumed_) return;
     const Goal goal = judge_.goal();
     const char* lacks = !subject.says_words() && !subject.says_gaps() ? "relation, overlaps or gap"
                         : goal == Goal::gap && !subject.says_gaps()   ? "gap"
                         : goal == Goal::normal && !subject.says_normals()     ? "nx, ny, nz"
                         : goal == Goal::certificate && !subject.says_bounds() ? "gap and gap_error"
                                                                               : nullptr;
-    if (lacks == nullptr) return;
+    if (subject.says_columns() && lacks != nullptr) {
+      throw tables::Error({.file = "--tool",
+                           .rule = "its answers have no column " + std::string(lacks) +
+                                   ", which --goal " + options_.goal + " is about"});
+    }
+    if (subject.answered() > 0) return;
     throw tables::Error({.file = "--tool",
-                         .rule = "its answers have no column " + std::string(lacks) +
-                                 ", which --goal " + options_.goal + " is about"});
+                         .rule = "none of the first " +
+                                 std::to_string(search_.answers() - resumed_) +
+                                 " pairs is answered: " + subject.last_trouble()});
+  }
+
+  // A hunt that asked nothing has not passed.
+  void require_any() const {
+    if (search_.answers() > 0) return;
+    if (interrupted) {
+      throw tables::Error({.file = "--tool", .rule = "interrupted before its first answers"});
+    }
+    throw tables::Error({.file = "--seconds",
+                         .rule = "no batch of the tool ended within " +
+                                 tables::to_text(options_.seconds.value_or(0)) + " s"});
   }
 
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
@@ -236,11 +265,9 @@ class Hunt {
            " a second, " + std::to_string(search_.faults().size()) + " kinds of faults";
   }
 
-  ExitStatus tell(const ToolSubject& searched) {
+  ExitStatus tell(ToolSubject& subject, const std::string& trouble) {
     // Chosen: a screen of findings; some seconds of most tools to make each of them simple.
     constexpr std::size_t kMost = 12, kMostAnswers = 4000;
-    std::atomic<bool> never = false;
-    ToolSubject subject(options_.tool, options_.time_limit, never);
     const std::vector<HuntFinding> found = findings(search_, subject, kMost, kMostAnswers);
     tables::OutputFile screen("-");
     for (std::size_t i = 0; i < found.size(); ++i) screen.write(finding_text(found[i], i + 1));
@@ -248,9 +275,16 @@ class Hunt {
       screen.write("fault " + fault + ": " + std::to_string(count.count) +
                    " answers, the first is answer " + std::to_string(count.first) + '\n');
     }
-    if (!searched.last_trouble().empty()) screen.write(searched.last_trouble() + '\n');
+    if (search_.open() > 0) {
+      screen.write("open: " + std::to_string(search_.open()) +
+                   " answers of which the oracles do not settle what the goal asks\n");
+    }
+    if (!trouble.empty()) screen.write(trouble + '\n');
     if (interrupted) screen.write("interrupted\n");
-    write(found);
+    if (kept_ && kept_->add(named(found)) > 0) {
+      screen.write((fs::path(options_.out) / "hunt.csv").string() + " has " +
+                   std::to_string(kept_->rows()) + " rows now\n");
+    }
     const std::string answers = std::to_string(search_.answers()) + " answers: ";
     if (search_.faults().empty()) {
       screen.write("passed: " + answers + "no fault found\n");
@@ -261,23 +295,12 @@ class Hunt {
     return failed;
   }
 
-  void write(const std::vector<HuntFinding>& found) const {
-    if (options_.out.empty() || found.empty()) return;
-    const fs::path folder(options_.out);
-    tables::OutputFile inputs((folder / "hunt.csv").string());
-    tables::OutputFile truth((folder / "hunt.truth.csv").string());
-    const CorpusText text = findings_corpus(found, "Found by `tangency-verify hunt`.");
-    inputs.write(text.inputs);
-    truth.write(text.truth);
-    inputs.commit();
-    truth.commit();
-  }
-
   const Options& options_;
   Judge judge_;
   Search search_;
   std::string question_, snapshot_;
-  std::size_t resumed_ = 0;  // answers of before
+  std::optional<FoundCorpus> kept_;  // with --out
+  std::size_t resumed_ = 0;          // answers of before
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
 };
 
@@ -321,7 +344,10 @@ void add_hunt(tables::Program& program) {
       .check(check_positive)
       .shows_default()
       .type_name("X");
-  command.option("--seed", options->seed, "Another seed, another hunt").shows_default();
+  command.option("--seed", options->seed, "Another seed, another hunt")
+      .check(check_seed)
+      .shows_default()
+      .type_name("N");
   const tables::Option answers =
       command
           .option("--answers", options->answers,
@@ -343,8 +369,10 @@ void add_hunt(tables::Program& program) {
       .not_empty()
       .type_name("FILE");
   command
-      .option("--out", options->out,
-              "Folder to write hunt.csv and hunt.truth.csv to; made where it is missing")
+      .option(
+          "--out", options->out,
+          "Folder of hunt.csv and hunt.truth.csv, to which findings are appended; made where it is "
+          "missing")
       .not_empty()
       .type_name("DIR");
   command.footer(kHelp);

@@ -36,7 +36,7 @@ void add_inputs(tables::Program& program) {
   command.footer(kHelp);
   command.runs([options] {
     const CorpusSource source = corpus_source(options->corpora);
-    source.require(options->corpus);
+    source.require(options->corpus, "CORPUS");
     tables::OutputFile out(options->out);
     out.write(inputs_for_a_tool(source.inputs(options->corpus).text));
     out.commit();

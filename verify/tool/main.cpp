@@ -9,13 +9,15 @@ namespace tangency::inline v0::verify {
 namespace {
 
 constexpr const char* kProgramDescription =
-    "tangency-verify: golden corpora of ellipsoids, ellipses and quadrics, and a grade for any\n"
-    "program that answers them.";
+    "tangency-verify: golden corpora of ellipsoids, ellipses, quadrics and what else is asked of\n"
+    "them, and a grade for any program that answers.";
 
 constexpr const char* kProgramHelp = R"(
 Exit status:
-  0  done; every threshold is kept and no answer is missing
-  1  a threshold is passed, answers are missing, or the tool died, hung or printed rubbish
+  0  done; of grade: every threshold is kept and no answer is wrong or missing; of hunt:
+     nothing was found
+  1  of grade: a threshold is passed, answers are wrong or missing, or the tool died, hung or
+     printed rubbish; of hunt: an answer that is wrong was found
   2  the command line or a file was refused, or writing failed;
      one line on standard error says where, what and what is allowed
 

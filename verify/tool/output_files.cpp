@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 
@@ -43,6 +44,10 @@ std::string hint(const GradeReport& report, const std::string& corpora) {
   return {};
 }
 
+std::filesystem::path normal(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
 }  // namespace
 
 void add_output_options(tables::Command& command, OutputPaths& paths) {
@@ -53,6 +58,12 @@ void add_output_options(tables::Command& command, OutputPaths& paths) {
 
 OutputFiles::OutputFiles(const OutputPaths& paths) {
   for (std::size_t i = 0; i < kOutputForms; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (paths[i].empty() || normal(paths[i]) != normal(paths[k])) continue;
+      throw tables::Error({.file = kOutputs[i].option,
+                           .rule = paths[i] + " is the file of " + kOutputs[k].option +
+                                   " too; each needs one of its own"});
+    }
     if (!paths[i].empty()) files_[i] = std::make_unique<tables::OutputFile>(paths[i]);
   }
 }

@@ -25,7 +25,7 @@ void add_output_options(tables::Command& command, OutputPaths& paths);
 /// appears whole with write().
 class OutputFiles {
  public:
-  /// Throws tables::Error.
+  /// Throws tables::Error, also where two are one file.
   explicit OutputFiles(const OutputPaths& paths);
   /// Throws tables::Error.
   void write(const GradeReport& report);

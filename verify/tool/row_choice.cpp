@@ -34,15 +34,6 @@ std::string check_rows(const std::string& text) {
   return text + " is not a whole number from 1 to " + std::to_string(kMostRows);
 }
 
-std::string check_seed(const std::string& text) {
-  double value = 0;
-  constexpr double kMost = 1e18;  // chosen: below what the seed's type holds
-  if (text.find_first_not_of("0123456789") == text.npos && !tables::parse_number(text, value) &&
-      value <= kMost)
-    return {};
-  return text + " is not a whole number from 0 to 1e18";
-}
-
 CorpusSource fresh([[maybe_unused]] const RowChoice& choice) {
 #ifdef TANGENCY_HAS_ORACLES
   const std::size_t rows = choice.rows > 0 ? choice.rows : kWholeFamily;
@@ -57,6 +48,15 @@ CorpusSource fresh([[maybe_unused]] const RowChoice& choice) {
 }
 
 }  // namespace
+
+std::string check_seed(const std::string& text) {
+  double value = 0;
+  constexpr double kMost = 1e18;  // chosen: below what the seed's type holds
+  if (text.find_first_not_of("0123456789") == text.npos && !tables::parse_number(text, value) &&
+      value <= kMost)
+    return {};
+  return text + " is not a whole number from 0 to 1e18";
+}
 
 void add_seed_options(tables::Command& command, RowChoice& choice) {
   command

@@ -54,4 +54,7 @@ Facts facts_of(const RowChoice& choice, const CorpusSource& source);
 /// What --help says of them.
 std::string help_on_features();
 
+/// Of a seed: nothing, or what is wrong with it.
+std::string check_seed(const std::string& text);
+
 }  // namespace tangency::inline v0::verify

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -23,7 +24,9 @@ namespace {
 constexpr const char* kHelp = R"(
 Shows one row of a corpus: its inputs in decimal and as hex floats, what is true of it, what was
 answered and what is wrong with that, and a pair of ellipsoids as code that compiles and runs.
-A tool is asked about the whole corpus, as `tangency-verify grade` asks it.
+A tool is asked about the whole corpus, as `tangency-verify grade` asks it. Of lists of neighbours
+a row is a body, shown with all pairs that it is in. Pairs of ellipsoids at rest, by their axes,
+have code and a picture, ellipses a picture; all else has its line of the table alone.
 
 The picture looks along the common perpendicular of the line of centres and the normal: in its
 plane the distance of both outlines along the normal is the true gap.
@@ -44,6 +47,7 @@ struct Options {
 
 // What is known of the row.
 struct Row {
+  CorpusKind kind;
   std::string name, header_line;  // "near row 7", of the inputs
   std::size_t index;
   InputRow input;
@@ -71,8 +75,29 @@ std::string table_of(const Cells& cells) {
   return text;
 }
 
+// Of a line of neighbours: both bodies, for either may be the one that is shown.
+std::vector<std::string> columns_about(CorpusKind kind, const std::string& first) {
+  if (kind == CorpusKind::neighbours) return {first, "j"};
+  return {"row"};
+}
+
+// A line a pair: `i 3 j 13 ix 0 iy 0 iz 0 relation overlap`.
+std::string pairs_of(const std::vector<Cells>& lines) {
+  std::string text;
+  for (const Cells& cells : lines) {
+    if (std::ranges::find(cells, "j", &Cells::value_type::first) == cells.end()) continue;
+    text += ' ';
+    for (const auto& [name, value] : cells) {
+      if (name != "family") text += ' ' + (name == "row" ? "i" : name) + ' ' + value;
+    }
+    text += '\n';
+  }
+  return text.empty() ? "  no pair with this body\n" : text;
+}
+
 // Of every further line what it says otherwise: the other normals.
-std::string truth_of(const std::vector<Cells>& lines) {
+std::string truth_of(const std::vector<Cells>& lines, CorpusKind kind) {
+  if (kind == CorpusKind::neighbours) return "true\n" + pairs_of(lines);
   std::string text = "true\n" + table_of(lines.front());
   for (std::size_t i = 1; i < lines.size(); ++i) {
     Cells other = lines[i];
@@ -101,6 +126,8 @@ std::string judgement(const Grade& grade, const Row& row, CorpusKind kind) {
 
 std::string answer_of(const std::vector<Cells>& lines, const Grade& grade, const Row& row,
                       CorpusKind kind) {
+  if (kind == CorpusKind::neighbours)
+    return "answered\n" + pairs_of(lines) + judgement(grade, row, kind);
   std::string text;
   for (const Cells& line : lines) text += "answered\n" + table_of(line);
   return (text.empty() ? "no answer\n" : text) + judgement(grade, row, kind);
@@ -118,11 +145,12 @@ Row row_of(const Options& options, const CorpusSource& source, const TruthTable&
   }
   const CorpusTable table = source.truth(options.corpus);
   const TruthRow& true_row = truth.rows[index];
-  Row row{options.corpus + " row " + options.row,
+  Row row{truth.kind,
+          options.corpus + " row " + options.row,
           {},
           index,
           *input,
-          lines_about(tables::Reader(table.named()), index),
+          lines_about(tables::Reader(table.named()), index, columns_about(truth.kind, "row")),
           true_row,
           truth.families[true_row.family],
           {1, 0, 0}};
@@ -136,7 +164,7 @@ Row row_of(const Options& options, const CorpusSource& source, const TruthTable&
 std::string truth_in_a_line(const Row& row) {
   std::string text;
   for (const auto& [name, value] : row.truth.front()) {
-    if (name == "relation" || name == "type" || name == "gap") {
+    if (name == "relation" || name == "gap") {
       text += (text.empty() ? "" : ", ") + name + ' ' + value;
     }
   }
@@ -155,11 +183,15 @@ std::string code_of(const std::string& code, const Row& row) {
                  truth_in_a_line(row));
 }
 
+// The bodies of a pair at rest: code and picture know no motion.
+std::optional<Solids> pair_of(const Row& row) {
+  return row.kind == CorpusKind::times ? std::nullopt : solids_of(row.input.cells);
+}
+
 // Ellipsoids have code in every language; what is none has a table.
 bool has_code(const std::string& code, const Row& row) {
   const auto is_of_a_body = [](const auto& cell) { return cell.first == "a.qw"; };
-  return code == "csv" ||
-         (solids_of(row.input.cells) && std::ranges::any_of(row.input.cells, is_of_a_body));
+  return code == "csv" || (pair_of(row) && std::ranges::any_of(row.input.cells, is_of_a_body));
 }
 
 std::string all_codes(const Row& row) {
@@ -168,6 +200,10 @@ std::string all_codes(const Row& row) {
     const std::string name(code);
     if (has_code(name, row)) text += "\n--- " + name + "\n" + code_of(name, row);
   }
+  if (row.kind == CorpusKind::neighbours)
+    return text + "\nThis is one body of a list; `tangency-verify inputs` prints all.\n";
+  if (!has_code("cpp", row))
+    text += "\nThere is no other code: pairs of ellipsoids at rest, by their axes, have it.\n";
   return text;
 }
 
@@ -176,7 +212,7 @@ std::string shown_row(const Options& options, const CorpusSource& source, const 
   const CorpusTable inputs = source.inputs(options.corpus);
   std::string text = row.name + ": family " + row.family + ", " + inputs.file + ':' +
                      std::to_string(row.input.line) + '\n' + table_of(row.input.cells) +
-                     truth_of(row.truth);
+                     truth_of(row.truth, row.kind);
   const Demands every_error{false, 0.0, 0.0};
   if (!options.tool.empty()) {
     const ToolRun run = asked(options.tool, inputs, truth.rows.size(), kSecondsOfATool);
@@ -185,33 +221,36 @@ std::string shown_row(const Options& options, const CorpusSource& source, const 
     const tables::NamedText answers{"answers", run.output};
     std::vector<Cells> lines;
     try {
-      lines = lines_about(tables::Reader(answers), row.index);
+      lines = lines_about(tables::Reader(answers), row.index, columns_about(row.kind, "i"));
     } catch (const tables::Error& error) {  // no header
       text += "its answers cannot be read: " + std::string(error.what()) + '\n';
     }
     text += answer_of(lines, grade(truth, answers, every_error), row, truth.kind);
   } else if (!options.answers.empty()) {
     require_readable(options.answers);
-    text += answer_of(lines_about(tables::Reader(options.answers), row.index),
-                      grade(truth, options.answers, every_error), row, truth.kind);
+    text += answer_of(
+        lines_about(tables::Reader(options.answers), row.index, columns_about(row.kind, "i")),
+        grade(truth, options.answers, every_error), row, truth.kind);
   }
   return text + all_codes(row);
 }
 
 ExitStatus run(const Options& options) {
   const CorpusSource source = corpus_source(options.corpora);
-  source.require(options.corpus);
+  source.require(options.corpus, "CORPUS");
   const CorpusTable table = source.truth(options.corpus);
   const TruthTable truth =
       read_truth(tables::Reader(table.named()), definition_named(options.definition));
   const Row row = row_of(options, source, truth);
-  const auto solids = solids_of(row.input.cells);
+  const auto solids = pair_of(row);
   if (!options.svg.empty() && !solids) {
-    throw tables::UsageError("--svg: " + row.name + " has no picture; pairs of bodies have");
+    throw tables::UsageError("--svg: " + row.name +
+                             " has no picture; pairs of bodies at rest, by their axes, have");
   }
   if (!options.code.empty() && !has_code(options.code, row)) {
-    throw tables::UsageError("--as: " + row.name +
-                             " has no code but csv; pairs of ellipsoids have");
+    throw tables::UsageError(
+        "--as: " + row.name +
+        " has no code but csv; pairs of ellipsoids at rest, by their axes, have");
   }
   tables::OutputFile out(options.out);
   const auto svg =
