@@ -96,38 +96,6 @@ void require_older(const State& state, const Packing& now, const State& older, c
   }
 }
 
-/// The mean gradient of where the particles went, by least squares; positions are not wrapped into
-/// the cell.
-Mat3 mean_motion(const Packing& then, const Packing& now) {
-  const auto& from = then.particles.position;
-  const auto& to = now.particles.position;
-  Vec3 mean_from = Vec3::Zero(), mean_to = Vec3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    mean_from += from[i] / static_cast<double>(from.size());
-    mean_to += to[i] / static_cast<double>(from.size());
-  }
-  Mat3 moved = Mat3::Zero(), spread = Mat3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const Vec3 place = from[i] - mean_from;
-    moved += (to[i] - mean_to) * place.transpose();
-    spread += place * place.transpose();
-  }
-  if (now.dimensions == 2) moved(2, 2) = spread(2, 2) = 1.0;
-  return moved * spread.inverse();
-}
-
-/// Simple shear describes its cell by other edges now and then (Simulation), of the same lattice:
-/// then edges do not tell how it was strained. The motion of the particles does, to a part of an
-/// edge; another description is off by a whole one.
-void require_same_edges(const Packing& now, const Packing& then, const std::string& file) {
-  const Mat3 followed = mean_motion(then, now) * then.edges;
-  const Mat3 off = followed.inverse() * now.edges - Mat3::Identity();
-  if (off.allFinite() && off.cwiseAbs().maxCoeff() > 0.5)
-    refuse(file,
-           "simple shear has come so far since then that the cell is described by other edges; "
-           "--since takes a state from after that");
-}
-
 }  // namespace
 
 StrainReport strain_report(const State& state, const Packing& packing) {
@@ -159,7 +127,6 @@ StrainReport strain_report(const State& state, const Packing& packing, const Sta
   require_older(state, packing, older, then, file);
   StrainReport report = strain_report(state, packing);
   if (!report.why_not.empty()) return report;
-  require_same_edges(packing, then, file);
   StrainReport::Since since;
   since.cycle = older.cycle;
   since.time = older.time;
@@ -307,9 +274,7 @@ JSON, average_strain: why_not (null; else why there is none, as with walls) and
                         cell); cells, centres, edges, edges_in_contact, contacts_left_out (that are
                         no edge)
   displacements         with --since FILE, an earlier state of the same run, else null (a run of
-                        the same particles from other places cannot be told from it);
-                        refused where simple shear has since changed the edges that describe the
-                        cell, which it does where one leans over by more than half of another:
+                        the same particles from other places cannot be told from it):
                         since_cycle, since_time, gradient and logarithmic strain of the cell, and
                         of each net of the older state sum, and its parts of edges in contact at
                         both states (kept), at the older one (lost), at the later one (gained), at

@@ -290,45 +290,6 @@ TEST(StrainCommand, RefusesAStateThatIsNoEarlierOneOfTheSameParticles) {
             std::string::npos);
 }
 
-TEST(StrainCommand, RefusesAStateFromBeforeSimpleShearChangedTheEdges) {
-  const std::string text = with(growing_scene(3), "[output]\n",
-                                "[[stage]]\nkind = \"servo\"\nmean_stress = 50e6\n"
-                                "max_strain_rate = 0.3\nsimple_shear_rate = [1.0, 0.0, 0.0]\n"
-                                "duration = 100000\n[output]\n");
-  dem::Simulation run = at_stage(text, 4);
-  const TemporaryFolder folder;
-  const auto saved = [&](const char* name) {
-    dem::save_state(run.state(), folder.path(name));
-    return folder.path(name);
-  };
-  const auto sheared_until = [&](const auto& enough) {
-    for (int k = 0; k < 20000 && !enough(run.state().cell); ++k) run.step();
-    ASSERT_TRUE(enough(run.state().cell));
-  };
-  const auto tilt = [](const dem::Cell& cell) { return cell.edges(0, 1) / cell.edges(0, 0); };
-  const std::string start = saved("start.state");
-  sheared_until([&](const dem::Cell& cell) { return tilt(cell) > 0.45; });
-  const std::string leaning = saved("leaning.state");
-  sheared_until([&](const dem::Cell& cell) { return tilt(cell) < -0.4; });
-  const std::string anew = saved("anew.state");
-  sheared_until([&](const dem::Cell& cell) { return tilt(cell) > -0.3; });
-  const std::string later = saved("later.state");
-  for (const auto& [older, newer] : {std::pair(&start, &leaning), std::pair(&anew, &later)}) {
-    const Finished done = run_tool({"micro", *newer, "--since", *older, "--json", "-"});
-    ASSERT_EQ(done.status, 0) << done.err;
-    const Mat3 gradient =
-        tensor(json::parse(done.out)["average_strain"]["displacements"]["gradient"]);
-    EXPECT_GT(std::abs(gradient(0, 1)), 0.05);
-  }
-  for (const std::string& older : {start, leaning}) {
-    const Finished done = run_tool({"micro", later, "--since", older});
-    EXPECT_EQ(done.status, 2);
-    EXPECT_EQ(done.out, "");
-    EXPECT_NE(done.err.find(older + ": simple shear has come so far since then"), done.err.npos)
-        << done.err;
-  }
-}
-
 TEST(StrainCommand, RefusesAStateOfOtherMasses) {
   const TemporaryFolder folder;
   const auto saved = [&](const char* name, const std::string& scene) {

@@ -59,7 +59,7 @@ void add_output_options(tables::Command& command, OutputPaths& paths) {
 OutputFiles::OutputFiles(const OutputPaths& paths) {
   for (std::size_t i = 0; i < kOutputForms; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (paths[i].empty() || normal(paths[i]) != normal(paths[k])) continue;
+      if (paths[i].empty() || paths[k].empty() || normal(paths[i]) != normal(paths[k])) continue;
       throw tables::Error({.file = kOutputs[i].option,
                            .rule = paths[i] + " is the file of " + kOutputs[k].option +
                                    " too; each needs one of its own"});
