@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Of frames of tangency-dem (VTK XML in text, an item a line) makes what assembly.pov includes: a
+# Of frames of tangency-dem, told by frame_text.py, an item a line, makes what assembly.pov includes: a
 # file particles-N.inc a frame, N from -v sizes= in the order of the frames. Prints the colours'
 # legend, with the numbers of the last frame, in HTML.
 BEGIN { split(sizes, size, " ") }
