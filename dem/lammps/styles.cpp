@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include <tangency/dem/lammps/pair_tangency.hpp>
+
 namespace tangency::inline v0::lammps {
 namespace {
 
@@ -20,9 +22,8 @@ template <class Style>
 template <class Style>
 [[maybe_unused]] constexpr auto kCompute = &made<LAMMPS_NS::Compute, Style, int, char**>;
 
-// One line a style, as PairEntry{"tangency", kPair<PairTangency>}: its name, and the class of its
-// header.
-constexpr std::array<PairEntry, 0> kPairStyles{};
+// One line a style: its name, and the class of its header.
+constexpr std::array kPairStyles{PairEntry{"tangency", kPair<PairTangency>}};
 constexpr std::array<FixEntry, 0> kFixStyles{};
 constexpr std::array<ComputeEntry, 0> kComputeStyles{};
 
