@@ -29,9 +29,9 @@ struct BodySizes {
     lognormal,  ///< in number; the median is `radius`, and `spread` the deviation of its logarithm
     sieve,      ///< by mass, of what passes sieves
   };
-  Rule rule = Rule::equal;
-  double radius = 1.0;  ///< > 0, length; not of a sieve curve
-  double spread = 0.0;  ///< >= 0
+  Rule rule = Rule::equal;  ///< how they are distributed
+  double radius = 1.0;      ///< > 0, length; not of a sieve curve
+  double spread = 0.0;      ///< >= 0; as the rule says
   double tails = 0.02;  ///< normal, lognormal: share in number left out at either end, in (0, 1/2)
   /// Sieve curve: square openings, ascending, > 0, length; and the share of mass that passes each,
   /// ascending from 0 to 1. Between two openings it grows with the logarithm of the opening.

@@ -33,16 +33,19 @@ Mat3 spread_of(const Quaternion& orientation, const Vec3& axes) {
   return rotation * axes.cwiseAbs2().asDiagonal() * rotation.transpose();
 }
 
+/// What most looks at a body about the origin need of it, in few cache lines.
+struct Extent {
+  Mat3 spread;
+  double inner, outer;  ///< radii of the spheres within and around it
+};
+
 /// A body about the origin.
 struct Solid {
   Solid(const Vec3& axes, const Quaternion& orientation)
       : body(Vec3::Zero(), axes, orientation),
-        spread(spread_of(orientation, axes)),
-        inner(axes.minCoeff()),
-        outer(axes.maxCoeff()) {}
+        extent{spread_of(orientation, axes), axes.minCoeff(), axes.maxCoeff()} {}
   Ellipsoid body;
-  Mat3 spread;
-  double inner, outer;  ///< radii of the spheres within and around it
+  Extent extent;
 };
 
 /// The direction in which ellipsoids of these spreads that lie d apart are furthest from each
@@ -60,14 +63,14 @@ struct Meeting {
 
 /// The projections on any direction tell bodies apart, and how far to go; where they overlap on
 /// this one overlaps() decides.
-Meeting look_at(const Solid& a, const Solid& b, const Vec3& d) {
-  const Vec3 n = way_apart(a.spread + b.spread, d);
+Meeting look_at(const Solid& a, const Extent& b, const Ellipsoid& body_b, const Vec3& d) {
+  const Vec3 n = way_apart(a.extent.spread + b.spread, d);
   const double squared = n.squaredNorm();
-  const double reach = std::sqrt(n.dot(a.spread * n)) + std::sqrt(n.dot(b.spread * n));
+  const double reach = std::sqrt(n.dot(a.extent.spread * n)) + std::sqrt(n.dot(b.spread * n));
   const double apart = n.dot(d) - reach;  // times |n|
   if (apart > 0.0) return {false, Vec3::Zero()};
-  const double within = a.inner + b.inner;
-  if (d.squaredNorm() > within * within && !overlaps(a.body, b.body, d))
+  const double within = a.extent.inner + b.inner;
+  if (d.squaredNorm() > within * within && !overlaps(a.body, body_b, d))
     return {false, Vec3::Zero()};
   return {true, squared > 0.0 ? Vec3(n * (apart / squared)) : Vec3::Zero()};
 }
@@ -106,7 +109,8 @@ class Insertion {
         coming_(in_order(batches, how.dimensions)),
         balls_(edges, bounding_radii(coming_, kInsertionClearance), how.dimensions) {
     particles_.dimensions = how.dimensions;
-    solids_.reserve(coming_.size());
+    extents_.reserve(coming_.size());
+    bodies_.reserve(coming_.size());
   }
 
   Particles all() {
@@ -141,7 +145,7 @@ class Insertion {
       }
       room.bounded[axis] = layered || how_.walled[axis];
       if (!how_.walled[axis]) continue;
-      const double extent = std::sqrt(solid.spread(k, k));
+      const double extent = std::sqrt(solid.extent.spread(k, k));
       room.low[k] = std::max(room.low[k], extent);
       room.high[k] = std::min(room.high[k], edges_[k] - extent);
     }
@@ -154,8 +158,8 @@ class Insertion {
     for (int step = 0;; ++step) {
       Vec3 way_out = Vec3::Zero();
       bool meets = false;
-      balls_.any_meets(centre, solid.outer, [&](std::size_t ball, const Vec3& d) {
-        const Meeting meeting = look_at(solid, solids_[ball], d);
+      balls_.any_meets(centre, solid.extent.outer, [&](std::size_t ball, const Vec3& d) {
+        const Meeting meeting = look_at(solid, extents_[ball], bodies_[ball], d);
         meets = meets || meeting.meet;
         way_out += meeting.way_out;
         return meets && step == steps;
@@ -178,8 +182,9 @@ class Insertion {
       if (!(room.low.array() <= room.high.array()).all() ||
           !find_room(solid, room, draw < kPlainDraws ? 0 : kMostSteps, centre))
         continue;
-      balls_.add(centre, solid.outer);
-      solids_.push_back(solid);
+      balls_.add(centre, solid.extent.outer);
+      extents_.push_back(solid.extent);
+      bodies_.push_back(solid.body);
       particles_.add(centre, orientation, one.axes, batch.density,
                      static_cast<std::int32_t>(one.batch));
       return;
@@ -203,7 +208,8 @@ class Insertion {
   std::mt19937_64 random_;
   std::vector<Coming> coming_;
   PlacedBalls balls_;
-  std::vector<Solid> solids_;  ///< made larger by the clearance
+  std::vector<Extent> extents_;  ///< of bodies made larger by the clearance, and these
+  std::vector<Ellipsoid> bodies_;
   Particles particles_;
 };
 

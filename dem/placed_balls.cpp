@@ -32,6 +32,7 @@ PlacedBalls::PlacedBalls(const Vec3& edges, std::span<const double> radii, int d
           static_cast<std::int64_t>(std::clamp(edges[k] / (2.0 * grid.largest), 1.0, most));
     grid.first.assign(static_cast<std::size_t>(grid.count.prod()), -1);
   }
+  balls_.reserve(radii.size());
 }
 
 PlacedBalls::Grid& PlacedBalls::grid_of(double radius) {
@@ -45,11 +46,10 @@ void PlacedBalls::add(const Vec3& x, double radius) {
   const Sites at = box_of(grid, x).min(grid.count - 1).max(0);
   const auto box =
       static_cast<std::size_t>((at[0] * grid.count[1] + at[1]) * grid.count[2] + at[2]);
-  next_.push_back(grid.first[box]);
-  grid.first[box] = static_cast<std::int32_t>(centre_.size());
+  const auto number = static_cast<std::int32_t>(balls_.size());
+  balls_.push_back({x, radius, grid.first[box]});
+  grid.first[box] = number;
   grid.used = true;
-  centre_.push_back(x);
-  radius_.push_back(radius);
 }
 
 }  // namespace tangency::inline v0::dem

@@ -30,7 +30,7 @@ class PlacedBalls {
   void add(const Vec3& x, double radius);
 
   /// Balls so far; they have numbers from 0 in the order in which they came.
-  std::size_t size() const { return centre_.size(); }
+  std::size_t size() const { return balls_.size(); }
 
   /// Asks about each image of a ball that meets the ball about x, in an order that depends on what
   /// was added alone, until an answer is true.
@@ -54,6 +54,13 @@ class PlacedBalls {
     Sites count = Sites::Ones();        ///< boxes along each edge
     bool used = false;                  ///< does it hold a ball?
     std::vector<std::int32_t> first{};  ///< of each box; -1: none
+  };
+
+  /// What is looked at together.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+    std::int32_t next;  ///< in its box; -1: none
   };
 
   Grid& grid_of(double radius);
@@ -87,21 +94,21 @@ class PlacedBalls {
     const auto box =
         static_cast<std::size_t>((home[0] * grid.count[1] + home[1]) * grid.count[2] + home[2]);
     const Vec3 from = x - Vec3(edges_.array() * image.cast<double>());
-    for (std::int32_t i = grid.first[box]; i >= 0; i = next_[static_cast<std::size_t>(i)]) {
-      const auto ball = static_cast<std::size_t>(i);
-      const Vec3 d = centre_[ball] - from;
-      const double together = radius + radius_[ball];
-      if (d.squaredNorm() < together * together && ask(ball, d)) return true;
+    for (std::int32_t i = grid.first[box]; i >= 0;) {
+      const auto number = static_cast<std::size_t>(i);
+      const Ball& ball = balls_[number];
+      const Vec3 d = ball.centre - from;
+      const double together = radius + ball.radius;
+      if (d.squaredNorm() < together * together && ask(number, d)) return true;
+      i = ball.next;
     }
     return false;
   }
 
   Vec3 edges_;
   int dimensions_;
-  std::vector<Grid> grids_;   ///< that of the largest balls first
-  std::vector<Vec3> centre_;  ///< of each ball, and the next ones alike
-  std::vector<double> radius_;
-  std::vector<std::int32_t> next_;  ///< in its box; -1: none
+  std::vector<Grid> grids_;  ///< that of the largest balls first
+  std::vector<Ball> balls_;
 };
 
 }  // namespace tangency::inline v0::dem

@@ -521,6 +521,12 @@ Scene parse_scene(const std::string& text, const std::string& name, const BodySh
   return Reader(root, source, shapes).read();
 }
 
+Scene parse_scene(const std::string& text, const std::string& name) {
+  return parse_scene(text, name, BodyShapes());
+}
+
+Scene load_scene(const std::filesystem::path& file) { return load_scene(file, BodyShapes()); }
+
 Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes) {
   std::string text;
   try {

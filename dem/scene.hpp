@@ -17,12 +17,16 @@ namespace tangency::inline v0::dem {
 /// bodies are as the scene says.
 using BodyShapes = std::vector<std::vector<Shape>>;
 
-/// @param shapes  of a table of bodies that has their semi-axes; none where there is no such table
 /// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema
-Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes = {});
+Scene load_scene(const std::filesystem::path& file);
+/// @overload
+/// @param shapes  of a table of bodies that has their semi-axes
+Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes);
 
 /// The same from text; `name` stands for the file in messages.
-Scene parse_scene(const std::string& text, const std::string& name, const BodyShapes& shapes = {});
+Scene parse_scene(const std::string& text, const std::string& name);
+/// @overload
+Scene parse_scene(const std::string& text, const std::string& name, const BodyShapes& shapes);
 
 /// Gives a scene whose place names a file its bodies.
 /// @throws SceneError  where they are not as many of each type as the scene says; starts with

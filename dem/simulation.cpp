@@ -188,6 +188,8 @@ std::string difference_of_walls(const Cell& made, const Scene& scene) {
 
 }  // namespace
 
+Simulation::Simulation(const Scene& scene) : Simulation(scene, std::function<void(double)>()) {}
+
 Simulation::Simulation(const Scene& scene, std::function<void(double)> placed)
     : scene_(scene), laws_(scene.laws) {
   Placement placement = scene_.placement();

@@ -63,10 +63,12 @@ struct CyclesNeeded {
 class Simulation {
  public:
   /// Places the particles: the scene's first stage.
-  /// @param placed  called now and then with the share of the particles that have their place
   /// @throws DoesNotFit   where random placement has bad luck
   /// @throws CellTooThin  where a particle touches two images of another, or one of its own
-  explicit Simulation(const Scene& scene, std::function<void(double)> placed = {});
+  explicit Simulation(const Scene& scene);
+  /// @overload
+  /// @param placed  called now and then with the share of the particles that have their place
+  Simulation(const Scene& scene, std::function<void(double)> placed);
 
   /// Continues from a saved state.
   /// @throws std::invalid_argument  where the state is not one of such a scene: what() says why
