@@ -117,7 +117,7 @@ void move_pair(verify::EllipsoidPair& pair, verify::Draw& draw) {
 void mutate_pair(verify::EllipsoidPair& pair, std::uint64_t seed) {
   std::uint64_t state = seed;
   for (std::size_t turns = 1 + below(state, 3); turns > 0; --turns) {
-    if (below(state, 4) == 0) {
+    if (below(state, 8) == 0) {
       double& number = *numbers_of(pair)[below(state, 20)];
       number = mutated(number, state);
     } else {

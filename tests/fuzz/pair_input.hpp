@@ -36,7 +36,7 @@ std::optional<Bodies> bodies_of(const verify::EllipsoidPair& pair);
 /// One of the hunt's moves, towards where the bodies are nearest.
 void move_pair(verify::EllipsoidPair& pair, verify::Draw& draw);
 
-/// A move, three times of four, or a number of other bits.
+/// A move, seven times of eight, or a number of other bits.
 void mutate_pair(verify::EllipsoidPair& pair, std::uint64_t seed);
 
 /// Of every corpus of pairs, some rows of each; and those that were once answered wrongly.
