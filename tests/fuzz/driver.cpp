@@ -41,16 +41,25 @@ struct Options {
 struct Current {
   Bytes input;
   char path[4096];
+  int messages;  ///< standard error, wherever a target sends it meanwhile
 } current;
+
+void say(std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(
+      current.messages, text.data(), text.size());  // there is nowhere to say that it failed
+}
 
 extern "C" void keep_finding(int signal) {
   const int file = ::open(current.path, O_CREAT | O_WRONLY | O_TRUNC, 0644);
   const bool kept = file >= 0 && ::write(file, current.input.data(), current.input.size()) ==
                                      static_cast<ssize_t>(current.input.size());
-  const char* const what = kept ? "the input is in " : "the input cannot be written to ";
-  for (const std::string_view part :
-       {std::string_view(what), std::string_view(current.path), std::string_view("\n")})
-    if (::write(2, part.data(), part.size()) < 0) break;
+  // What was said while standard error went to a file in memory.
+  char said[4096];
+  const ssize_t size = ::pread(2, said, sizeof said, 0);
+  if (size > 0) say({said, static_cast<std::size_t>(size)});
+  say(kept ? "the input is in " : "the input cannot be written to ");
+  say(current.path);
+  say("\n");
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -215,6 +224,7 @@ int run_all(const Options& options) {
   }
   if (!options.input.empty() && chosen.size() != 1)
     throw tables::UsageError("--input is for one target");
+  current.messages = ::dup(2);
   std::printf("seed %llu\n", static_cast<unsigned long long>(options.seed));
   for (const Target* target : chosen) fuzz(*target, options);
   return 0;
