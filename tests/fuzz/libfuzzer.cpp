@@ -2,6 +2,7 @@
 /// The targets as libFuzzer runs them: TANGENCY_FUZZ_TARGET names which. Where
 /// TANGENCY_FUZZ_SEEDS names a folder its seeds are written there first; what was counted goes to
 /// the file TANGENCY_FUZZ_COUNTS at the end. tests/fuzz/run sets them.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -68,7 +69,7 @@ int LLVMFuzzerInitialize(int*, char***) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tangency::testing::fuzz;
-  if (size > chosen().most_bytes) return -1;
+  if (size > chosen().most_bytes) return 0;
   count("runs");
   chosen().run({data, size});
   return 0;
@@ -78,7 +79,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
 std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
                                     unsigned seed) {
   using namespace tangency::testing::fuzz;
-  if (seed % 4 == 0) return LLVMFuzzerMutate(data, size, most);
-  return chosen().mutate(data, size, most, seed);
+  const std::size_t room = std::min(most, chosen().most_bytes), used = std::min(size, room);
+  if (seed % 4 == 0) return LLVMFuzzerMutate(data, used, room);
+  return chosen().mutate(data, used, room, seed);
 }
 // NOLINTEND(readability-identifier-naming)
