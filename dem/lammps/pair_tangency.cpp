@@ -105,6 +105,7 @@ void PairTangency::compute(int eflag, int vflag) {
   const bool listed_anew = neighbor->ago == 0;
   if (listed_anew) require_room();
   bodies_.refresh(listed_anew);
+  history_->change();
   const Step now = step();
   collect(now);
   finish(within_, now, 1.0);

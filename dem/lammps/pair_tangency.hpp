@@ -23,7 +23,6 @@
 /// otherwise, and periodic boxes in which a pair could meet twice.
 #pragma once
 
-#include <fix_neigh_history.h>
 #include <lammps.h>
 #include <pair.h>
 
@@ -37,6 +36,7 @@
 #include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/box_motion.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 
@@ -103,8 +103,8 @@ class PairTangency : public LAMMPS_NS::Pair {
   BoxMotion box_;
   PairBlock within_, across_;  ///< pairs of owned atoms; those that another rank has too
   std::array<double, 4> work_{};
-  bool laws_are_new_ = true;  ///< since the last compute()
-  LAMMPS_NS::FixNeighHistory* history_ = nullptr;
+  bool laws_are_new_ = false;  ///< since the last compute()
+  FixContactHistory* history_ = nullptr;
   std::string history_id_;
 };
 

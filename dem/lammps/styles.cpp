@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/pair_tangency.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -24,7 +25,7 @@ template <class Style>
 
 // One line a style: its name, and the class of its header.
 constexpr std::array kPairStyles{PairEntry{"tangency", kPair<PairTangency>}};
-constexpr std::array<FixEntry, 0> kFixStyles{};
+constexpr std::array kFixStyles{FixEntry{"NEIGH_HISTORY_TANGENCY", kFix<FixContactHistory>}};
 constexpr std::array<ComputeEntry, 0> kComputeStyles{};
 
 }  // namespace
