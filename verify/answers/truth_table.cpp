@@ -318,6 +318,8 @@ class NeighbourReader {
     if (line.text(j_).empty()) return;
     TrueNeighbour one{whole(line, j_), {}};
     for (std::size_t k = 0; k < 3; ++k) one.image[k] = edges(line, image_[k]);
+    if (again && row.neighbours == 0)
+      throw line.error(j_, "the first line of this row says that it has no neighbour");
     if (again && !(table_.neighbours.back() < one))
       throw line.error(j_, "neighbours must be in order");
     table_.neighbours.push_back(one);
