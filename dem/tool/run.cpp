@@ -406,11 +406,20 @@ class Run {
   EnergyAccount work_;
 };
 
+/// Placing many particles takes a while, too.
+Simulation placed(const Scene& scene, const RunOptions& options) {
+  tables::Progress progress(
+      options.quiet ? tables::Progress::Shown::nothing : tables::Progress::Shown::everywhere, 0.0);
+  return Simulation(scene, [&](double share) {
+    if (share > 0.0 && progress.is_due()) progress.show(share, "particles that have their place");
+  });
+}
+
 Simulation simulation_of(const RunOptions& options) {
   Scene scene = load_scene(options.scene);
   read_bodies(scene, options.scene);
   try {
-    if (!options.resume) return Simulation(scene);
+    if (!options.resume) return placed(scene, options);
   } catch (const CellTooThin& error) {
     throw SceneError(options.scene.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
