@@ -244,6 +244,22 @@ double PairTangency::single(int i, int j, int, int, double rsq, double, double, 
   return record.normal_energy + record.shear_energy;
 }
 
+void PairTangency::for_each_contact(const std::function<void(const SeenContact&)>& look) const {
+  const bool newton = force->newton_pair != 0;
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = list->firstneigh[i][jj] & NEIGHMASK;
+      const bool in_order = atom->tag[i] < atom->tag[j];
+      // Without newton's third law two ranks have it.
+      if (!newton && j >= atom->nlocal && !in_order) continue;
+      const ContactRecord record = record_at(history_->firstvalue[i] + kRecordNumbers * jj);
+      if (!record.touches()) continue;
+      look({in_order ? i : j, in_order ? j : i, record.normal, record.branch, record.force()});
+    }
+  }
+}
+
 void PairTangency::transfer_history(double* source, double* target) {
   std::copy_n(source, kRecordNumbers, target);
 }

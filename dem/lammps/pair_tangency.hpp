@@ -29,6 +29,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@
 #include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/box_motion.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
+#include <tangency/dem/lammps/contact_source.hpp>
 #include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/geometry/gap_batch.hpp>
@@ -46,7 +48,7 @@ namespace tangency::inline v0::lammps {
 inline constexpr int kPairColumns = 21;
 
 /// The pair style; LAMMPS makes it, calls it and owns it.
-class PairTangency : public LAMMPS_NS::Pair {
+class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
  public:
   /// Made by the command pair_style.
   explicit PairTangency(LAMMPS_NS::LAMMPS* lammps);
@@ -68,6 +70,8 @@ class PairTangency : public LAMMPS_NS::Pair {
   /// `compute pair/local`: docs/lammps.md.
   double single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                 double factor_lj, double& fforce) override;
+  /// For computes: the contacts of the last call of compute().
+  void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
   /// A record is the same from both sides.
   void transfer_history(double* source, double* target) override;
 

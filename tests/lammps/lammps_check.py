@@ -47,6 +47,35 @@ compute w all pair tangency
 dump d all custom {every} {name}.dump id xu yu zu fx fy fz tqx tqy tqz
 dump_modify d format float %.17g sort id
 """
+SPHERES = """units si
+atom_style {style}
+boundary p p p
+comm_modify vel yes
+neighbor 2.0 bin
+read_data {data}
+{pair}
+fix move all {move}
+timestep 0.002
+"""
+# What a script says, and words of the line that refuses it. The first replaces the words in a script.
+REFUSED = (
+    ("comm_modify vel yes", "", "velocities of ghosts"),
+    ("pair_style tangency ", "pair_style tangency accuracy best", "certified or standard is allowed"),
+    ("pair_style tangency ", "pair_style tangency branch", "follow or global is allowed"),
+    ("pair_style tangency ", "pair_style tangency skin 1", "branch or accuracy is allowed"),
+    ("hooke 1.5e10", "hooke -1", "kn = -1: a number > 0 is allowed"),
+    ("hooke 1.5e10", "hooke 1.5e1O", "kn = 1.5e1O: a number > 0 is allowed"),
+    ("tangential linear 1.5e10 0.5", "tangential mindlin 0.5", "tangential linear is allowed"),
+    ("hooke 1.5e10 tangential linear 1.5e10", "hertz/material 1e9 0.7 tangential mindlin",
+     "nu = 0.7: 0 to 0.5 is allowed"),
+    ("tangential linear 1.5e10 0.5", "restitution 0", "restitution = 0: 0.05 to 1 is allowed"),
+    ("tangential linear 1.5e10 0.5", "tangential linear 1.5e10", "a word is missing at the end: mu"),
+    ("tangential linear 1.5e10 0.5", "adhesion 1", "word = adhesion"),
+    ("neighbor 2.0 bin", "neighbor 90.0 bin", "lest a pair meet twice"),
+    ("run 10", "run_style respa 2 2\nrun 10", "run_style respa"),
+    ("run 10", "create_atoms 1 single 5.0 5.0 5.0\nunfix move\nrun 10", "atom 1001 is no ellipsoid"),
+    ("timestep 0.002", "timestep 1e305", "that is no finite number"),
+)
 STRAIN = """fix strain all deform 1 x trate -0.01 y trate -0.01 z trate -0.01 remap x
 fix move all nve/asphere
 fix damp all langevin 0.0 0.0 0.5 1 angmom 1.0
@@ -246,6 +275,62 @@ class Check:
             what = f"through the box, {run.builds} lists ({still.builds} at rest), {ranks} ranks, newton {newton}"
             require(run.builds > 5 * still.builds, f"{what}: too few lists")
             within(f"{what}: energy", abs(run.last["PotEng"] / still.last["PotEng"] - 1.0), 1e-8)
+
+    def spheres(self, style, pair, steps):
+        """The sample's centres as equal spheres that touch, at rest; runs them with a pair style."""
+        own = style == "ellipsoid"
+        with open(os.path.join(self.folder, f"{style}.data"), "w", encoding="ascii") as file:
+            count, edge = len(self.bodies["id"]), self.edges()
+            print("Equal spheres\n", f"{count} atoms", sep="\n", file=file)
+            print(f"{count} ellipsoids" if own else "", "1 atom types", sep="\n", file=file)
+            for k, axis in enumerate("xyz"):
+                print(0.0, repr(edge[k, k]), f"{axis}lo {axis}hi", file=file)
+            print("\nAtoms\n", file=file)
+            for k, centre in enumerate(columns(self.bodies, "x y z")):
+                print(k + 1, 1, f"1 {DENSITY}" if own else f"20.0 {DENSITY}", *map(repr, map(float, centre)),
+                      file=file)
+            if own:
+                print("\nEllipsoids\n", file=file)
+                for k in range(count):
+                    print(k + 1, "20.0 20.0 20.0 1.0 0.0 0.0 0.0", file=file)
+        move = "nve/asphere" if own else "nve/sphere"
+        text = SPHERES.format(style=style, data=f"{style}.data", pair=pair, move=move)
+        output = OUTPUT if own else OUTPUT.replace("compute w all pair tangency\n", "").replace("tq", "t")
+        text += output.format(name=style, every=steps) + f"run {steps}\n"
+        if not own:
+            text = text.replace(" tx ty tz", " tqx tqy tqz")
+        done = self.start(style, text, 1)
+        require(done.returncode == 0, f"{style}: {done.stdout[-400:]}")
+        return Run(self.folder, style)
+
+    def check_spheres(self):
+        """Equal spheres without friction do what LAMMPS' own granular spheres do."""
+        for friction in (0.0, 0.5):
+            own = self.spheres("ellipsoid", "pair_style tangency\npair_coeff * * hooke 1.5e10 tangential "
+                               f"linear 1.5e10 {friction}", 200)
+            there = self.spheres("sphere", "pair_style gran/hooke/history 1.5e10 1.5e10 0 0 "
+                                 f"{friction} 0\npair_coeff * *", 200)
+            what = f"equal spheres, friction {friction}, 200 steps beside gran/hooke/history"
+            kinetic = abs(own.last["KinEng"] / there.last["KinEng"] - 1.0)
+            if friction == 0.0:
+                within(f"{what}: kinetic energy", kinetic, 1e-9)
+                within(f"{what}: forces", off(own.forces(), there.forces()), 1e-7)
+            else:
+                # The lever arm there is the radius, here to the middle of the overlap; its memory is
+                # projected on the new plane, ours is turned.
+                print(f"{what}: kinetic energy {kinetic:.2g}: other lever arms, another turn")
+
+    def check_refusals(self):
+        """What is refused is said in one line."""
+        whole = (HEAD + PAIR).format(newton="on", style="", law=LINEAR, skin="2.0")
+        whole += "fix move all nve/asphere\ntimestep 0.002\nrun 10\n"
+        for here, there, words in REFUSED:
+            require(here in whole, f"{here}: not in the script")
+            done = self.start("refused", whole.replace(here, there), 1)
+            lines = [line for line in done.stdout.splitlines() if line.startswith("ERROR")]
+            require(done.returncode != 0 and len(lines) == 1 and words in lines[0],
+                    f"{there}: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
+            print(lines[0])
 
     def check_restart(self):
         """A run that goes on from a restart file, on other ranks, is the run that was not stopped."""
