@@ -406,31 +406,32 @@ class Run {
   EnergyAccount work_;
 };
 
-Simulation simulation_of(const RunOptions& options) {
-  Scene scene = load_scene(options.scene);
-  read_bodies(scene, options.scene);
+}  // namespace
+
+Simulation simulation_of(const std::filesystem::path& file,
+                         const std::optional<std::filesystem::path>& from) {
+  Scene scene = load_scene(file);
+  read_bodies(scene, file);
   try {
-    if (!options.resume) return Simulation(scene);
+    if (!from) return Simulation(scene);
   } catch (const CellTooThin& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
+    throw SceneError(file.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
+    throw SceneError(file.string() + ": " + error.what());
   }
-  State state = load_state(*options.resume);
+  State state = load_state(*from);
   try {
     return Simulation(scene, std::move(state));
   } catch (const std::invalid_argument& error) {
-    throw StateError(options.resume->string() + ": " + error.what());
+    throw StateError(from->string() + ": " + error.what());
   }
 }
-
-}  // namespace
 
 int run(const RunOptions& options) {
   if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
-  Simulation simulation = simulation_of(options);
+  Simulation simulation = simulation_of(options.scene, options.resume);
   if (caught_signal != 0) {
     std::cerr << "tangency-dem: interrupted before the first cycle; nothing was written"
               << std::endl;
