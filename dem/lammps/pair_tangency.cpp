@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <tangency/dem/contact_blocks.hpp>
@@ -107,6 +108,7 @@ void PairTangency::compute(int eflag, int vflag) {
   bodies_.refresh(listed_anew);
   history_->change();
   const Step now = step();
+  affine_stiffness_ = 0.0;
   collect(now);
   finish(within_, now, 1.0);
   // The rank of the other atom has the pair too.
@@ -158,6 +160,7 @@ void PairTangency::finish(PairBlock& pairs, const Step& step, double weight) {
   work_[1] += weight * sums.boundary;
   work_[2] += weight * sums.branch;
   work_[3] += weight * sums.viscous;
+  affine_stiffness_ += weight * sums.affine_stiffness;
   if (step.keeps) {
     for (std::size_t k = 0; k < count; ++k)
       if (const ContactRecord before = record_at(pairs.atoms(k).history);
@@ -244,7 +247,13 @@ double PairTangency::single(int i, int j, int, int, double rsq, double, double, 
   return record.normal_energy + record.shear_energy;
 }
 
+void* PairTangency::extract(const char* name, int& dimension) {
+  dimension = 0;
+  return std::string_view(name) == "affine_stiffness" ? &affine_stiffness_ : nullptr;
+}
+
 void PairTangency::for_each_contact(const std::function<void(const SeenContact&)>& look) const {
+  if (history_ == nullptr || list == nullptr) return;
   const bool newton = force->newton_pair != 0;
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
