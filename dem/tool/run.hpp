@@ -17,6 +17,7 @@ namespace tangency::inline v0::dem {
 enum ExitStatus : int {
   success = 0,
   not_reached = 1,  ///< a stage did not end, the cell became too thin, or the run blew up
+  fault_found = 3,  ///< a check of --verify and the run disagree
 };
 
 /// Runs a scene; messages go to standard error.
