@@ -45,10 +45,9 @@ std::size_t pairs_that_meet(const Particles& particles, const Cell& cell) {
   for (const Pair& pair : meeting_pairs(particles, cell, 1)) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
     if (cell.dimensions == 2 && pair.image[2] != 0) continue;
-    meet += relation(body(particles, a), body(particles, b), branch_vector(pair, particles, cell))
-                        .relation == Relation::separate
-                ? 0U
-                : 1U;
+    if (relation(body(particles, a), body(particles, b), branch_vector(pair, particles, cell))
+            .relation != Relation::separate)
+      ++meet;
   }
   return meet;
 }
