@@ -4,9 +4,9 @@
 #include <array>
 #include <span>
 
-#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/compute_balance.hpp>
 #include <tangency/dem/lammps/compute_fabric.hpp>
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/fix_move.hpp>
 #include <tangency/dem/lammps/fix_servo.hpp>
 #include <tangency/dem/lammps/fix_wall.hpp>
