@@ -23,13 +23,13 @@
 /// otherwise, and periodic boxes in which a pair could meet twice.
 #pragma once
 
-#include <fix_neigh_history.h>
 #include <lammps.h>
 #include <pair.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,6 +37,8 @@
 #include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/box_motion.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
+#include <tangency/dem/lammps/contact_source.hpp>
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 
@@ -46,7 +48,7 @@ namespace tangency::inline v0::lammps {
 inline constexpr int kPairColumns = 21;
 
 /// The pair style; LAMMPS makes it, calls it and owns it.
-class PairTangency : public LAMMPS_NS::Pair {
+class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
  public:
   /// Made by the command pair_style.
   explicit PairTangency(LAMMPS_NS::LAMMPS* lammps);
@@ -68,6 +70,12 @@ class PairTangency : public LAMMPS_NS::Pair {
   /// `compute pair/local`: docs/lammps.md.
   double single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                 double factor_lj, double& fforce) override;
+  /// "affine_stiffness": the share of this rank in the sum of K_n (n . branch)^2 over all contacts
+  /// of the last step, what a servo needs (dem::ContactSums).
+  void* extract(const char* name, int& dimension) override;
+  /// Those of records that touch. A pair that another rank has too is told by the one of its atom
+  /// a.
+  void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
   /// A record is the same from both sides.
   void transfer_history(double* source, double* target) override;
 
@@ -103,8 +111,9 @@ class PairTangency : public LAMMPS_NS::Pair {
   BoxMotion box_;
   PairBlock within_, across_;  ///< pairs of owned atoms; those that another rank has too
   std::array<double, 4> work_{};
-  bool laws_are_new_ = true;  ///< since the last compute()
-  LAMMPS_NS::FixNeighHistory* history_ = nullptr;
+  double affine_stiffness_ = 0.0;
+  bool laws_are_new_ = false;  ///< since the last compute()
+  FixContactHistory* history_ = nullptr;
   std::string history_id_;
 };
 
