@@ -24,6 +24,14 @@ double real_of(const toml::node& node) {
   return node.is_integer() ? static_cast<double>(node.ref<std::int64_t>()) : node.ref<double>();
 }
 
+/// What stands in a scene may be shown: control characters, which a terminal obeys, as `?`.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+  return text;
+}
+
 template <class Vector>
 std::optional<Vector> vector_of(const toml::node* node) {
   if (!node) return std::nullopt;
@@ -100,10 +108,12 @@ std::string Source::at(const toml::source_region& place) const {
 }
 
 void Source::fail(const toml::source_region& place, const std::string& message) const {
-  throw SceneError(at(place) + ": " + message);
+  throw SceneError(one_line(at(place) + ": " + message));
 }
 
-void Source::fail(const std::string& message) const { throw SceneError(name_ + ":1: " + message); }
+void Source::fail(const std::string& message) const {
+  throw SceneError(one_line(name_ + ":1: " + message));
+}
 
 Section::Section(const Source& source, const toml::table& table, std::string path,
                  std::string_view section, std::string_view kind, const toml::table* base)
