@@ -18,6 +18,7 @@
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/contact_lanes.hpp>
 #include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact_laws.hpp>
 #include <tangency/dem/contact_sums.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/dem/neighbours.hpp>
@@ -64,23 +65,6 @@ struct ContactColumns {
       &ContactColumns::shear_stiffness,  &ContactColumns::shear_energy};
   /// Fills up, or cuts off.
   void resize(std::size_t entries);
-};
-
-/// Laws by the types of the two particles, symmetric; types x types, row by row. In a walled cell
-/// the walls are the last type.
-struct ContactLaws {
-  std::size_t types = 0;        ///< number of particle types
-  std::vector<ContactLaw> law;  ///< types x types, row by row
-  /// Does an impulse turn a body? Else its turns have no share in how a contact is damped.
-  bool bodies_turn = true;
-
-  /// The law between types a and b.
-  const ContactLaw& between(std::size_t a, std::size_t b) const { return law[a * types + b]; }
-  /// The largest stiffness of any law, normal or shear.
-  double largest_stiffness() const;
-  bool bear_shear() const;  ///< does any?
-  bool dissipate() const;   ///< does the approach of any lose energy?
-  bool are_hertz() const;   ///< then all are
 };
 
 class Contacts;

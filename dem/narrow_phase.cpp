@@ -91,27 +91,33 @@ MeasuredPairs NarrowPhase::measure(std::span<const Pair> pairs, const Particles&
     block.pairs[k].b = block.pairs[k].a;
     block.branch[k] = 4.0 * particles.semi_axes[at(pair.a)].maxCoeff() * Vec3::UnitX();
   }
-  for (std::size_t k = count; k < kPairBlock; ++k) {
-    block.pairs[k] = {0, 0};
-    block.gap[k] = kFarApart;
-    block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
-  }
-  if (kind_ == Kind::spheres) measure_spheres(count, block);
-  MeasuredPairs measured;
-  if (kind_ == Kind::ellipsoids) {
-    measured.slow = measure_ellipsoids(count, normals, branch, block);
-    if (branch == Branch::trace) measured.unanswered = trace(count, particles, block);
-  }
-  if (kind_ == Kind::ellipses)
-    for (std::size_t k = 0; k < count; ++k)
-      measure_ellipses(ellipses_[block.pairs[k].a], ellipses_[block.pairs[k].b],
-                       normals[k].head<2>(), branch, block, k);
+  MeasuredPairs measured = measure(count, normals, branch, Accuracy::standard(), block);
+  if (kind_ == Kind::ellipsoids && branch == Branch::trace)
+    measured.unanswered = trace(count, particles, block);
   if (!walls) return measured;
   for (std::size_t k = 0; k < count; ++k)
     if (const std::size_t b = at(pairs[k].b); b >= particles.size()) {
       measure_wall(k, b - particles.size(), particles, cell, block);
       block.pairs[k].b = static_cast<std::uint32_t>(b);
     }
+  return measured;
+}
+
+MeasuredPairs NarrowPhase::measure(std::size_t count, std::span<const Vec3> normals, Branch branch,
+                                   const Accuracy& accuracy, BlockGeometry& block) const {
+  for (std::size_t k = count; k < kPairBlock; ++k) {
+    block.pairs[k] = {0, 0};
+    block.gap[k] = kFarApart;
+    block.branch[k] = block.normal[k] = block.arm[k] = Vec3::Zero();
+  }
+  MeasuredPairs measured;
+  if (kind_ == Kind::spheres) measure_spheres(count, block);
+  if (kind_ == Kind::ellipsoids)
+    measured.slow = measure_ellipsoids(count, normals, branch, accuracy, block);
+  if (kind_ == Kind::ellipses)
+    for (std::size_t k = 0; k < count; ++k)
+      measure_ellipses(ellipses_[block.pairs[k].a], ellipses_[block.pairs[k].b],
+                       normals[k].head<2>(), branch, block, k);
   return measured;
 }
 
@@ -126,7 +132,8 @@ void NarrowPhase::measure_spheres(std::size_t count, BlockGeometry& block) const
 }
 
 std::int64_t NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const Vec3> normals,
-                                             Branch branch, BlockGeometry& block) const {
+                                             Branch branch, const Accuracy& accuracy,
+                                             BlockGeometry& block) const {
   BlockGeometry::Column<Vec3> arm_b;
   BlockGeometry::Column<GapTier> tier;
   const auto first = [&](auto& column) { return std::span(column.data(), count); };
@@ -138,9 +145,9 @@ std::int64_t NarrowPhase::measure_ellipsoids(std::size_t count, std::span<const 
   columns.arm_b = first(arm_b);
   columns.tier = first(tier);
   if (branch == Branch::global)
-    signed_gaps(bodies_, list, columns);
+    signed_gaps(bodies_, list, columns, accuracy);
   else
-    follow_gaps(bodies_, list, normals, columns);
+    follow_gaps(bodies_, list, normals, columns, accuracy);
   for (std::size_t k = 0; k < count; ++k)
     block.arm[k] = 0.5 * (block.arm[k] + block.branch[k] + arm_b[k]);
   return static_cast<std::int64_t>(count) -

@@ -78,6 +78,13 @@ class NarrowPhase {
   /// @param normals  of a step before, 0 where not known: starts for Branch::follow
   MeasuredPairs measure(std::span<const Pair> pairs, const Particles& particles, const Cell& cell,
                         std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
+  /// The same of the first pairs of a block, whose bodies and separations stand there already: no
+  /// walls, and of branches follow and global alone.
+  /// @param count  at most kPairBlock
+  /// @param accuracy  of the gaps of ellipsoids
+  /// @param normals  as above, `count` of them
+  MeasuredPairs measure(std::size_t count, std::span<const Vec3> normals, Branch branch,
+                        const Accuracy& accuracy, BlockGeometry& block) const;
 
   /// Principal curvatures of the distance between two touching bodies of a block.
   PrincipalCurvatures relative_curvature(const IndexedPair& pair, const Vec3& normal) const;
@@ -89,7 +96,7 @@ class NarrowPhase {
   enum class Kind { spheres, ellipses, ellipsoids };
   void measure_spheres(std::size_t count, BlockGeometry& block) const;
   std::int64_t measure_ellipsoids(std::size_t count, std::span<const Vec3> normals, Branch branch,
-                                  BlockGeometry& block) const;
+                                  const Accuracy& accuracy, BlockGeometry& block) const;
   std::int64_t trace(std::size_t count, const Particles& particles, BlockGeometry& block) const;
   void measure_wall(std::size_t k, std::size_t wall, const Particles& particles, const Cell& cell,
                     BlockGeometry& block) const;

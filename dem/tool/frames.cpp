@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <deque>
 #include <fstream>
-#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -95,16 +94,6 @@ std::string xyz_of(const Simulation& simulation) {
   return text;
 }
 
-/// The text between `before` and `after` in a line, if both are there.
-std::optional<std::string> between(const std::string& line, const std::string& before,
-                                   const std::string& after) {
-  const std::size_t start = line.find(before);
-  if (start == line.npos) return std::nullopt;
-  const std::size_t end = line.find(after, start + before.size());
-  if (end == line.npos) return std::nullopt;
-  return line.substr(start + before.size(), end - start - before.size());
-}
-
 }  // namespace
 
 Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds,
@@ -156,13 +145,8 @@ std::string Frames::index_of(const Kind& kind) const {
 std::vector<VtkEntry> Frames::read_index(Kind& kind, std::int64_t last_cycle) const {
   std::vector<VtkEntry> later;
   std::ifstream in(directory_ / kind.index);
-  for (std::string line; std::getline(in, line);) {
-    const auto time = between(line, "timestep=\"", "\"");
-    const auto cycle = between(line, "file=\"frames/", kind.ending + "\"");
-    if (!time || !cycle) continue;
-    const VtkEntry entry{std::stoll(*cycle), std::stod(*time)};
+  for (const VtkEntry& entry : vtk_entries(in, "frames", kind.ending))
     (entry.cycle <= last_cycle ? kind.entries : later).push_back(entry);
-  }
   return later;
 }
 

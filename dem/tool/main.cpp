@@ -191,7 +191,9 @@ Prints a line a stage with the values at its end (or at the last row so far):
 Writes DIR/report.html, one page that needs no network: for each stage in which the cell changes
 its shape stresses, friction angle, volumetric strain and coordination against axial strain; for
 the whole run, stages shaded, stress, coordination and porosity, strains, inertial fraction and
-the account of energy against time; and the numbers of summary.json.
+the account of energy against time; the numbers of summary.json; and the sample in space, of the
+frames that are there (24 MB of them at most, evenly spread): drag to turn it, click on a particle
+for its values, colour it by any column, draw force chains, cut it, play its frames.
 
 Exit status:
   0    done

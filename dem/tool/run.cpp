@@ -424,31 +424,41 @@ class Run {
   WorkDone work_;  ///< from where the run goes on
 };
 
-Simulation simulation_of(const RunOptions& options) {
-  Scene scene = load_scene(options.scene);
-  read_bodies(scene, options.scene);
-  try {
-    if (!options.resume) return Simulation(scene);
-  } catch (const CellTooThin& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
-  } catch (const DoesNotFit& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
-  }
-  State state = load_state(*options.resume);
-  try {
-    return Simulation(scene, std::move(state));
-  } catch (const std::invalid_argument& error) {
-    throw StateError(options.resume->string() + ": " + error.what());
-  }
+/// Placing many particles takes a while, too.
+Simulation placed(const Scene& scene, bool quiet) {
+  tables::Progress progress(
+      quiet ? tables::Progress::Shown::nothing : tables::Progress::Shown::everywhere, 0.0);
+  return Simulation(scene, [&](double share) {
+    if (share > 0.0 && progress.is_due()) progress.show(share, "particles that have their place");
+  });
 }
 
 }  // namespace
+
+Simulation simulation_of(const std::filesystem::path& file,
+                         const std::optional<std::filesystem::path>& from, bool quiet) {
+  Scene scene = load_scene(file);
+  read_bodies(scene, file);
+  try {
+    if (!from) return placed(scene, quiet);
+  } catch (const CellTooThin& error) {
+    throw SceneError(file.string() + ": " + error.what());
+  } catch (const DoesNotFit& error) {
+    throw SceneError(file.string() + ": " + error.what());
+  }
+  State state = load_state(*from);
+  try {
+    return Simulation(scene, std::move(state));
+  } catch (const std::invalid_argument& error) {
+    throw StateError(from->string() + ": " + error.what());
+  }
+}
 
 int run(const RunOptions& options) {
   if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
-  Simulation simulation = simulation_of(options);
+  Simulation simulation = simulation_of(options.scene, options.resume, options.quiet);
   if (caught_signal != 0) {
     std::cerr << "tangency-dem: interrupted before the first cycle; nothing was written"
               << std::endl;

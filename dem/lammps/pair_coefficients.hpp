@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// @file
+/// The words of pair_coeff that say a contact law, in the manner of LAMMPS' pair style granular:
+///
+///     hooke KN | hertz/material E NU
+///     [tangential linear KT MU | tangential mindlin MU] [cohesion C] [restitution E]
+///
+/// `tangential linear` belongs to hooke, `tangential mindlin` to hertz/material; without either the
+/// contact bears no shear. C is the shear force that a contact bears without a push; E is the part
+/// of a head-on approach that an impact gives back, 1 if left out. Units are those of the script.
+#pragma once
+
+#include <array>
+#include <span>
+#include <stdexcept>
+
+#include <tangency/dem/contact_law.hpp>
+
+namespace tangency::inline v0::lammps {
+
+/// Words that say no contact law; what() says what is allowed.
+class InvalidCoefficients : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The law that the words after the two types say. @throws InvalidCoefficients
+dem::ContactLaw law_of(std::span<const char* const> words);
+
+/// A law as a restart file has it, to the bit.
+using StoredLaw = std::array<double, 8>;
+/// What restores it.
+StoredLaw stored(const dem::ContactLaw& law);
+/// The law that was stored.
+dem::ContactLaw restored(const StoredLaw& numbers);
+
+}  // namespace tangency::inline v0::lammps

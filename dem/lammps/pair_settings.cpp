@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a PairTangency is told: the words of its commands, a restart file, and what it needs of the
+// host before a run.
+#include <atom.h>
+#include <comm.h>
+#include <domain.h>
+#include <error.h>
+#include <force.h>
+#include <modify.h>
+#include <mpi.h>
+#include <neighbor.h>
+#include <update.h>
+#include <utils.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <tangency/dem/lammps/fix_contact_history.hpp>
+#include <tangency/dem/lammps/pair_coefficients.hpp>
+#include <tangency/dem/lammps/pair_tangency.hpp>
+#include <tangency/geometry/numbers/floating_point_environment.hpp>
+
+namespace tangency::inline v0::lammps {
+
+void PairTangency::settings(int count, char** words) {
+  branch_ = dem::Branch::follow;
+  accuracy_ = Accuracy::certified();
+  for (int k = 0; k < count; k += 2) {
+    const std::string key = words[k];
+    if (key != "branch" && key != "accuracy")
+      error->all(FLERR, "Pair style tangency: word = " + key + ": branch or accuracy is allowed");
+    const std::string value = k + 1 < count ? words[k + 1] : "";
+    if (key == "branch" && (value == "follow" || value == "global"))
+      branch_ = value == "global" ? dem::Branch::global : dem::Branch::follow;
+    else if (key == "accuracy" && (value == "certified" || value == "standard"))
+      accuracy_ = value == "standard" ? Accuracy::standard() : Accuracy::certified();
+    else
+      error->all(FLERR, "Pair style tangency: " + key + " = " + value + ": " +
+                            (key == "branch" ? "follow or global" : "certified or standard") +
+                            " is allowed");
+  }
+}
+
+void PairTangency::coeff(int count, char** words) {
+  if (count < 3)
+    error->all(FLERR, "Pair_coeff of pair style tangency: two types and a law are needed");
+  if (!allocated) allocate();
+  dem::ContactLaw law;
+  try {
+    law = law_of(std::span(words + 2, static_cast<std::size_t>(count - 2)));
+  } catch (const InvalidCoefficients& refused) {
+    error->all(FLERR, std::string("Pair_coeff of pair style tangency: ") + refused.what());
+  }
+  int first_i = 0, last_i = 0, first_j = 0, last_j = 0;
+  LAMMPS_NS::utils::bounds(FLERR, words[0], 1, atom->ntypes, first_i, last_i, error);
+  LAMMPS_NS::utils::bounds(FLERR, words[1], 1, atom->ntypes, first_j, last_j, error);
+  bool any = false;
+  for (int i = first_i; i <= last_i; ++i)
+    for (int j = std::max(first_j, i); j <= last_j; ++j) {
+      laws_are_new_ |= setflag[i][j] == 0 || stored(law_between(i, j)) != stored(law);
+      law_between(i, j) = law_between(j, i) = law;
+      setflag[i][j] = 1;
+      any = true;
+    }
+  if (!any) error->all(FLERR, "Pair_coeff of pair style tangency: I <= J is needed");
+}
+
+dem::ContactLaw& PairTangency::law_between(int i, int j) {
+  return laws_.law[static_cast<std::size_t>(i - 1) * laws_.types + static_cast<std::size_t>(j - 1)];
+}
+
+void PairTangency::require_host() {
+  if (AtomBodies::ellipsoids(lmp) == nullptr)
+    error->all(FLERR, "Pair style tangency needs atom style ellipsoid");
+  if (domain->dimension != 3) error->all(FLERR, "Pair style tangency needs dimension 3");
+  if (comm->ghost_velocity == 0)
+    error->all(FLERR, "Pair style tangency needs the velocities of ghosts: comm_modify vel yes");
+  if (std::string_view(update->integrate_style) == "respa")
+    error->all(FLERR, "Pair style tangency does not work with run_style respa: verlet is allowed");
+  // A library or plugin that was linked with -ffast-math changes it for the whole process.
+  if (!environment_is_default())
+    error->all(FLERR,
+               "Pair style tangency needs arithmetic that rounds to nearest and keeps subnormal "
+               "numbers: something in this program, as what -ffast-math links, changes that");
+}
+
+void PairTangency::init_style() {
+  require_host();
+  for (const dem::ContactLaw& law : laws_.law)
+    if (law.hertz.has_value() != laws_.are_hertz())
+      error->all(FLERR,
+                 "Pair style tangency: all pairs of types need the law hooke, or all "
+                 "hertz/material");
+  reach_ = AtomBodies::reach_by_type(lmp);
+  neighbor->request(this, instance_me);
+  make_history();
+}
+
+void PairTangency::make_history() {
+  if (history_ == nullptr)
+    modify->replace_fix(
+        (history_id_ + "_DUMMY").c_str(),
+        history_id_ + " all NEIGH_HISTORY_TANGENCY " + std::to_string(kRecordNumbers), 1);
+  const int at = modify->find_fix(history_id_);
+  if (at < 0) error->all(FLERR, "Pair style tangency: its history of neighbours is gone");
+  history_ = dynamic_cast<FixContactHistory*>(modify->fix[at]);
+  history_->pair = this;
+  // The list is made by the cutoffs of types: it has no bit that says which pairs touch.
+  history_->use_bit_flag = 0;
+}
+
+double PairTangency::init_one(int i, int j) {
+  if (setflag[i][j] == 0)
+    error->all(FLERR, "Pair style tangency: pair_coeff " + std::to_string(i) + " " +
+                          std::to_string(j) + " is missing: laws are not mixed");
+  return reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)];
+}
+
+void PairTangency::require_room() {
+  const Vec3 thickness = BoxMotion::thickness(*domain);
+  const double least = 2.0 * neighbor->cutneighmax;
+  for (int k = 0; k < 3; ++k)
+    if (domain->periodicity[k] != 0 && !(thickness[k] > least))
+      error->all(FLERR, "Pair style tangency: the box is " + std::to_string(thickness[k]) +
+                            " thick along its periodic direction " + "xyz"[k] +
+                            ": more than twice cutoff and skin, " + std::to_string(least) +
+                            ", is needed, lest a pair meet twice");
+}
+
+void PairTangency::write_restart_settings(FILE* file) {
+  const int branch = static_cast<int>(branch_), normals = accuracy_.normals ? 1 : 0;
+  std::fwrite(&branch, sizeof branch, 1, file);
+  std::fwrite(&normals, sizeof normals, 1, file);
+}
+
+void PairTangency::read_restart_settings(FILE* file) {
+  int numbers[2] = {0, 0};
+  if (comm->me == 0)
+    LAMMPS_NS::utils::sfread(FLERR, numbers, sizeof numbers[0], 2, file, nullptr, error);
+  MPI_Bcast(numbers, 2, MPI_INT, 0, world);
+  branch_ = static_cast<dem::Branch>(numbers[0]);
+  accuracy_ = numbers[1] != 0 ? Accuracy::certified() : Accuracy::standard();
+}
+
+void PairTangency::write_restart(FILE* file) {
+  write_restart_settings(file);
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      const StoredLaw numbers = stored(law_between(i, j));
+      std::fwrite(&setflag[i][j], sizeof(int), 1, file);
+      std::fwrite(numbers.data(), sizeof(double), numbers.size(), file);
+    }
+}
+
+void PairTangency::read_restart(FILE* file) {
+  read_restart_settings(file);
+  allocate();
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      StoredLaw numbers{};
+      if (comm->me == 0) {
+        LAMMPS_NS::utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, file, nullptr, error);
+        LAMMPS_NS::utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), file,
+                                 nullptr, error);
+      }
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, world);
+      law_between(i, j) = law_between(j, i) = restored(numbers);
+    }
+}
+
+}  // namespace tangency::inline v0::lammps
