@@ -212,13 +212,15 @@ void ContactCheck::check_depth(const Simulation& simulation, std::size_t k,
   const auto meet_after = [&](double way) {
     return meet(state, pair, separation + way * columns.normal[k]);
   };
-  const std::string claim = "the run has an overlap of " + text(overlap) + " along its normal; ";
+  const auto claim = [&] {
+    return "the run has an overlap of " + text(overlap) + " along its normal; ";
+  };
   if (!(std::abs(columns.normal[k].norm() - 1.0) <= kDepthError) || meet_after(overlap + error))
-    return wrong(claim + "exactly, the two still meet after a move by it");
+    return wrong(claim() + "exactly, the two still meet after a move by it");
   if (overlap > error && !meet_after(overlap - error)) {
     const double along = depth_along(state, pair, separation, columns.normal[k]);
     if (branch == Branch::global || !(std::abs(along - overlap) <= error))
-      return wrong(claim + "exactly, they part earlier; along it they are " + text(along) +
+      return wrong(claim() + "exactly, they part earlier; along it they are " + text(along) +
                    " deep, at least " + text(-gap(state, pair, separation)));
     ++counts.followed;
   }

@@ -53,8 +53,8 @@ class Verification {
   static constexpr double kMostEnergyError = 0.2;
 
   /// Bodies a state whose neighbours are looked for among all. Chosen: with the rest of the checks
-  /// a cycle takes some twice as long (docs/runs.md).
-  static constexpr std::size_t kSearchedBodies = 16;
+  /// a cycle takes less than three times as long (docs/runs.md).
+  static constexpr std::size_t kSearchedBodies = 8;
 
   /// Looks at the contacts of the state, at the neighbours of kSearchedBodies bodies by turns, and
   /// at the energy.

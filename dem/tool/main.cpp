@@ -176,9 +176,9 @@ Exit status:
   0          the run is complete
   1          a stage did not reach its criterion within max_cycles, the cell became too thin for
              its particles, or the run blew up
-  3          --verify found a fault: fault.state is the state, what was saved before stays
   2          the scene, the state or the command line was refused, and earlier results are
              untouched; or a file could not be written
+  3          --verify found a fault: fault.state is the state, what was saved before stays
   128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM
 )";
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <variant>
@@ -194,6 +195,8 @@ StateKeeper::Outcome StateKeeper::keep_points(const Simulation& simulation, cons
     outcome = points ? run_again(simulation, history, *points, goes_on)
                      : Outcome{false, why_no_points(simulation, folder_)};
   } catch (const WriteError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {  // what a changed scene or a damaged file may lead to
     outcome.problem = error.what();

@@ -13,8 +13,8 @@ BESIDE = ["docs/python.md", "docs/c.md", "docs/fortran.md", "docs/octave.md", "d
           "docs/classification.md"]
 MEASURED = ["docs/speed-accuracy.md", "docs/peers.md", "docs/peer-grades.md", "docs/profiles.md", "docs/trace.md",
             "docs/study.md"]
-PROJECT = ["CONTRIBUTING.md", "docs/architecture.md", "docs/testing.md", "docs/mutants.md", "docs/build-time.md",
-           "CHANGELOG.md", "SECURITY.md"]
+PROJECT = ["CONTRIBUTING.md", "docs/architecture.md", "docs/testing.md", "docs/trust.md", "docs/mutants.md", "docs/build-time.md",
+           "docs/dependencies.md", "CHANGELOG.md", "SECURITY.md"]
 
 
 # Pages whose running text has formulas.
