@@ -20,7 +20,9 @@ import sys
 from browser import Browser
 
 HERE = pathlib.Path(__file__).resolve().parent
-SEED, RAYS = 20261201, 400
+SEED, RAYS, MARKED = 20261201, 1500, 125
+DOUBT = 0.05  # of a body: nearer to its outline a ray proves nothing, since a pixel is not a point
+NEAR = 1e-2  # length: of two bodies in contact, or cut where they overlap, single precision need not tell the first
 QUICK = 250.0  # ms: the bar of a picture while the view turns
 SPHEROIDS = """schema = 1
 [cell]
@@ -79,16 +81,28 @@ def turned(q, v):
     return [sum(a * b for a, b in zip(row, v)) for row in rows]
 
 
-def heights(arrays, start, way):
-    """Where a ray leaves each body that it meets, the greatest first: (t, body, how far from the outline)."""
+def heights(arrays, start, way, plane):
+    """Where a ray leaves each body that it meets, the greatest first: (t, body, how clearly). Of bodies that a plane
+    {n, w} cuts only n.p <= w is there."""
     found = []
     for body, (centre, q, axes) in enumerate(zip(arrays["points"], arrays["orientation"], arrays["semi_axes"])):
         p = [x / r for x, r in zip(turned(q, [a - b for a, b in zip(start, centre)]), axes)]
         u = [x / r for x, r in zip(turned(q, way), axes)]
         uu, pu, pp = (sum(a * b for a, b in zip(v, w)) for v, w in ((u, u), (p, u), (p, p)))
-        inside = 1 - (pp - pu * pu / uu)  # 1 in the middle of the outline, 0 on it
-        if inside > -0.05:
-            found.append((-pu / uu + (max(inside, 0) / uu) ** 0.5, body, inside))
+        clear = 1 - (pp - pu * pu / uu)  # 1 in the middle of the outline, 0 on it
+        if clear < -DOUBT:
+            continue
+        half = (max(clear, DOUBT) / uu) ** 0.5
+        t = -pu / uu + half
+        if plane:
+            slope = sum(a * b for a, b in zip(plane["n"], way))
+            cut = (plane["w"] - sum(a * b for a, b in zip(plane["n"], start))) / slope  # slope > 0: it faces the eye
+            depth = (cut - (-pu / uu - half)) / half  # 0 where the plane is at the back of the body, 2 at its front
+            if depth < -DOUBT:
+                continue
+            clear = min(clear, abs(depth), key=abs)
+            t = min(t, cut)
+        found.append((t, body, clear))
     return sorted(found, reverse=True)
 
 
@@ -102,29 +116,52 @@ return given[0].map(([fx, fy]) => {
   const aside = timesTransposed(m, [(x - box.width / 2) * unit, (y - box.height / 2) * unit, 0]);
   const at = 4 * (j * size[0] + i);
   return { start: v.middle.map((p, k) => p + aside[k]), way: timesTransposed(m, [0, 0, 1]), hit: v.bodyAt(box.left + x, box.top + box.height - y),
-           white: pixels[at] + pixels[at + 1] + pixels[at + 2] === 765 };
+           at, white: pixels[at] + pixels[at + 1] + pixels[at + 2] === 765 };
 });"""
+# The bodies of given[0], of each whether its mark changes the picture at the places given[1].
+MARKS = """const v = await sample, gl = v.renderer.gl, size = v.fullSize, scene = v.scene;
+scene.show.edges = false;
+const picture = (body) => {
+  const pixels = new Uint8Array(4 * size[0] * size[1]);
+  scene.picked = body; v.renderer.draw(size, scene, true);
+  gl.readPixels(0, 0, ...size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  return pixels;
+};
+const plain = picture(-1);
+return given[0].map((body) => { const marked = picture(body); return given[1].map((at) => plain[at + 1] !== marked[at + 1]); });"""
 
 
-def same_as_the_frame(browser, out):
-    """Ray by ray; those within some pixels of an outline are left out."""
+def same_as_the_frame(browser, out, cut):
+    """Ray by ray; those within some pixels of an outline are left out. @param cut: the choice in the page"""
+    plane = browser.run("const v = await sample; v.cut.value = given[0]; return v.plane", cut)
     cycle = browser.run("const v = await sample; return v.frames[v.place].cycle")
     arrays = arrays_of(out / "frames" / f"{cycle}.vtp")
     generator = random.Random(SEED)
     rays = browser.run(RAY, [[generator.uniform(0.3, 0.7), generator.random()] for _ in range(RAYS)])
-    seen = {"bodies": 0, "nothing": 0, "on an outline": 0}
+    seen = {"bodies": 0, "nothing": 0, "in doubt": 0}
+    certain = []
     for ray in rays:
-        met = heights(arrays, ray["start"], ray["way"])
+        met = heights(arrays, ray["start"], ray["way"], plane)
         # What counts is the first body that is met for certain, if no doubtful one lies before it.
-        if any(abs(inside) <= 0.05 for _, _, inside in met[:1]):
-            seen["on an outline"] += 1
+        if met and (abs(met[0][2]) <= DOUBT or (len(met) > 1 and met[0][0] - met[1][0] < NEAR)):
+            seen["in doubt"] += 1
             continue
         true = met[0][1] if met else -1
         require(ray["hit"] == true, f"seed {SEED}: a click finds body {ray['hit']}, the frame has {true} there")
         require(ray["white"] == (true < 0), f"seed {SEED}: the picture is {'white' if ray['white'] else 'not white'} where the frame has {true}")
         seen["nothing" if true < 0 else "bodies"] += 1
-    require(seen["bodies"] > 50 and seen["nothing"] > 50, f"too few rays count: {seen}")
-    print(f"{len(rays)} rays, seed {SEED}: " + ", ".join(f"{count} {what}" for what, count in seen.items()) + "; click and picture are as in the frame")
+        certain.append((ray["at"], true))
+    marked_alone(browser, certain)
+    require(seen["bodies"] > 40 and seen["nothing"] > 50, f"too few rays count: {seen}")
+    print(f"{len(rays)} rays, seed {SEED}, {f'cut {cut}' if cut else 'no cut'}: " + ", ".join(f"{count} {what}" for what, count in seen.items()) + "; click and picture are as in the frame")
+
+
+def marked_alone(browser, certain):
+    """The picture has each body where it is in front, and nowhere else: a mark changes it there alone."""
+    bodies = sorted({body for _, body in certain if body >= 0})[:MARKED]
+    for body, changes in zip(bodies, browser.run(MARKS, bodies, [at for at, _ in certain])):
+        for (_, true), changed in zip(certain, changes):
+            require(changed == (true == body), f"seed {SEED}: the picture has body {body} {'' if changed else 'not '}where the frame has {true}")
 
 
 def picked_is_drawn(browser):
@@ -242,7 +279,9 @@ def main():
         browser.size(1200, 900)
         browser.open(page)
         require(browser.run("return (await sample) !== null"), "the sample is not drawn")
-        same_as_the_frame(browser, out)
+        for cut in ("", "y", "-x"):  # those that face the eye
+            same_as_the_frame(browser, out, cut)
+        browser.run("(await sample).cut.value = ''")
         picked_is_drawn(browser)
         controls(browser, folder)
         looks(browser, page, folder)
