@@ -28,6 +28,18 @@ double logarithm(double x) {
   return k * kHigh + (log_m + k * kLow);
 }
 
+double exponential(double x) {
+  // x = k log 2 + r with |r| < 0.35; the high part of log 2 has 32 bits, so that k times it is
+  // exact.
+  constexpr double kHigh = 0x1.62e42fee00000p-1, kLow = 0x1.a39ef35793c76p-33;
+  const double k = std::nearbyint(x / std::numbers::ln2);
+  const double r = (x - k * kHigh) - k * kLow;
+  // The first term left out, r^15 / 15!, is below 2^-62.
+  double sum = 0.0;
+  for (int n = 14; n > 1; --n) sum = (sum + 1.0) * r / n;
+  return std::ldexp(1.0 + (r + sum * r), static_cast<int>(k));
+}
+
 double cube_root(double x) {
   if (x == 0.0 || !std::isfinite(x)) return x;
   // Of a in [1/8, 1), times 2^k. Newton's method doubles the correct bits of a straight line's 4.

@@ -15,6 +15,12 @@ double logarithm(double x);
 /// In ulps of the true value. Measured: 1.8.
 inline constexpr double kLogarithmError = 2.5;
 
+/// The exponential function of -700 to 700, within kExponentialError.
+double exponential(double x);
+
+/// In ulps of the true value. Measured: 0.93.
+inline constexpr double kExponentialError = 1.5;
+
 /// The cube root, rounded correctly but for one in 2^45 that lies by a tie.
 double cube_root(double x);
 

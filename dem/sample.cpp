@@ -10,6 +10,8 @@
 #include <utility>
 
 #include <tangency/dem/elementary.hpp>
+#include <tangency/dem/insertion.hpp>
+#include <tangency/dem/placed_balls.hpp>
 #include <tangency/dem/thin_cell.hpp>
 
 namespace tangency::inline v0::dem {
@@ -46,9 +48,9 @@ struct Lattice {
 Lattice lattice_for(const std::vector<Batch>& batches, const Placement& how) {
   std::int64_t particles = 0;
   double largest = 0.0;
-  for (const Batch& batch : batches) {
-    particles += static_cast<std::int64_t>(batch.count);
-    largest = std::max(largest, batch.shape.semi_axes(how.dimensions).maxCoeff());
+  for (const Coming& one : coming_particles(batches, how.dimensions)) {
+    ++particles;
+    largest = std::max(largest, one.radius());
   }
   // Jitter moves two neighbours towards each other by up to twice its size along an edge.
   const double spacing = 2.0 * (largest + how.jitter) * (1.0 + kClearance);
@@ -80,10 +82,9 @@ double bounding_volume(double radius, int dimensions) {
 /// The cell of a random placement. @throws DoesNotFit
 Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
   double volume = 0.0, largest = 0.0;
-  for (const Batch& batch : batches) {
-    const double radius = batch.shape.semi_axes(how.dimensions).maxCoeff();
-    volume += static_cast<double>(batch.count) * bounding_volume(radius, how.dimensions);
-    largest = std::max(largest, radius);
+  for (const Coming& one : coming_particles(batches, how.dimensions)) {
+    volume += bounding_volume(one.radius(), how.dimensions);
+    largest = std::max(largest, one.radius());
   }
   Vec3 edges = Vec3::Ones();
   if (how.cell_size)
@@ -107,77 +108,16 @@ Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
   return edges;
 }
 
-/// Bounding spheres placed so far, by boxes no smaller than the largest of them.
-class PlacedSpheres {
- public:
-  PlacedSpheres(const Vec3& edges, double largest, int dimensions) : edges_(edges) {
-    for (int k = 0; k < dimensions; ++k)
-      count_[k] = std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(std::min(edges[k] / (2.0 * largest), kMostBoxes)));
-    members_.resize(static_cast<std::size_t>(count_.prod()));
-  }
-
-  bool meets(const Vec3& x, double radius) const {
-    const Sites home = box_of(x), reach = (count_ > 1).cast<std::int64_t>();
-    Sites at;
-    for (at[0] = -reach[0]; at[0] <= reach[0]; ++at[0])
-      for (at[1] = -reach[1]; at[1] <= reach[1]; ++at[1])
-        for (at[2] = -reach[2]; at[2] <= reach[2]; ++at[2])
-          for (const Sphere& other : members_[index(home + at)])
-            if (meet(other, x, radius)) return true;
-    return false;
-  }
-
-  void add(const Vec3& x, double radius) { members_[index(box_of(x))].push_back({x, radius}); }
-
- private:
-  static constexpr double kMostBoxes = 128.0;  // bounds the memory of a nearly empty cell
-  struct Sphere {
-    Vec3 centre;
-    double radius;
-  };
-  /// Does the nearest image?
-  bool meet(const Sphere& other, const Vec3& x, double radius) const {
-    Vec3 d = other.centre - x;
-    d.array() -= edges_.array() * (d.array() / edges_.array()).round();
-    const double apart = (radius + other.radius) * (1.0 + kClearance);
-    return d.squaredNorm() < apart * apart;
-  }
-  Sites box_of(const Vec3& x) const {
-    const Eigen::Array3d reduced = x.array() / edges_.array() * count_.cast<double>();
-    return reduced.cast<std::int64_t>().min(count_ - 1);
-  }
-  /// Of a box of this cell or of the next one.
-  std::size_t index(Sites at) const {
-    at += (at < 0).cast<std::int64_t>() * count_ - (at >= count_).cast<std::int64_t>() * count_;
-    return static_cast<std::size_t>((at[0] * count_[1] + at[1]) * count_[2] + at[2]);
-  }
-
-  Vec3 edges_;
-  Sites count_ = Sites::Ones();
-  std::vector<std::vector<Sphere>> members_;
-};
-
-/// Indices of the batches, that of the largest particles first.
-std::vector<std::size_t> largest_first(const std::vector<Batch>& batches, int dimensions) {
-  std::vector<std::size_t> order(batches.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  const auto radius = [&](std::size_t k) {
-    return batches[k].shape.semi_axes(dimensions).maxCoeff();
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return radius(a) > radius(b); });
-  return order;
-}
-
 Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   cell = Cell::box(how.cell_size.value(), how.dimensions, how.walled);
   Particles particles;
   particles.dimensions = how.dimensions;
   for (const Body& body : how.bodies) {
     const Batch& batch = batches[body.type];
-    particles.add(body.position, body.orientation, batch.shape.semi_axes(how.dimensions),
-                  batch.density, static_cast<std::int32_t>(body.type));
+    const bool own = !body.semi_axes.isZero(0.0);
+    particles.add(body.position, body.orientation,
+                  own ? body.semi_axes : batch.shape.semi_axes(how.dimensions), batch.density,
+                  static_cast<std::int32_t>(body.type));
     particles.velocity.back() = body.velocity;
     particles.angular_velocity.back() = body.angular_velocity;
   }
@@ -187,6 +127,7 @@ Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, 
 /// The cell's edges. @throws DoesNotFit
 Vec3 edges_for(const std::vector<Batch>& batches, const Placement& how) {
   if (how.arrangement == Arrangement::random) return room_for(batches, how);
+  if (how.arrangement == Arrangement::insertion) return insertion_edges(batches, how);
   if (how.arrangement == Arrangement::lattice) return lattice_for(batches, how).edges;
   if (!how.cell_size) throw DoesNotFit("an explicit arrangement needs cell.size");
   return *how.cell_size;
@@ -201,15 +142,17 @@ void check_room(const std::vector<Batch>& batches, const Placement& how) {
 void check_thickness(const std::vector<Batch>& batches, const Placement& how) {
   const Vec3 edges = edges_for(batches, how);
   LeastCell least;
-  for (const Batch& batch : batches) least.add(batch.shape.semi_axes(how.dimensions), batch.count);
+  for (const Coming& one : coming_particles(batches, how.dimensions)) least.add(one.axes);
   const auto thin = thin_place(Cell::box(edges, how.dimensions, how.walled), least);
   if (!thin) return;
   std::ostringstream text;
   text << thin->what;
   if (!how.cell_size) {
-    const double most =
-        how.bounding_fraction * std::pow(thin->length / thin->least, how.dimensions);
-    text << "; bounding_fraction can be " << std::floor(1e3 * most) / 1e3;
+    const bool inserted = how.arrangement == Arrangement::insertion;
+    const double most = (inserted ? how.volume_fraction : how.bounding_fraction) *
+                        std::pow(thin->length / thin->least, how.dimensions);
+    text << (inserted ? "; volume_fraction can be " : "; bounding_fraction can be ")
+         << std::floor(1e3 * most) / 1e3;
   }
   throw DoesNotFit(text.str());
 }
@@ -217,6 +160,7 @@ void check_thickness(const std::vector<Batch>& batches, const Placement& how) {
 Particles place(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   check_room(batches, how);
   if (how.arrangement == Arrangement::random) return place_at_random(batches, how, cell);
+  if (how.arrangement == Arrangement::insertion) return insert(batches, how, cell);
   if (how.arrangement == Arrangement::lattice) return place_on_lattice(batches, how, cell);
   return place_bodies(batches, how, cell);
 }
@@ -230,6 +174,7 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
   Particles particles;
   particles.dimensions = how.dimensions;
   const Vec3 spacing = edges.array() / sites.cast<double>();
+  std::vector<std::size_t> placed(batches.size(), 0);
   for (std::size_t site = 0; site < kinds.size(); ++site) {
     if (kinds[site] < 0) continue;
     const auto index = static_cast<std::int64_t>(site);
@@ -238,9 +183,11 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
     for (int k = 0; k < how.dimensions; ++k)
       centre[k] = spacing[k] * (static_cast<double>(at[k]) + 0.5) +
                   how.jitter * (2.0 * uniform(random) - 1.0);
-    const Batch& batch = batches[static_cast<std::size_t>(kinds[site])];
+    const auto kind = static_cast<std::size_t>(kinds[site]);
+    const Batch& batch = batches[kind];
     particles.add(centre, how.axes.draw(random, batch.directed_axis, how.dimensions),
-                  batch.shape.semi_axes(how.dimensions), batch.density, kinds[site]);
+                  batch.shape_of(placed[kind]++).semi_axes(how.dimensions), batch.density,
+                  kinds[site]);
   }
   return particles;
 }
@@ -248,32 +195,30 @@ Particles place_on_lattice(const std::vector<Batch>& batches, const Placement& h
 Particles place_at_random(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {
   const Vec3 edges = room_for(batches, how);
   cell = Cell::box(edges, how.dimensions, how.walled);
-  const std::vector<std::size_t> order = largest_first(batches, how.dimensions);
-  const auto axes_of = [&](std::size_t k) { return batches[k].shape.semi_axes(how.dimensions); };
-  PlacedSpheres placed(edges, axes_of(order.front()).maxCoeff(), how.dimensions);
+  std::vector<Coming> coming = coming_particles(batches, how.dimensions);
+  sort_largest_first(coming);
+  PlacedBalls placed(edges, bounding_radii(coming, kClearance), how.dimensions);
   std::mt19937_64 random(how.seed);
   Particles particles;
   particles.dimensions = how.dimensions;
-  for (const std::size_t k : order) {
-    const Vec3 axes = axes_of(k);
-    const double radius = axes.maxCoeff() * (1.0 + kClearance);  // away from walls
-    for (std::size_t i = 0; i < batches[k].count; ++i) {
-      Vec3 centre = Vec3::Zero();
-      int draws = 0;
-      do {
-        if (++draws > kMostDraws)
-          throw DoesNotFit("random placement found no room for particle " +
-                           std::to_string(particles.size() + 1) + " in " +
-                           std::to_string(kMostDraws) + " draws; another seed may");
-        for (int axis = 0; axis < how.dimensions; ++axis)
-          centre[axis] = how.walled[static_cast<std::size_t>(axis)]
-                             ? radius + (edges[axis] - 2.0 * radius) * uniform(random)
-                             : edges[axis] * uniform(random);
-      } while (placed.meets(centre, axes.maxCoeff()));
-      placed.add(centre, axes.maxCoeff());
-      particles.add(centre, how.axes.draw(random, batches[k].directed_axis, how.dimensions), axes,
-                    batches[k].density, static_cast<std::int32_t>(k));
-    }
+  for (const Coming& one : coming) {
+    const Batch& batch = batches[one.batch];
+    const double radius = Vec3(one.axes * (1.0 + kClearance)).maxCoeff();
+    Vec3 centre = Vec3::Zero();
+    int draws = 0;
+    do {
+      if (++draws > kMostDraws)
+        throw DoesNotFit("random placement found no room for particle " +
+                         std::to_string(particles.size() + 1) + " in " +
+                         std::to_string(kMostDraws) + " draws; another seed may");
+      for (int axis = 0; axis < how.dimensions; ++axis)
+        centre[axis] = how.walled[static_cast<std::size_t>(axis)]
+                           ? radius + (edges[axis] - 2.0 * radius) * uniform(random)
+                           : edges[axis] * uniform(random);
+    } while (placed.any_meets(centre, radius, [](std::size_t, const Vec3&) { return true; }));
+    placed.add(centre, radius);
+    particles.add(centre, how.axes.draw(random, batch.directed_axis, how.dimensions), one.axes,
+                  batch.density, static_cast<std::int32_t>(one.batch));
   }
   return particles;
 }

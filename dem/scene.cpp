@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,7 @@
 
 #include <tangency/dem/scene_growth.hpp>
 #include <tangency/dem/scene_loading.hpp>
+#include <tangency/dem/scene_particles.hpp>
 #include <tangency/dem/scene_section.hpp>
 #include <tangency/dem/whole_file.hpp>
 
@@ -32,17 +34,16 @@ bool is_contact_key(std::string_view name) {
                      [&](const Key& key) { return key.section == "contact" && key.name == name; });
 }
 
-/// The largest stiffness of a Hertz contact of two bodies of these shapes: flat on flat.
-HertzContact stiffest(const Vec3& a, const Vec3& b, double overlap, const Material& material) {
-  // At its flattest place, the end of the shortest axis, an ellipsoid has radii a^2/c and b^2/c.
-  const double curvature[2] = {a[2] / (a[1] * a[1]) + b[2] / (b[1] * b[1]),
-                               a[2] / (a[0] * a[0]) + b[2] / (b[0] * b[0])};
+/// The largest stiffness of a Hertz contact of two bodies with these curvatures at their flattest.
+HertzContact stiffest(const Vec2& a, const Vec2& b, double overlap, const Material& material) {
+  const double curvature[2] = {a[0] + b[0], a[1] + b[1]};
   return hertz_contact(curvature, overlap, material);
 }
 
 class Reader {
  public:
-  Reader(const toml::table& root, const Source& source) : root_(root), source_(source) {}
+  Reader(const toml::table& root, const Source& source, const BodyShapes& shapes)
+      : root_(root), source_(source), shapes_(shapes) {}
 
   Scene read() {
     const Section top(source_, root_, "", "");
@@ -162,28 +163,41 @@ class Reader {
       if (name.str() == kWallName)
         source_.fail(name.source(), path + ": another name: walls have it in [contact.NAME-wall]");
       const Section type(source_, *node.as_table(), path, "particles");
-      check_flatness(type);
       scene_.particle_types.push_back(
-          {std::string(name.str()),
-           {{type.real("mean_radius"), type.real("elongation"), type.real("flatness")},
-            type.real("density"),
-            static_cast<std::size_t>(type.integer("count"))}});
+          {std::string(name.str()), read_batch(type, scene_.dimensions)});
+      take_shapes(scene_.particle_types.size() - 1);
     }
     if (types.empty())
       source_.fail(types.source(), "particles = {}: at least one table [particles.NAME]");
   }
 
-  /// Semi-axes of a type, of a wall those of a sphere so large that it is flat.
-  Vec3 shape_of(std::size_t type) const {
-    const auto& types = scene_.particle_types;
-    return type < types.size() ? types[type].batch.shape.semi_axes(scene_.dimensions)
-                               : Vec3::Constant(1e150);
+  /// Those of the table of bodies, if it has any of this type; set_bodies() refuses other numbers.
+  void take_shapes(std::size_t type) {
+    if (type >= shapes_.size() || shapes_[type].empty()) return;
+    Batch& batch = scene_.particle_types[type].batch;
+    batch.shapes = shapes_[type];
+    batch.shapes.resize(batch.count, batch.shapes.back());
   }
 
-  /// Its mean radius, of a wall infinite.
+  /// The least curvatures of a type's bodies at their flattest place, the end of the shortest axis,
+  /// where an ellipsoid has radii b^2/c and a^2/c; of a wall those of a sphere so large that it is
+  /// flat.
+  Vec2 flattest_of(std::size_t type) const {
+    const auto& types = scene_.particle_types;
+    if (type >= types.size()) return Vec2::Constant(1e-150);
+    const Batch& batch = types[type].batch;
+    Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < (batch.shapes.empty() ? 1 : batch.count); ++i) {
+      const Vec3 axes = batch.shape_of(i).semi_axes(scene_.dimensions);
+      least = least.cwiseMin(Vec2(axes[2] / (axes[1] * axes[1]), axes[2] / (axes[0] * axes[0])));
+    }
+    return least;
+  }
+
+  /// The largest of its mean radii, of a wall infinite.
   double radius_of(std::size_t type) const {
     const auto& types = scene_.particle_types;
-    return type < types.size() ? types[type].batch.shape.mean_radius
+    return type < types.size() ? types[type].batch.radius_range()[1]
                                : std::numeric_limits<double>::infinity();
   }
 
@@ -207,8 +221,8 @@ class Reader {
     if (!section.has("young_modulus")) section.fail_missing("young_modulus");
     const Material material{section.real("young_modulus"), section.real("poisson_ratio")};
     const double smaller = std::min(radius_of(a), radius_of(b));
-    const HertzContact most =
-        stiffest(shape_of(a), shape_of(b), section.real("largest_overlap") * smaller, material);
+    const HertzContact most = stiffest(flattest_of(a), flattest_of(b),
+                                       section.real("largest_overlap") * smaller, material);
     return {most.stiffness, std::max(most.shear_stiffness[0], most.shear_stiffness[1]),
             friction,       cohesion,
             material,       damping};
@@ -364,24 +378,41 @@ class Reader {
     };
     only_of("lattice", {"jitter"});
     only_of("random", {"bounding_fraction"});
+    only_of("insertion", {"volume_fraction"});
+    if (scene_.cell_size) section.forbid("volume_fraction", "without cell.size alone");
     only_of("explicit", {"file"});
+    refuse_what_is_not_placed_so(section, arrangement);
     if (arrangement == "explicit")
       for (const char* key : {"seed", "axes", "axes_direction", "axes_cone_deg"})
         section.forbid(key, "not with arrangement = \"explicit\"");
-    const Place place{arrangement == "random"     ? Arrangement::random
-                      : arrangement == "explicit" ? Arrangement::explicit_bodies
-                                                  : Arrangement::lattice,
+    const Place place{arrangement == "random"      ? Arrangement::random
+                      : arrangement == "insertion" ? Arrangement::insertion
+                      : arrangement == "explicit"  ? Arrangement::explicit_bodies
+                                                   : Arrangement::lattice,
                       static_cast<std::uint64_t>(section.integer("seed")),
                       section.real("jitter"),
                       section.real("bounding_fraction"),
                       section.text("file", ""),
-                      read_start_axes(section)};
+                      read_start_axes(section),
+                      section.real("volume_fraction")};
     const double most = largest_bounding_fraction(scene_.dimensions);
     if (place.bounding_fraction > most)
       section.fail("bounding_fraction",
                    "a finite number > 0 and <= " + short_text(most) +
                        " with dimensions = " + std::to_string(scene_.dimensions));
     return place;
+  }
+
+  /// Layers are for insertion, and bodies that stand in the scene or a file have their shapes
+  /// there.
+  void refuse_what_is_not_placed_so(const Section& section, const std::string& arrangement) const {
+    for (const auto& [name, batch] : scene_.particle_types) {
+      if (arrangement != "insertion" && batch.layer != std::array{0.0, 1.0})
+        section.fail(section.has("arrangement") ? "arrangement" : "kind",
+                     "arrangement = \"insertion\" with particles." + name + ".layer");
+      if (arrangement == "explicit" && !batch.shapes.empty() && shapes_.empty())
+        section.fail("arrangement", "another: the bodies of particles." + name + " are not alike");
+    }
   }
 
   StartAxes read_start_axes(const Section& section) const {
@@ -460,6 +491,7 @@ class Reader {
 
   const toml::table& root_;
   const Source& source_;
+  const BodyShapes& shapes_;
   Scene scene_;
 };
 
@@ -476,7 +508,7 @@ void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name)
   scene.bodies = std::move(bodies);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name) {
+Scene parse_scene(const std::string& text, const std::string& name, const BodyShapes& shapes) {
   const Source source(name);
   toml::table root;
   try {
@@ -486,17 +518,23 @@ Scene parse_scene(const std::string& text, const std::string& name) {
     std::replace(what.begin(), what.end(), '\n', ' ');
     source.fail(error.source(), "not TOML: " + what);
   }
-  return Reader(root, source).read();
+  return Reader(root, source, shapes).read();
 }
 
-Scene load_scene(const std::filesystem::path& file) {
+Scene parse_scene(const std::string& text, const std::string& name) {
+  return parse_scene(text, name, BodyShapes());
+}
+
+Scene load_scene(const std::filesystem::path& file) { return load_scene(file, BodyShapes()); }
+
+Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes) {
   std::string text;
   try {
     text = bytes_of_file(file);
   } catch (const ReadError& error) {
     throw SceneError(error.what());
   }
-  return parse_scene(text, file.string());
+  return parse_scene(text, file.string(), shapes);
 }
 
 }  // namespace tangency::inline v0::dem

@@ -90,6 +90,9 @@ double largest_change(const Scene& scene, const Growth& growth) {
 }  // namespace
 
 Growth read_growth(const Section& section, const Scene& scene) {
+  for (const auto& [name, batch] : scene.particle_types)
+    if (!batch.shapes.empty())
+      section.fail("kind", "none that grows: the bodies of particles." + name + " are not alike");
   const auto e = section.optional_real("eccentricity");
   if (e)
     section.forbid("elongation", "not together with eccentricity");

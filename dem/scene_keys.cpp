@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/insertion.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
@@ -80,10 +81,34 @@ constexpr std::array kKeys{
 
     Key{"particles", "count", integer, "-", "", between(1, kMostParticles), "", "",
         "Number of particles of this type"},
-    Key{"particles", "mean_radius", real, "m", "", kPositive, "", "",
-        "Geometric mean of the semi-axes a >= b >= c, in the plane of a and b"},
+    Key{"particles", "mean_radius", real, "m", "(needed, but for a sieve curve)", kPositive, "", "",
+        "Geometric mean of the semi-axes a >= b >= c, in the plane of a and b; where sizes differ "
+        "their mean, of lognormal ones the median"},
     Key{"particles", "elongation", real, "-", "1.0", kAxisRatio, "", "", "a / b"},
     Key{"particles", "flatness", real, "-", "1.0", kAxisRatio, "", "", "b / c; 1 in the plane"},
+    Key{"particles", "elongations", reals, "-", "(elongation)", kAxisRatio, "", "",
+        "Least and largest a / b instead: they are uniform in number between the two"},
+    Key{"particles", "flatnesses", reals, "-", "(flatness)", kAxisRatio, "", "",
+        "Least and largest b / c instead, alike"},
+    Key{"particles", "sizes", text, "-", "equal", kNoRange, "equal uniform normal lognormal sieve",
+        "",
+        "Distribution of the mean radii: in number, or by the mass that passes sieves; number i of "
+        "n has the size at the share (i + 1/2) / n"},
+    Key{"particles", "size_spread", real, "-", "(needed by uniform, normal, lognormal)",
+        above_to(0.0, 2.0), "", "",
+        "uniform: half the width over mean_radius; normal: standard deviation over mean_radius; "
+        "lognormal: standard deviation of the logarithm"},
+    Key{"particles", "size_tails", real, "-", "0.02", between(1e-6, 0.4), "", "",
+        "normal, lognormal: share in number of the distribution that is left out at either end"},
+    Key{"particles", "sieve_openings", reals, "m", "(needed by sieve)", kPositive, "", "",
+        "Square openings, ascending; an ellipsoid passes one of sqrt(2 (b^2 + c^2)), a disk of the "
+        "plane one of 2 b"},
+    Key{"particles", "sieve_passing", reals, "-", "(needed by sieve)", between(0.0, 1.0), "", "",
+        "Share of the mass that passes each of sieve_openings, ascending from 0 to 1; linear in "
+        "the logarithm of the opening between two"},
+    Key{"particles", "layer", reals, "-", "(0 and 1)", between(0.0, 1.0), "", "",
+        "insertion: ends of the layer where the centres lie, in shares of the cell along z (in the "
+        "plane y)"},
     Key{"particles", "density", real, "kg/m^3", "1000.0", kPositive, "", "",
         "Mass over volume; scales time, and nothing else in slow motion"},
 
@@ -126,19 +151,23 @@ constexpr std::array kKeys{
         "Keep the states at the start, where yielding begins, at the peak of friction and where "
         "the volume begins to stay constant: states/NAME-A.state to -D.state, found in the rows of "
         "history.csv"},
-    Key{"stage", "arrangement", text, "-", "lattice", kNoRange, "lattice random explicit", "place",
-        "A simple cubic (in the plane square) lattice; drawn places that do not overlap; or "
-        "[[body]] "
-        "by [[body]]"},
+    Key{"stage", "arrangement", text, "-", "lattice", kNoRange, "lattice random insertion explicit",
+        "place",
+        "A simple cubic (in the plane square) lattice; drawn places where bounding spheres do not "
+        "overlap; drawn places where the bodies do not; or [[body]] by [[body]]"},
     Key{"stage", "file", path, "-", "(the scene's [[body]])", kNoRange, "", "place",
         "explicit: a table of bodies instead, beside the scene: CSV with type, x, y, z and, if so "
-        "wanted, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
+        "wanted, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz, and shapes of their own: r1, r2, r3, a "
+        "shape matrix m.xx ..., its inverse p.xx ..., or vectors u1.x ..., as tangency contact"},
     Key{"stage", "seed", integer, "-", "1", between(0, 9e15), "", "place",
         "Start of the random numbers"},
     Key{"stage", "jitter", real, "mean_radius", "1e-3", between(0.0, 1.0), "", "place",
         "Largest shift of each coordinate off the lattice; of the smallest type's radius"},
     Key{"stage", "bounding_fraction", real, "-", "0.25", above_to(0.0, 0.45), "", "place",
         "random: share of the cell that bounding spheres (circles) fill; at most 0.3 in space"},
+    Key{"stage", "volume_fraction", real, "-", "0.3", above_to(0.0, kMostInserted), "", "place",
+        "insertion, without cell.size: share of the cell that the bodies fill; equal bodies to "
+        "0.37"},
     Key{"stage", "axes", text, "-", "random", kNoRange, "random aligned cone plane", "place",
         "Where the longest axis points, of oblate bodies the symmetry axis (the shortest), of "
         "spheres that of their later shape: anywhere; along axes_direction; uniform in a cone "

@@ -140,9 +140,8 @@ void check_damping(const Section& section, const Drive& stage) {
 
 void check_step(const Section& section, const Drive& stage, const Scene& scene) {
   double lightest = std::numeric_limits<double>::infinity();
-  for (const Batch& batch : scene.batches())
-    lightest = std::min(lightest, batch.density * volume_of(batch.shape.semi_axes(scene.dimensions),
-                                                            scene.dimensions));
+  for (const ParticleType& type : scene.particle_types)
+    lightest = std::min(lightest, type.batch.density * type.batch.least_volume(scene.dimensions));
   const double largest =
       kMostStrainOfAStep /
       (stage.time_step_factor * std::sqrt(lightest / scene.laws.largest_stiffness()));

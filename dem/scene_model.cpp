@@ -25,9 +25,9 @@ std::size_t Scene::particle_count() const {
 }
 
 double Scene::smallest_mean_radius() const {
-  double smallest = particle_types.front().batch.shape.mean_radius;
+  double smallest = std::numeric_limits<double>::infinity();
   for (const ParticleType& type : particle_types)
-    smallest = std::min(smallest, type.batch.shape.mean_radius);
+    smallest = std::min(smallest, type.batch.radius_range()[0]);
   return smallest;
 }
 
@@ -35,7 +35,7 @@ double Scene::servo_strain_rate(double stress) const {
   constexpr double inertial_number = 0.05;  // Chosen: a collapse takes up to 20 times a test's rate
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [name, batch] : particle_types)
-    least = std::min(least, std::sqrt(stress / batch.density) / (2.0 * batch.shape.mean_radius));
+    least = std::min(least, std::sqrt(stress / batch.density) / (2.0 * batch.radius_range()[1]));
   return inertial_number * least;
 }
 
@@ -49,7 +49,8 @@ Placement Scene::placement() const {
           dimensions,
           walled,
           bodies,
-          place.axes};
+          place.axes,
+          place.volume_fraction};
 }
 
 Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const {

@@ -38,6 +38,7 @@ struct Place {
   std::string file;
   /// orientations at the start
   StartAxes axes{};
+  double volume_fraction = 0.0;  ///< of an insertion without a cell size
 };
 
 /// How a stage moves, and when it ends: as soon as all that is set holds.

@@ -2,9 +2,11 @@
 #include <tangency/dem/simulation.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,6 +55,21 @@ void require_equal(const std::string& key, double in_state, double in_scene) {
                               "; the scene has " + tables::rounded_text(in_scene, 10));
 }
 
+/// Of a type whose bodies are not alike.
+/// @throws std::invalid_argument  where those of the state are others
+void require_same_shapes(const Particles& particles, std::size_t type, const ParticleType& wanted) {
+  std::vector<std::array<double, 3>> is, was;
+  const auto add = [](auto& all, const Vec3& axes) { all.push_back({axes[0], axes[1], axes[2]}); };
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (static_cast<std::size_t>(particles.type[i]) == type) add(was, particles.semi_axes[i]);
+  for (const Shape& shape : wanted.batch.shapes) add(is, shape.semi_axes(particles.dimensions));
+  std::sort(is.begin(), is.end());
+  std::sort(was.begin(), was.end());
+  for (std::size_t i = 0; i < is.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      require_equal("a semi-axis of particles." + wanted.name, was[i][k], is[i][k]);
+}
+
 /// @throws std::invalid_argument  naming the first key of the scene that the particles are not of
 void require_same_particles(const State& state, const Scene& scene) {
   const Particles& particles = state.particles;
@@ -80,12 +97,15 @@ void require_same_particles(const State& state, const Scene& scene) {
     const Vec3& axes = particles.semi_axes[i];
     const std::string path = "particles." + name;
     const int dimensions = scene.dimensions;
+    require_equal(path + ".density", particles.mass[i] / volume_of(axes, dimensions),
+                  batch.density);
+    if (!batch.shapes.empty()) continue;
     require_equal(path + ".mean_radius", mean_radius_of(axes, dimensions), shape.mean_radius);
     require_equal(path + ".elongation", axes[0] / axes[1], shape.elongation);
     require_equal(path + ".flatness", axes[1] / axes[2], shape.flatness);
-    require_equal(path + ".density", particles.mass[i] / volume_of(axes, dimensions),
-                  batch.density);
   }
+  for (std::size_t k = 0; k < types.size(); ++k)
+    if (!types[k].batch.shapes.empty()) require_same_shapes(particles, k, types[k]);
 }
 
 std::string short_text(double x) { return tables::rounded_text(x, 6); }
@@ -168,8 +188,13 @@ std::string difference_of_walls(const Cell& made, const Scene& scene) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene) : scene_(scene), laws_(scene.laws) {
-  state_.particles = place(scene_.batches(), scene_.placement(), state_.cell);
+Simulation::Simulation(const Scene& scene) : Simulation(scene, std::function<void(double)>()) {}
+
+Simulation::Simulation(const Scene& scene, std::function<void(double)> placed)
+    : scene_(scene), laws_(scene.laws) {
+  Placement placement = scene_.placement();
+  placement.progress = std::move(placed);
+  state_.particles = place(scene_.batches(), placement, state_.cell);
   state_.cell.planes = scene_.planes;
   require_in_front();
   state_.particles.permute(spatial_order(state_.particles, state_.cell));

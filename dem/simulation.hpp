@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ class Simulation {
   /// @throws DoesNotFit   where random placement has bad luck
   /// @throws CellTooThin  where a particle touches two images of another, or one of its own
   explicit Simulation(const Scene& scene);
+  /// @overload
+  /// @param placed  called now and then with the share of the particles that have their place
+  Simulation(const Scene& scene, std::function<void(double)> placed);
 
   /// Continues from a saved state.
   /// @throws std::invalid_argument  where the state is not one of such a scene: what() says why

@@ -27,10 +27,11 @@ constexpr double kParallel = 4.0;
 /// Exponent of the largest semi-axis.
 int size_exponent(const Ellipsoid& body) { return exponent_of(body.largest_semi_axis()); }
 
-/// The body in units of 2^exponent, so that no square leaves the range of doubles.
+/// The body in units of 2^exponent, so that no square leaves the range of doubles; a semi-axis
+/// below kThinnestAxis, far beyond what is promised, becomes that: of 0 there is no body.
 Ellipsoid in_unit(const Ellipsoid& body, int exponent) {
-  const auto scaled = [&](double length) { return scaled_by_power(length, -exponent); };
-  return {Vec3::Zero(), body.semi_axes().unaryExpr(scaled), body.orientation()};
+  const Vec3 axes = scaled_by_power(body.semi_axes(), -exponent);
+  return {Vec3::Zero(), axes.cwiseMax(detail::kThinnestAxis), body.orientation()};
 }
 
 PlaneTensor tensor_of(const Ellipsoid& unit, const PlaneBasis& basis, const Vec3& normal) {

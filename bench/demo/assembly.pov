@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The assembly of Size particles in its periodic cell, from particles-SIZE.inc, which build_page
+// The assembly of Size particles in its periodic cell, from particles-assembly-SIZE.inc, which build_page
 // makes of a frame: Cell, the edges of the cell, and a particle a line, a sphere of radius 1/2 under
 // R diag(2a) R', moved to the centre and coloured by its contacts.
 #include "light.inc"
-#include concat("particles-", str(Size, 0, 0), ".inc")
+#include concat("particles-assembly-", str(Size, 0, 0), ".inc")
 
 #declare Edge = vlength(Cell) / 700;
 #macro Edges(U, V, W)  // the four edges along U

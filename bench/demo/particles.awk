@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Of frames of tangency-dem, told by frame_text.py, an item a line, makes what assembly.pov includes: a
-# file particles-N.inc a frame, N from -v sizes= in the order of the frames. Prints the colours'
+# file particles-NAME.inc a frame, the names from -v names= in the order of the frames. Prints the colours'
 # legend, with the numbers of the last frame, in HTML.
-BEGIN { split(sizes, size, " ") }
+BEGIN { split(names, name, " ") }
 FNR == 1 { ++frames }
 /<DataArray/ {
   array = "points"
@@ -21,7 +21,7 @@ END {
       if (c > most) most = c
       ++having[k, c]
     }
-  for (k = 1; k <= frames; ++k) write_scene("particles-" size[k] ".inc")
+  for (k = 1; k <= frames; ++k) write_scene("particles-" name[k] ".inc")
   print "<span class=\"legend\">"
   for (c = least; c <= most; ++c) {
     find_colour(c)

@@ -5,7 +5,6 @@
 #include <comm.h>
 #include <domain.h>
 #include <error.h>
-#include <fix_neigh_history.h>
 #include <force.h>
 #include <modify.h>
 #include <mpi.h>
@@ -20,6 +19,7 @@
 #include <string>
 #include <string_view>
 
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/pair_coefficients.hpp>
 #include <tangency/dem/lammps/pair_tangency.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
@@ -102,11 +102,12 @@ void PairTangency::init_style() {
 
 void PairTangency::make_history() {
   if (history_ == nullptr)
-    modify->replace_fix((history_id_ + "_DUMMY").c_str(),
-                        history_id_ + " all NEIGH_HISTORY " + std::to_string(kRecordNumbers), 1);
+    modify->replace_fix(
+        (history_id_ + "_DUMMY").c_str(),
+        history_id_ + " all NEIGH_HISTORY_TANGENCY " + std::to_string(kRecordNumbers), 1);
   const int at = modify->find_fix(history_id_);
   if (at < 0) error->all(FLERR, "Pair style tangency: its history of neighbours is gone");
-  history_ = dynamic_cast<LAMMPS_NS::FixNeighHistory*>(modify->fix[at]);
+  history_ = dynamic_cast<FixContactHistory*>(modify->fix[at]);
   history_->pair = this;
   // The list is made by the cutoffs of types: it has no bit that says which pairs touch.
   history_->use_bit_flag = 0;

@@ -23,7 +23,6 @@
 /// otherwise, and periodic boxes in which a pair could meet twice.
 #pragma once
 
-#include <fix_neigh_history.h>
 #include <lammps.h>
 #include <pair.h>
 
@@ -39,6 +38,7 @@
 #include <tangency/dem/lammps/box_motion.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
 #include <tangency/dem/lammps/contact_source.hpp>
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/narrow_phase.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 
@@ -73,8 +73,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   /// "affine_stiffness": the share of this rank in the sum of K_n (n . branch)^2 over all contacts
   /// of the last step, what a servo needs (dem::ContactSums).
   void* extract(const char* name, int& dimension) override;
-  /// Those of records that touch. A pair that another rank has too is told by the one of its atom
-  /// a.
+  /// For computes: the contacts of the last call of compute().
   void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
   /// A record is the same from both sides.
   void transfer_history(double* source, double* target) override;
@@ -112,8 +111,8 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   PairBlock within_, across_;  ///< pairs of owned atoms; those that another rank has too
   std::array<double, 4> work_{};
   double affine_stiffness_ = 0.0;
-  bool laws_are_new_ = true;  ///< since the last compute()
-  LAMMPS_NS::FixNeighHistory* history_ = nullptr;
+  bool laws_are_new_ = false;  ///< since the last compute()
+  FixContactHistory* history_ = nullptr;
   std::string history_id_;
 };
 

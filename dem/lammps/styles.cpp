@@ -6,6 +6,7 @@
 
 #include <tangency/dem/lammps/compute_balance.hpp>
 #include <tangency/dem/lammps/compute_fabric.hpp>
+#include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/fix_move.hpp>
 #include <tangency/dem/lammps/fix_servo.hpp>
 #include <tangency/dem/lammps/fix_wall.hpp>
@@ -29,7 +30,8 @@ template <class Style>
 
 // One line a style: its name, and the class of its header.
 constexpr std::array kPairStyles{PairEntry{"tangency", kPair<PairTangency>}};
-constexpr std::array kFixStyles{FixEntry{"tangency/move", kFix<FixMove>},
+constexpr std::array kFixStyles{FixEntry{"NEIGH_HISTORY_TANGENCY", kFix<FixContactHistory>},
+                                FixEntry{"tangency/move", kFix<FixMove>},
                                 FixEntry{"tangency/servo", kFix<FixServo>},
                                 FixEntry{"wall/tangency", kFix<FixWall>}};
 constexpr std::array kComputeStyles{ComputeEntry{"tangency/balance", kCompute<ComputeBalance>},

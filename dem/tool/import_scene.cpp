@@ -10,6 +10,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/scene_error.hpp>
 #include <tangency/dem/tool/csv_text.hpp>
+#include <tangency/dem/tool/descending_axes.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
@@ -74,19 +75,8 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 Sample with_descending_axes(Sample sample) {
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    const Vec3 axes = sample.semi_axes[i];
-    std::array<Eigen::Index, 3> order{0, 1, 2};
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Eigen::Index a, Eigen::Index b) { return axes[a] > axes[b]; });
-    if (order == std::array<Eigen::Index, 3>{0, 1, 2}) continue;
-    Mat3 turn;  // to the old body axes; the third of either sign is an axis of the body
-    turn.col(0) = Vec3::Unit(order[0]);
-    turn.col(1) = Vec3::Unit(order[1]);
-    turn.col(2) = Vec3(turn.col(0)).cross(Vec3(turn.col(1)));
-    sample.semi_axes[i] = Vec3(axes[order[0]], axes[order[1]], axes[order[2]]);
-    sample.orientation[i] = sample.orientation[i] * Quaternion(turn);
-  }
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    make_descend(sample.semi_axes[i], sample.orientation[i]);
   return sample;
 }
 

@@ -406,32 +406,49 @@ class Run {
   EnergyAccount work_;
 };
 
-}  // namespace
+/// Placing many particles takes a while, too.
+Simulation placed(const Scene& scene, const RunOptions& options) {
+  tables::Progress progress(
+      options.quiet ? tables::Progress::Shown::nothing : tables::Progress::Shown::everywhere, 0.0);
+  return Simulation(scene, [&](double share) {
+    if (share > 0.0 && progress.is_due()) progress.show(share, "particles that have their place");
+  });
+}
 
-Simulation simulation_of(const std::filesystem::path& file,
-                         const std::optional<std::filesystem::path>& from) {
-  Scene scene = load_scene(file);
-  read_bodies(scene, file);
+Simulation simulation_of(const RunOptions& options) {
+  Scene scene = load_scene(options.scene);
+  read_bodies(scene, options.scene);
   try {
-    if (!from) return Simulation(scene);
+    if (!options.resume) return placed(scene, options);
   } catch (const CellTooThin& error) {
-    throw SceneError(file.string() + ": " + error.what());
+    throw SceneError(options.scene.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
-    throw SceneError(file.string() + ": " + error.what());
+    throw SceneError(options.scene.string() + ": " + error.what());
   }
-  State state = load_state(*from);
+  State state = load_state(*options.resume);
   try {
     return Simulation(scene, std::move(state));
   } catch (const std::invalid_argument& error) {
-    throw StateError(from->string() + ": " + error.what());
+    throw StateError(options.resume->string() + ": " + error.what());
   }
+}
+
+}  // namespace
+
+Simulation simulation_of(const std::filesystem::path& scene,
+                         const std::optional<std::filesystem::path>& state) {
+  RunOptions options;
+  options.scene = scene;
+  options.resume = state;
+  options.quiet = true;
+  return simulation_of(options);
 }
 
 int run(const RunOptions& options) {
   if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
-  Simulation simulation = simulation_of(options.scene, options.resume);
+  Simulation simulation = simulation_of(options);
   if (caught_signal != 0) {
     std::cerr << "tangency-dem: interrupted before the first cycle; nothing was written"
               << std::endl;

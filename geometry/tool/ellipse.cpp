@@ -159,7 +159,8 @@ class PointLines : public tables::Rows {
   void answer() override {}
   tables::RowOutcome write(std::size_t i, tables::RowText& out) const override {
     const auto& [row, centre, found] = found_[i];
-    const auto word = [&](std::string_view multiplicity) {
+    // clang 14 takes no structured binding into a function by reference.
+    const auto word = [&out, row = row](std::string_view multiplicity) {
       out.integer(row), out.empty(2), out.text(multiplicity), out.end_row();
     };
     if (found.equal) word("equal");

@@ -45,7 +45,7 @@ class FrameText(unittest.TestCase):
     def test_makes_a_scene_of_as_many_bodies(self):
         file = self.out / "frame.txt"
         file.write_text(self.text)
-        subprocess.run(["awk", "-v", "sizes=1", "-f", DEMO / "particles.awk", file], check=True, cwd=self.out,
+        subprocess.run(["awk", "-v", "names=1", "-f", DEMO / "particles.awk", file], check=True, cwd=self.out,
                        stdout=subprocess.DEVNULL)
         scene = (self.out / "particles-1.inc").read_text()
         self.assertEqual(scene.count("sphere {"), len(self.array("points")))

@@ -47,6 +47,21 @@ TEST(Elementary, LogarithmIsWithinItsBoundOfTheTruth) {
   EXPECT_TRUE(std::isnan(dem::logarithm(-1.0)));
 }
 
+TEST(Elementary, ExponentialIsWithinItsBoundOfTheTruth) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  double largest = 0.0;
+  for (int k = 0; k < 300000; ++k) {
+    const double x = (k % 3 == 0 ? 700.0 : k % 3 == 1 ? 2.0 : 1e-3) * uniform(random);
+    const double error = ulps(dem::exponential(x), std::exp(Long(x)));
+    largest = std::max(largest, error);
+    ASSERT_LE(error, dem::kExponentialError) << x;
+  }
+  RecordProperty("largest_error_millionths_ulp", static_cast<int>(1e6 * largest));
+  EXPECT_GT(largest, 0.5) << "the truth is not the same arithmetic";
+  EXPECT_EQ(dem::exponential(0.0), 1.0);
+}
+
 TEST(Elementary, CubeRootIsTheDoubleNearestToTheTruth) {
   std::mt19937_64 random(kSeed);
   for (int k = 0; k < 300000; ++k) {

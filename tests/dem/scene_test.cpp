@@ -99,14 +99,15 @@ TEST(Scene, AWrongTypeIsNamed) {
 TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
   EXPECT_EQ(refusal_with("elongation", "colour"),
             "scene.toml:6: particles.grain.colour: no such key; allowed are count, mean_radius, "
-            "elongation, flatness, density");
+            "elongation, flatness, elongations, flatnesses, sizes, size_spread, size_tails, "
+            "sieve_openings, sieve_passing, layer, density");
   EXPECT_EQ(refusal_with("[cell]", "[sell]"),
             "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, wall, "
             "body, contact, stage, output");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
-            "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, axes, "
-            "axes_direction, axes_cone_deg");
+            "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, "
+            "volume_fraction, axes, axes_direction, axes_cone_deg");
   EXPECT_EQ(refusal_with("[contact]", "[contact.grain-stone]"),
             "scene.toml:7: contact.grain-stone: NAME-NAME of two of the scene's particle types");
 }
@@ -229,8 +230,9 @@ TEST(Scene, WithoutRoomForARandomPlacementIsRefused) {
           .find("scene.toml:3: cell.size = [ 800, 800, 20 ]: an edge of it is shorter than the "
                 "largest particle, 2"),
       0u);
-  EXPECT_EQ(refusal(with(random, "random", "heap")),
-            "scene.toml:12: stage[0].arrangement = 'heap': one of lattice, random, explicit");
+  EXPECT_EQ(
+      refusal(with(random, "random", "heap")),
+      "scene.toml:12: stage[0].arrangement = 'heap': one of lattice, random, insertion, explicit");
 }
 
 TEST(Scene, ThatGrowsNeedsAShapeAndIncrementsThatAreSmall) {

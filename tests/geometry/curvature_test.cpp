@@ -242,5 +242,19 @@ TEST(Curvature, IsThatOfTheScaledBodiesAtScalesBeyondSquaresOfDoubles) {
   }
 }
 
+// Found by a fuzzer: a semi-axis of 2^-1074 was 0 in the unit of the other body, and ended the
+// process.
+TEST(Curvature, OfSemiAxesBeyondWhatIsPromisedIsNoNumberBelowZero) {
+  const Ellipsoid a({0, 0, 0}, {3, 2, 1}), b({0, 0, 4}, {3, 0x1p-1074, 1});
+  const Ellipsoid turned({0, 0, 4}, {3, 0x1p-1074, 1}, Eigen::Quaterniond(1, 2, 3, 4));
+  for (const Ellipsoid& thin : {b, turned}) {
+    const Vec3 normal = Vec3(2, 3, 6) / 7;
+    for (const ContactCurvature& c :
+         {contact_curvature(a, thin, normal), contact_curvature(thin, a, normal)}) {
+      for (const double k : c.relative.curvature) EXPECT_GE(k, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tangency

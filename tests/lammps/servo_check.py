@@ -10,8 +10,10 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - hold:     7,000 steps at a mean stress, which is held within 1e-6 at the end
 - triaxial: 10 % of axial compression: how well the lateral stresses are held, by both
 - ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
+- relax:    velocities run downhill to rest, and the script ends the stage where tangency-dem does
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
+- energy:   the account of energies closes as that of tangency-dem does
 - restart:  an axial compression, stopped half way and resumed on another number of ranks
 Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
 """
@@ -188,6 +190,20 @@ class Study(Check):
         print(f"ring: plane mean off by {plane:.2g}, direction {np.degrees(angle):.4g} degrees")
         require(abs(plane) <= 1e-2 and abs(np.degrees(angle) - 20.0) <= 1.0, "ring: not held")
 
+    def relax(self):
+        self.both("relax", f'kind = "relax"\nmean_stress = {PRESS}\nmax_strain_rate = 0.05\n'
+                           "max_unbalanced_ratio = 1e-5\n")
+        last = int(self.rows("relax", "relax")[-1]["cycle"])
+        for ranks in (1, 2):
+            rows = self.thermo(self.in_folder("relax", "in.relax", ranks))
+            data = self.read("relax/relax.end.data").splitlines()[0]
+            step = int(re.search(r"timestep = (\d+)", data).group(1))
+            print(f"relax on {ranks} ranks: at rest at step {step}, tangency-dem {last}")
+            require(0 <= step - last < 10, "relax: another end")
+            near(f"relax on {ranks} ranks, stresses", [rows[-1][f"c_push[{k}]"] for k in (1, 2, 3)],
+                 [PRESS] * 3, 0.2)
+            self.compare("relax", ranks, {"x y z": 1e-6, "qw qx qy qz": 1e-5})
+
     def fabric(self):
         self.both("fabric", 'kind = "servo"\nduration = 1\n')
         head = self.read("fabric/in.fabric").split("# Stage")[0]
@@ -246,6 +262,30 @@ class Study(Check):
         self.in_folder("wall", "in.second", 1)
         self.compare("wall", "resumed", {"x y z": 1e-8, "vx vy vz": 1e-5}, ".resumed")
 
+    def energy(self):
+        self.both("energy", 'kind = "servo"\nduration = 2000\ndamping = 0.1\n'
+                            "strain_rate = [0.01, 0.0, 0.02]\n")
+        script = self.read("energy/in.energy")
+        script = re.sub("(?m)^(fix motion.*)", r"\1\ncompute works all pair tangency\n"
+                        "thermo_style custom step pe f_motion[1] f_motion[2] c_works[1] c_works[2] "
+                        "c_works[3] c_works[4]\nthermo_modify format float %.15g", script)
+        self.write("energy/in.account", script.split("unfix motion")[0])
+        for ranks in (1, 2):
+            rows = self.thermo(self.in_folder("energy", "in.account", ranks))
+
+            def sum_of(row):
+                return (row["PotEng"] + row["f_motion[2]"] + row["f_motion[1]"] + row["c_works[1]"] +
+                        row["c_works[4]"] - row["c_works[2]"] - row["c_works[3]"])
+
+            through = abs(rows[-1]["c_works[2]"])
+            here = (sum_of(rows[-1]) - sum_of(rows[0])) / through
+            last, first = self.rows("energy", "servo")[-1], list(csv.DictReader(
+                self.read("sample/history.csv").splitlines()))[-1]
+            there = (float(last["energy_error"]) - float(first["energy_error"])) / through
+            print(f"energy on {ranks} ranks: error {here:.2g} of the work of the boundary, "
+                  f"tangency-dem {there:.2g}")
+            require(abs(here - there) <= 1e-6 and abs(here) < 1e-2, "energy: the account does not close")
+
     def restart(self):
         self.both("again", 'kind = "shear"\naxial_strain_rate = 0.02\naxial_strain = 0.1\n'
                            f"lateral_stress = {PRESS}\n")
@@ -266,7 +306,7 @@ class Study(Check):
             near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
 
 
-CHECKS = ("move", "hold", "triaxial", "ring", "fabric", "wall", "restart")
+CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart")
 
 if __name__ == "__main__":
     require(len(sys.argv) > 3, __doc__)

@@ -1,0 +1,368 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs pair_style tangency in LAMMPS, and compares it with the simulator, with itself on other numbers
+of ranks, and with LAMMPS' own granular spheres.
+
+Usage: lammps_check.py TANGENCY_DEM TANGENCY_LAMMPS SCENE FOLDER [CHECK ...]
+
+SCENE is run by the simulator first; its final state is the sample. A CHECK is the name of a function
+below without check_; without one all are run, in order. Each prints what it measured, and ends the
+program with 1 where a bound is passed. Programs of MPI run with as many ranks as they are told, on any
+number of cores. Packages: .ci/setup lammps
+"""
+import csv
+import os
+import subprocess
+import sys
+
+import numpy as np
+
+STIFFNESS = 1.5e10  # of the scene's contacts, normal and shear
+DENSITY = 1000.0
+
+# What every script begins with; {name} are filled in.
+HEAD = """units si
+atom_style ellipsoid
+boundary p p p
+newton {newton}
+atom_modify map array
+comm_modify vel yes
+neighbor {skin} bin
+read_data sample.data
+"""
+PAIR = """pair_style tangency {style}
+pair_coeff * * hooke 1.5e10 {law}
+"""
+RANKS = ((1, "on"), (2, "on"), (4, "on"), (1, "off"), (4, "off"))
+LINEAR = "tangential linear 1.5e10 0.5"
+CONTACT = """
+[contact]
+normal_stiffness = 1.5e10
+friction_coefficient = 0.5
+"""
+OUTPUT = """thermo_style custom step pe ke pxx pyy pzz pxy pxz pyz
+thermo_modify format float %.17g norm no
+thermo {every}
+compute w all pair tangency
+dump d all custom {every} {name}.dump id xu yu zu fx fy fz tqx tqy tqz
+dump_modify d format float %.17g sort id
+"""
+SPHERES = """units si
+atom_style {style}
+boundary p p p
+comm_modify vel yes
+neighbor 2.0 bin
+read_data {data}
+{pair}
+fix move all {move}
+timestep 0.002
+"""
+# What a script says, and words of the line that refuses it. The first replaces the words in a script.
+REFUSED = (
+    ("comm_modify vel yes", "", "velocities of ghosts"),
+    ("pair_style tangency ", "pair_style tangency accuracy best", "certified or standard is allowed"),
+    ("pair_style tangency ", "pair_style tangency branch", "follow or global is allowed"),
+    ("pair_style tangency ", "pair_style tangency skin 1", "branch or accuracy is allowed"),
+    ("hooke 1.5e10", "hooke -1", "kn = -1: a number > 0 is allowed"),
+    ("hooke 1.5e10", "hooke 1.5e1O", "kn = 1.5e1O: a number > 0 is allowed"),
+    ("tangential linear 1.5e10 0.5", "tangential mindlin 0.5", "tangential linear is allowed"),
+    ("hooke 1.5e10 tangential linear 1.5e10", "hertz/material 1e9 0.7 tangential mindlin",
+     "nu = 0.7: 0 to 0.5 is allowed"),
+    ("tangential linear 1.5e10 0.5", "restitution 0", "restitution = 0: 0.05 to 1 is allowed"),
+    ("tangential linear 1.5e10 0.5", "tangential linear 1.5e10", "a word is missing at the end: mu"),
+    ("tangential linear 1.5e10 0.5", "adhesion 1", "word = adhesion"),
+    ("neighbor 2.0 bin", "neighbor 90.0 bin", "lest a pair meet twice"),
+    ("run 10", "run_style respa 2 2\nrun 10", "run_style respa"),
+    ("run 10", "create_atoms 1 single 5.0 5.0 5.0\nunfix move\nrun 10", "atom 1001 is no ellipsoid"),
+    ("timestep 0.002", "timestep 1e305", "that is no finite number"),
+)
+STRAIN = """fix strain all deform 1 x trate -0.01 y trate -0.01 z trate -0.01 remap x
+fix move all nve/asphere
+fix damp all langevin 0.0 0.0 0.5 1 angmom 1.0
+timestep 0.002
+"""
+
+
+def require(condition, what):
+    if not condition:
+        sys.exit(f"lammps_check: {what}")
+
+
+def within(what, value, bound):
+    print(f"{what}: {value:.2g} (bound {bound:.0e})", flush=True)
+    require(value <= bound, f"{what}: {value:.3g}, more than {bound:.0e}")
+
+
+def off(here, there):
+    """The largest difference in parts of the root mean square of `there`."""
+    here, there = np.asarray(here), np.asarray(there)
+    require(here.shape == there.shape and here.size > 0, f"{here.shape} numbers, not {there.shape}")
+    return np.abs(here - there).max() / np.sqrt((there**2).mean())
+
+
+def mean_off(here, there):
+    """The root mean square of the difference in parts of that of `there`."""
+    return np.sqrt(((here - there)**2).mean() / (there**2).mean())
+
+
+def table(text):
+    rows = list(csv.DictReader(text.splitlines()))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def columns(of, names):
+    return np.array([of[name] for name in names.split()]).T
+
+
+class Run:
+    """What a run of LAMMPS left: the rows of its log by step, and of its dump the last frame."""
+
+    def __init__(self, folder, name):
+        self.rows = {}
+        with open(os.path.join(folder, f"{name}.log"), encoding="ascii") as file:
+            names = None
+            for line in file:
+                words = line.split()
+                if words[:2] == ["Step", "PotEng"]:
+                    names = words
+                elif line.startswith("Loop time"):
+                    names = None
+                elif names and len(words) == len(names) and words[0].isdigit():
+                    self.rows[int(words[0])] = dict(zip(names, map(float, words)))
+                elif words[:4] == ["Neighbor", "list", "builds", "="]:
+                    self.builds = int(words[4])
+        self.last = self.rows[max(self.rows)]
+        with open(os.path.join(folder, f"{name}.dump"), encoding="ascii") as file:
+            lines = file.read().splitlines()
+        head = max(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
+        names = lines[head].split()[2:]
+        values = np.array([[float(word) for word in line.split()] for line in lines[head + 1:]])
+        self.atoms = dict(zip(names, values.T))
+
+    def stress(self):
+        return np.array([self.last[name] for name in ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")])
+
+    def forces(self):
+        return columns(self.atoms, "fx fy fz")
+
+    def moments(self):
+        return columns(self.atoms, "tqx tqy tqz")
+
+
+class Check:
+    def __init__(self, simulator, program, scene, folder):
+        self.simulator, self.program, self.folder = simulator, program, folder
+        os.makedirs(folder, exist_ok=True)
+        self.tell("run", os.path.abspath(scene), "--out", "sample", "--quiet", "--replace")
+        self.tell("export", "sample/final.state", "--format", "lammps-data", "--out", "sample.data")
+        # Both engines begin with these bodies, whose contacts have no memory.
+        state = self.simulate("start", "")
+        self.contacts = table(self.tell("contacts", state))
+        self.bodies = table(self.tell("particles", state))
+
+    def tell(self, *words):
+        done = subprocess.run([self.simulator, *words], cwd=self.folder, capture_output=True, text=True,
+                              check=False)
+        require(done.returncode == 0, f"{' '.join(words)}: {done.stderr}")
+        return done.stdout
+
+    def simulate(self, name, stages):
+        """Places the sample's bodies and goes through stages; the path of the final state."""
+        self.tell("import", "sample.data", "--out", f"{name}.csv", "--scene", f"{name}.toml")
+        with open(os.path.join(self.folder, f"{name}.toml"), "a", encoding="ascii") as file:
+            file.write(CONTACT + stages)
+        self.tell("run", f"{name}.toml", "--out", name, "--quiet", "--replace")
+        return os.path.join(name, "final.state")
+
+    def start(self, name, script, ranks):
+        with open(os.path.join(self.folder, f"in.{name}"), "w", encoding="ascii") as file:
+            file.write(script)
+        for old in (f"{name}.dump", f"{name}.log"):
+            if os.path.exists(os.path.join(self.folder, old)):
+                os.remove(os.path.join(self.folder, old))
+        start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                           OMP_NUM_THREADS="1")
+        return subprocess.run(start + [self.program, "-in", f"in.{name}", "-log", f"{name}.log"],
+                              cwd=self.folder, capture_output=True, text=True, check=False,
+                              env=environment)
+
+    def lammps(self, name, text, ranks=1, **values):
+        """Runs a script: head, pair style, output and `text`."""
+        values = {"newton": "on", "style": "", "law": LINEAR, "every": 100, "skin": 2.0, **values}
+        script = (HEAD + PAIR + OUTPUT).format(name=name, **values) + text
+        done = self.start(name, script, ranks)
+        require(done.returncode == 0, f"{name}: {done.stdout[-600:]}{done.stderr[-300:]}")
+        return Run(self.folder, name)
+
+    # Checks, in the order in which they are run.
+
+    def check_configuration(self):
+        """Forces of one configuration whose shear memory is empty are those of the simulator."""
+        c = self.contacts
+        count = len(self.bodies["id"])
+        push = c["fn"][:, None] * columns(c, "nx ny nz")
+        a, b = c["a"].astype(int), c["b"].astype(int)
+        branch, arm = columns(c, "bx by bz"), columns(c, "ax ay az")
+        force, moment = np.zeros((count, 3)), np.zeros((count, 3))
+        np.add.at(force, a, -push)
+        np.add.at(force, b, push)
+        np.add.at(moment, a, -np.cross(arm, push))
+        np.add.at(moment, b, np.cross(arm - branch, push))
+        energy = 0.5 * STIFFNESS * (c["gap"]**2).sum()
+        volume = self.volume()
+        stress = np.einsum("ki,kj->ij", push, branch) / volume
+        kinetic = self.kinetic_stress(volume)
+        for ranks, newton in RANKS:
+            # The simulator asks with this accuracy.
+            run = self.lammps("one", "run 0\n", ranks, newton=newton, style="accuracy standard")
+            what = f"one configuration, {ranks} ranks, newton {newton}"
+            within(f"{what}: forces", mean_off(run.forces(), force), 1e-12)
+            within(f"{what}: moments", mean_off(run.moments(), moment), 1e-12)
+            # Which is what a normal of this accuracy may differ by for another rounding of a place.
+            within(f"{what}: the force that is farthest off", off(run.forces(), force), 1e-11)
+            within(f"{what}: energy", abs(run.last["PotEng"] / energy - 1.0), 1e-12)
+            pair = run.stress() - kinetic
+            symmetric = 0.5 * (stress + stress.T)
+            there = symmetric[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+            within(f"{what}: stress", np.abs(pair - there).max() / np.trace(stress) * 3.0, 1e-12)
+
+    def edges(self):
+        """Columns: the edges of the box that was written for LAMMPS."""
+        edges = np.zeros((3, 3))
+        with open(os.path.join(self.folder, "sample.data"), encoding="ascii") as file:
+            for line in file:
+                words = line.split()
+                for k, axis in enumerate("xyz"):
+                    if words[2:] == [f"{axis}lo", f"{axis}hi"]:
+                        edges[k, k] = float(words[1]) - float(words[0])
+                if words[3:] == ["xy", "xz", "yz"]:
+                    edges[0, 1], edges[0, 2], edges[1, 2] = map(float, words[:3])
+        return edges
+
+    def volume(self):
+        return np.linalg.det(self.edges())
+
+    def kinetic_stress(self, volume):
+        mass = DENSITY * 4.0 / 3.0 * np.pi * columns(self.bodies, "r1 r2 r3").prod(axis=1)
+        v = columns(self.bodies, "vx vy vz")
+        all_of_it = np.einsum("k,ki,kj->ij", mass, v, v) / volume
+        return all_of_it[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+
+    def check_ranks(self):
+        """A strained sample does the same on any number of ranks, with newton on and off."""
+        first = None
+        for ranks, newton in RANKS:
+            run = self.lammps("ranks", STRAIN + "run 1000\n", ranks, newton=newton)
+            what = f"1000 steps at -0.01/s, {ranks} ranks, newton {newton}"
+            if first is None:
+                first = run
+                continue
+            within(f"{what}: forces", off(run.forces(), first.forces()), 1e-7)
+            within(f"{what}: energy", abs(run.last["PotEng"] / first.last["PotEng"] - 1.0), 1e-11)
+            within(f"{what}: stress", off(run.stress(), first.stress()), 1e-9)
+
+    def check_drift(self):
+        """Once through the box: contacts keep their memory on their way from rank to rank."""
+        # In 1000 steps of 0.002. Damping would take the drift: both run without.
+        edge = np.diag(self.edges())
+        speed = edge * (0.5, 0.3, 0.2)
+        text = STRAIN.replace("fix damp", "#")
+        drift = f"velocity all set {speed[0]} {speed[1]} {speed[2]} sum yes\n"
+        still = self.lammps("still", text + "run 1000\n")
+        for ranks, newton in ((1, "on"), (4, "on"), (2, "off")):
+            run = self.lammps("drift", text + drift + "run 1000\n", ranks, newton=newton)
+            what = f"through the box, {run.builds} lists ({still.builds} at rest), {ranks} ranks, newton {newton}"
+            require(run.builds > 5 * still.builds, f"{what}: too few lists")
+            within(f"{what}: energy", abs(run.last["PotEng"] / still.last["PotEng"] - 1.0), 1e-8)
+
+    def spheres(self, style, pair, steps):
+        """The sample's centres as equal spheres that touch, at rest; runs them with a pair style."""
+        own = style == "ellipsoid"
+        with open(os.path.join(self.folder, f"{style}.data"), "w", encoding="ascii") as file:
+            count, edge = len(self.bodies["id"]), self.edges()
+            print("Equal spheres\n", f"{count} atoms", sep="\n", file=file)
+            print(f"{count} ellipsoids" if own else "", "1 atom types", sep="\n", file=file)
+            for k, axis in enumerate("xyz"):
+                print(0.0, repr(edge[k, k]), f"{axis}lo {axis}hi", file=file)
+            print("\nAtoms\n", file=file)
+            for k, centre in enumerate(columns(self.bodies, "x y z")):
+                print(k + 1, 1, f"1 {DENSITY}" if own else f"20.0 {DENSITY}", *map(repr, map(float, centre)),
+                      file=file)
+            if own:
+                print("\nEllipsoids\n", file=file)
+                for k in range(count):
+                    print(k + 1, "20.0 20.0 20.0 1.0 0.0 0.0 0.0", file=file)
+        move = "nve/asphere" if own else "nve/sphere"
+        text = SPHERES.format(style=style, data=f"{style}.data", pair=pair, move=move)
+        output = OUTPUT if own else OUTPUT.replace("compute w all pair tangency\n", "").replace("tq", "t")
+        text += output.format(name=style, every=steps) + f"run {steps}\n"
+        if not own:
+            text = text.replace(" tx ty tz", " tqx tqy tqz")
+        done = self.start(style, text, 1)
+        require(done.returncode == 0, f"{style}: {done.stdout[-400:]}")
+        return Run(self.folder, style)
+
+    def check_spheres(self):
+        """Equal spheres without friction do what LAMMPS' own granular spheres do."""
+        for friction in (0.0, 0.5):
+            own = self.spheres("ellipsoid", "pair_style tangency\npair_coeff * * hooke 1.5e10 tangential "
+                               f"linear 1.5e10 {friction}", 200)
+            there = self.spheres("sphere", "pair_style gran/hooke/history 1.5e10 1.5e10 0 0 "
+                                 f"{friction} 0\npair_coeff * *", 200)
+            what = f"equal spheres, friction {friction}, 200 steps beside gran/hooke/history"
+            kinetic = abs(own.last["KinEng"] / there.last["KinEng"] - 1.0)
+            if friction == 0.0:
+                within(f"{what}: kinetic energy", kinetic, 1e-9)
+                within(f"{what}: forces", off(own.forces(), there.forces()), 1e-7)
+            else:
+                # The lever arm there is the radius, here to the middle of the overlap; its memory is
+                # projected on the new plane, ours is turned.
+                print(f"{what}: kinetic energy {kinetic:.2g}: other lever arms, another turn")
+
+    def check_refusals(self):
+        """What is refused is said in one line."""
+        whole = (HEAD + PAIR).format(newton="on", style="", law=LINEAR, skin="2.0")
+        whole += "fix move all nve/asphere\ntimestep 0.002\nrun 10\n"
+        for here, there, words in REFUSED:
+            require(here in whole, f"{here}: not in the script")
+            done = self.start("refused", whole.replace(here, there), 1)
+            lines = [line for line in done.stdout.splitlines() if line.startswith("ERROR")]
+            require(done.returncode != 0 and len(lines) == 1 and words in lines[0],
+                    f"{there}: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
+            print(lines[0])
+
+    def check_restart(self):
+        """A run that goes on from a restart file, on other ranks, is the run that was not stopped."""
+        # Strained first, so that contacts remember shear. Forces are computed anew at a restart:
+        # fix deform has moved the box since the last ones, and fix langevin damps other velocities.
+        first = STRAIN + "run 300\nunfix strain\nunfix damp\n"
+        move = "fix move all nve/asphere\ntimestep 0.002\n"
+        for law in (LINEAR, LINEAR + " restitution 0.5"):
+            whole = self.lammps("whole", first + "run 700\n", law=law)
+            for before, after in ((1, 1), (1, 2), (4, 1)):
+                text = first + "run 200\nwrite_restart half.restart\n"
+                self.lammps("half", text, before, law=law)
+                on = HEAD.replace("read_data sample.data", "read_restart half.restart") + OUTPUT
+                on = on.format(name="on", newton="on", every=100, skin=2.0)
+                done = self.start("on", on + move + "run 500\n", after)
+                require(done.returncode == 0, f"on: {done.stdout[-400:]}")
+                run = Run(self.folder, "on")
+                require(max(run.rows) == 1000, "the run that goes on ends at step 1000")
+                what = f"{law}: restart from {before} to {after} ranks"
+                within(f"{what}: stress", off(run.stress(), whole.stress()), 1e-10)
+                within(f"{what}: forces", off(run.forces(), whole.forces()), 1e-7)
+
+
+def main():
+    if len(sys.argv) < 5:
+        sys.exit(__doc__)
+    check = Check(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), *sys.argv[3:5])
+    names = sys.argv[5:] or [name[6:] for name in vars(Check) if name.startswith("check_")]
+    for name in names:
+        getattr(check, f"check_{name}")()
+    print("lammps_check: all as it should be")
+
+
+if __name__ == "__main__":
+    main()
