@@ -253,7 +253,6 @@ void* PairTangency::extract(const char* name, int& dimension) {
 }
 
 void PairTangency::for_each_contact(const std::function<void(const SeenContact&)>& look) const {
-  if (history_ == nullptr || list == nullptr) return;
   const bool newton = force->newton_pair != 0;
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];

@@ -73,8 +73,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   /// "affine_stiffness": the share of this rank in the sum of K_n (n . branch)^2 over all contacts
   /// of the last step, what a servo needs (dem::ContactSums).
   void* extract(const char* name, int& dimension) override;
-  /// Those of records that touch. A pair that another rank has too is told by the one of its atom
-  /// a.
+  /// For computes: the contacts of the last call of compute().
   void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
   /// A record is the same from both sides.
   void transfer_history(double* source, double* target) override;

@@ -86,7 +86,7 @@ std::string walls_text(const Simulation& run) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!cell.walled[static_cast<std::size_t>(axis)]) continue;
     walls.push_back({Vec3::Unit(axis), 0.0, Vec3::Zero(), {}});
-    walls.push_back({-Vec3::Unit(axis), -cell.edges(axis, axis), Vec3::Zero(), {}});
+    walls.push_back({Vec3::Zero() - Vec3::Unit(axis), -cell.edges(axis, axis), Vec3::Zero(), {}});
   }
   walls.insert(walls.end(), cell.planes.begin(), cell.planes.end());
   std::string text;

@@ -10,8 +10,10 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - hold:     7,000 steps at a mean stress, which is held within 1e-6 at the end
 - triaxial: 10 % of axial compression: how well the lateral stresses are held, by both
 - ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
+- relax:    velocities run downhill to rest, and the script ends the stage where tangency-dem does
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
+- energy:   the account of energies closes as that of tangency-dem does
 - restart:  an axial compression, stopped half way and resumed on another number of ranks
 Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
 """
@@ -188,6 +190,20 @@ class Study(Check):
         print(f"ring: plane mean off by {plane:.2g}, direction {np.degrees(angle):.4g} degrees")
         require(abs(plane) <= 1e-2 and abs(np.degrees(angle) - 20.0) <= 1.0, "ring: not held")
 
+    def relax(self):
+        self.both("relax", f'kind = "relax"\nmean_stress = {PRESS}\nmax_strain_rate = 0.05\n'
+                           "max_unbalanced_ratio = 1e-5\n")
+        last = int(self.rows("relax", "relax")[-1]["cycle"])
+        for ranks in (1, 2):
+            rows = self.thermo(self.in_folder("relax", "in.relax", ranks))
+            data = self.read("relax/relax.end.data").splitlines()[0]
+            step = int(re.search(r"timestep = (\d+)", data).group(1))
+            print(f"relax on {ranks} ranks: at rest at step {step}, tangency-dem {last}")
+            require(0 <= step - last < 10, "relax: another end")
+            near(f"relax on {ranks} ranks, stresses", [rows[-1][f"c_push[{k}]"] for k in (1, 2, 3)],
+                 [PRESS] * 3, 0.2)
+            self.compare("relax", ranks, {"x y z": 1e-6, "qw qx qy qz": 1e-5})
+
     def fabric(self):
         self.both("fabric", 'kind = "servo"\nduration = 1\n')
         head = self.read("fabric/in.fabric").split("# Stage")[0]
@@ -215,9 +231,8 @@ class Study(Check):
             # tangency-dem's normals, of the standard accuracy, are within some 1e-8 of the true ones.
             near("fabric " + what, 1.0 + (np.array(here) / scale)[keep],
                  1.0 + (np.array(there) / scale)[keep], 1e-7)
-            near("balance " + what, [row[f"c_balance[{k}]"] for k in (1, 2, 7)],
-                 [float(last[name]) for name in ("contacts", "mean_normal_force",
-                                                 "mechanical_coordination")], 1e-7)
+            for k, name in ((1, "contacts"), (2, "mean_normal_force"), (7, "mechanical_coordination")):
+                near(f"{name} {what}", [row[f"c_balance[{k}]"]], [float(last[name])], 1e-7)
             near("unbalanced " + what, [row["c_balance[3]"]], [float(last["inertial_fraction"])], 1e-6)
 
     def wall(self):
@@ -233,18 +248,44 @@ class Study(Check):
             require("WARNING" not in printed, printed[-600:])
             self.compare("wall", ranks, {"x y z": 1e-9, "qw qx qy qz": 1e-8, "vx vy vz": 1e-7,
                                          "wx wy wz": 1e-7})
-        # Stopped in the slide and resumed on another number of ranks.
+        # Stopped while a body touches the slope, and resumed on another number of ranks.
         script = self.read("wall/in.wall")
-        steps = int(re.search("(?m)^run (.*)", script).group(1))
-        self.write("wall/in.first", re.sub("(?m)^run .*", f"run {steps // 2}\nwrite_restart half.restart",
-                                           script).split("unfix motion")[0])
-        self.in_folder("wall", "in.first", 2)
+        steps, stop = int(re.search("(?m)^run (.*)", script).group(1)), 400
+        self.write("wall/in.first", re.sub(
+            "(?m)^run .*", f"thermo_style custom step f_wall4_1[4]\nrun {stop}\nwrite_restart half.restart",
+            script).split("unfix motion")[0])
+        rows = self.thermo(self.in_folder("wall", "in.first", 2))
+        require(rows[-1]["f_wall4_1[4]"] >= 1.0, "wall: nothing touches the slope where it is stopped")
         kept = [line for line in script.splitlines() if re.match(
             "fix |group |neigh|comm_modify|timestep", line)]
         self.write("wall/in.second", "read_restart half.restart\n" + "\n".join(kept) +
-                   f"\nrun {steps - steps // 2}\nwrite_data wall.end.resumed.data\n")
+                   f"\nrun {steps - stop}\nwrite_data wall.end.resumed.data\n")
         self.in_folder("wall", "in.second", 1)
-        self.compare("wall", "resumed", {"x y z": 1e-8, "vx vy vz": 1e-5}, ".resumed")
+        self.compare("wall", "resumed", {"x y z": 1e-9, "vx vy vz": 1e-7}, ".resumed")
+
+    def energy(self):
+        self.both("energy", 'kind = "servo"\nduration = 2000\ndamping = 0.1\n'
+                            "strain_rate = [0.01, 0.0, 0.02]\n")
+        script = self.read("energy/in.energy")
+        script = re.sub("(?m)^(fix motion.*)", r"\1\ncompute works all pair tangency\n"
+                        "thermo_style custom step pe f_motion[1] f_motion[2] c_works[1] c_works[2] "
+                        "c_works[3] c_works[4]\nthermo_modify format float %.15g", script)
+        self.write("energy/in.account", script.split("unfix motion")[0])
+        for ranks in (1, 2):
+            rows = self.thermo(self.in_folder("energy", "in.account", ranks))
+
+            def sum_of(row):
+                return (row["PotEng"] + row["f_motion[2]"] + row["f_motion[1]"] + row["c_works[1]"] +
+                        row["c_works[4]"] - row["c_works[2]"] - row["c_works[3]"])
+
+            through = abs(rows[-1]["c_works[2]"])
+            here = (sum_of(rows[-1]) - sum_of(rows[0])) / through
+            last, first = self.rows("energy", "servo")[-1], list(csv.DictReader(
+                self.read("sample/history.csv").splitlines()))[-1]
+            there = (float(last["energy_error"]) - float(first["energy_error"])) / through
+            print(f"energy on {ranks} ranks: error {here:.2g} of the work of the boundary, "
+                  f"tangency-dem {there:.2g}")
+            require(abs(here - there) <= 1e-6 and abs(here) < 1e-2, "energy: the account does not close")
 
     def restart(self):
         self.both("again", 'kind = "shear"\naxial_strain_rate = 0.02\naxial_strain = 0.1\n'
@@ -266,7 +307,7 @@ class Study(Check):
             near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
 
 
-CHECKS = ("move", "hold", "triaxial", "ring", "fabric", "wall", "restart")
+CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart")
 
 if __name__ == "__main__":
     require(len(sys.argv) > 3, __doc__)
