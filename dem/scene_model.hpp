@@ -111,6 +111,8 @@ struct Scene {
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
   /// Over all types, length.
   double smallest_mean_radius() const;
+  /// sqrt(m_min / K_max), in which time steps are given.
+  double characteristic_time() const;
   /// The strain rate that a servo may use by default to hold a stress, linear: that of an inertial
   /// number of 0.05 of the slowest type, fifty times what a quasi-static test has.
   double servo_strain_rate(double stress) const;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// From the tree of a scene's file to the scene.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <tangency/dem/scene_model.hpp>
+#include <tangency/dem/scene_section.hpp>
+
+namespace tangency::inline v0::dem {
+
+/// @throws SceneError  where the tree breaks the schema
+Scene read_scene(const toml::table& root, const Source& source);
+
+}  // namespace tangency::inline v0::dem
