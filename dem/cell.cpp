@@ -75,6 +75,12 @@ Vec3 Reset::reduced(const Vec3& before) const {
   return {before[0] + xy * before[1] + xz * before[2], before[1] + yz * before[2], before[2]};
 }
 
+Reset Reset::then(const Reset& next) const {
+  return {xy + next.xy, yz + next.yz, xz + next.xz + next.xy * yz};
+}
+
+Reset Reset::inverse() const { return {-xy, -yz, xy * yz - xz}; }
+
 Reset Cell::reset() const {
   if (is_box() || edges(1, 0) != 0.0 || edges(2, 0) != 0.0 || edges(2, 1) != 0.0) return {};
   // Beyond a half by more than rounding, lest two descriptions take turns.

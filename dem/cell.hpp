@@ -35,6 +35,10 @@ struct Reset {
   /// The same image, and the same place in parts of the edges.
   Image image(const Image& before) const;
   Vec3 reduced(const Vec3& before) const;  ///< alike
+  /// The description of one after this one.
+  Reset then(const Reset& next) const;
+  /// The way back: image(inverse().image(i)) is i.
+  Reset inverse() const;
 };
 
 /// A parallelepiped, periodic or walled along each of its edges.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,17 +14,22 @@
 #include <optional>
 #include <utility>
 
+#include <tangency/dem/scene_file.hpp>
 #include <tangency/dem/scene_growth.hpp>
 #include <tangency/dem/scene_loading.hpp>
 #include <tangency/dem/scene_particles.hpp>
+#include <tangency/dem/scene_reader.hpp>
 #include <tangency/dem/scene_section.hpp>
-#include <tangency/dem/whole_file.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
 
 /// Classes of micro.csv by default, the published ones [Ouadfel1998, section 2.3.2].
 constexpr std::int64_t kClassesOfNearUniform = 4, kRingsOfPolar = 18;
+
+/// Share of the smallest semi-axis that a wall may go in a time step. Chosen: the largest overlap
+/// that is sound.
+constexpr double kMostOfAStep = 0.1;
 
 /// What walls are called in [contact.NAME-NAME].
 constexpr std::string_view kWallName = "wall";
@@ -53,6 +59,7 @@ class Reader {
     read_particles();
     read_contacts();
     read_stages();
+    check_planes();
     read_output();
     return std::move(scene_);
   }
@@ -128,6 +135,41 @@ class Reader {
     if (!section.has("max_speed")) section.fail_missing("max_speed");
     plane.held = {section.real("stress"), section.real("max_speed")};
     return plane;
+  }
+
+  /// A wall that goes further in a step passes a body, or throws it, before the two have met.
+  void check_planes() const {
+    const double most = kMostOfAStep * smallest_semi_axis() / longest_step();
+    const auto allowed = [&](const char* what) {
+      return std::string(what) + " < " + short_text(most) + " (m/s), " + short_text(kMostOfAStep) +
+             " of the smallest semi-axis in the longest time step";
+    };
+    for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
+      const PlaneWall& plane = scene_.planes[k];
+      const Section section(source_, *root_.get("wall")->as_array()->get(k)->as_table(),
+                            "wall[" + std::to_string(k) + "]", "wall");
+      if (plane.held && !(plane.held->max_speed < most))
+        section.fail("max_speed", allowed("a finite number"));
+      if (!plane.held && !(std::abs(plane.normal.dot(plane.velocity)) < most))
+        section.fail("velocity", allowed("3 finite numbers, their part along the normal"));
+    }
+  }
+
+  /// Of all shapes that the types have at the end of a stage.
+  double smallest_semi_axis() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t type = 0; type < scene_.particle_types.size(); ++type)
+      for (std::size_t k = 0; k <= scene_.stages.size(); ++k)
+        smallest =
+            std::min(smallest, scene_.shape_in(type, k, 0).semi_axes(scene_.dimensions).minCoeff());
+    return smallest;
+  }
+
+  double longest_step() const {
+    double factor = 0.0;
+    for (const Stage& stage : scene_.stages)
+      if (stage.drive) factor = std::max(factor, stage.drive->time_step_factor);
+    return factor * scene_.characteristic_time();
   }
 
   void read_motion() {
@@ -508,33 +550,14 @@ void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name)
   scene.bodies = std::move(bodies);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const BodyShapes& shapes) {
-  const Source source(name);
-  toml::table root;
-  try {
-    root = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    std::string what(error.description());
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    source.fail(error.source(), "not TOML: " + what);
-  }
+Scene read_scene(const toml::table& root, const Source& source, const BodyShapes& shapes) {
   return Reader(root, source, shapes).read();
 }
 
 Scene parse_scene(const std::string& text, const std::string& name) {
-  return parse_scene(text, name, BodyShapes());
+  return SceneFile(text, name).scene();
 }
 
-Scene load_scene(const std::filesystem::path& file) { return load_scene(file, BodyShapes()); }
-
-Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes) {
-  std::string text;
-  try {
-    text = bytes_of_file(file);
-  } catch (const ReadError& error) {
-    throw SceneError(error.what());
-  }
-  return parse_scene(text, file.string(), shapes);
-}
+Scene load_scene(const std::filesystem::path& file) { return SceneFile(file).scene(); }
 
 }  // namespace tangency::inline v0::dem

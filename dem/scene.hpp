@@ -13,20 +13,11 @@
 
 namespace tangency::inline v0::dem {
 
-/// Shapes of the bodies of each particle type, in the order of the scene; none of a type whose
-/// bodies are as the scene says.
-using BodyShapes = std::vector<std::vector<Shape>>;
-
 /// @throws SceneError  for a file that cannot be read, is no TOML or breaks the schema
 Scene load_scene(const std::filesystem::path& file);
-/// @overload
-/// @param shapes  of a table of bodies that has their semi-axes
-Scene load_scene(const std::filesystem::path& file, const BodyShapes& shapes);
 
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);
-/// @overload
-Scene parse_scene(const std::string& text, const std::string& name, const BodyShapes& shapes);
 
 /// Gives a scene whose place names a file its bodies.
 /// @throws SceneError  where they are not as many of each type as the scene says; starts with

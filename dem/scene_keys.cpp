@@ -52,6 +52,10 @@ constexpr std::string_view kPressedKinds = "compress grow unload";
 
 constexpr std::array kKeys{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
+    Key{"", "include", paths, "-", "(none)", kNoRange, "", "",
+        "Files beside this one whose keys hold where this one, or a later one of them, does not "
+        "say "
+        "otherwise; lists of tables are joined, theirs first"},
 
     Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
@@ -302,6 +306,9 @@ constexpr std::array kKeys{
         "Between two writes of checkpoint.state; 0 leaves it at the next key and interrupted runs"},
     Key{"output", "checkpoint_seconds", real, "s", "60.0", between(0.0, 1e9), "", "",
         "Time of the clock on the wall after which it is written again; 0 leaves it at cycles"},
+
+    Key{"sweep", "after", text, "-", "(each runs all stages)", kNoRange, "", "",
+        "Name of the stage up to which all combinations have one run; each goes on from its end"},
 };
 
 /// Whole numbers in full, as one writes them for an integer.
@@ -339,6 +346,9 @@ std::string_view header_of(std::string_view section) {
   if (section == "cell") return "[cell]";
   if (section == "motion") return "[motion]";
   if (section == "output") return "[output]";
+  if (section == "sweep")
+    return "[sweep], and in it \"KEY\" = [VALUE, ...] for keys by their path, as --set has them: a "
+           "run for each combination";
   return "top level";
 }
 
@@ -347,6 +357,7 @@ using SchemaLine = std::array<std::string, 6>;
 SchemaLine schema_line(const Key& key) {
   const std::string allowed =
       key.type == path      ? std::string("a file's name")
+      : key.type == paths   ? std::string("a file's name, a list of them")
       : key.type == boolean ? std::string("true, false")
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
@@ -396,6 +407,8 @@ std::string_view type_text(KeyType type) {
     case text:
     case path:
       return "text";
+    case paths:
+      return "text, or texts";
   }
   return "";
 }
@@ -424,6 +437,8 @@ std::string allowed_values(const Key& key) {
       return "true or false";
     case path:
       return "the name of a file";
+    case paths:
+      return "the name of a file, or a list of them";
     case text:
       break;
   }

@@ -15,12 +15,12 @@
 
 namespace tangency::inline v0::dem {
 
-/// `reals` is a list of one number or more.
-enum class KeyType { integer, real, real3, real4, reals, boolean, text, path };
+/// `reals` is a list of one number or more, `paths` the name of a file or a list of them.
+enum class KeyType { integer, real, real3, real4, reals, boolean, text, path, paths };
 
 /// The tables of a scene.
 inline constexpr std::string_view kSceneSections =
-    "cell motion particles wall body contact stage output";
+    "cell motion particles wall body contact stage output sweep";
 
 /// The values a number may have, each bound included or not.
 struct Range {

@@ -139,12 +139,8 @@ void check_damping(const Section& section, const Drive& stage) {
 }
 
 void check_step(const Section& section, const Drive& stage, const Scene& scene) {
-  double lightest = std::numeric_limits<double>::infinity();
-  for (const ParticleType& type : scene.particle_types)
-    lightest = std::min(lightest, type.batch.density * type.batch.least_volume(scene.dimensions));
   const double largest =
-      kMostStrainOfAStep /
-      (stage.time_step_factor * std::sqrt(lightest / scene.laws.largest_stiffness()));
+      kMostStrainOfAStep / (stage.time_step_factor * scene.characteristic_time());
   const double fastest = stage.loading.strain_rate.cwiseAbs().maxCoeff();
   const auto refuse = [&](const char* key) {
     // With an intermediate_ratio a lateral axis may strain faster than the axial one.

@@ -31,6 +31,13 @@ double Scene::smallest_mean_radius() const {
   return smallest;
 }
 
+double Scene::characteristic_time() const {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const auto& [name, batch] : particle_types)
+    lightest = std::min(lightest, batch.density * batch.least_volume(dimensions));
+  return std::sqrt(lightest / laws.largest_stiffness());
+}
+
 double Scene::servo_strain_rate(double stress) const {
   constexpr double inertial_number = 0.05;  // Chosen: a collapse takes up to 20 times a test's rate
   double least = std::numeric_limits<double>::infinity();

@@ -89,6 +89,10 @@ struct OutputIntervals {
   bool contact_frames = false;  ///< contacts in each frame too
 };
 
+/// Shapes of the bodies of each particle type, in the order of the scene; none of a type whose
+/// bodies are as the scene says.
+using BodyShapes = std::vector<std::vector<Shape>>;
+
 /// A scene as it was read and checked.
 struct Scene {
   int dimensions = 3;                        ///< 2 or 3
@@ -112,6 +116,8 @@ struct Scene {
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
   /// Over all types, length.
   double smallest_mean_radius() const;
+  /// sqrt(m_min / K_max), in which time steps are given.
+  double characteristic_time() const;
   /// The strain rate that a servo may use by default to hold a stress, linear: that of an inertial
   /// number of 0.05 of the slowest type, fifty times what a quasi-static test has.
   double servo_strain_rate(double stress) const;

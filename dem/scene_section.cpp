@@ -32,6 +32,10 @@ std::string one_line(std::string text) {
   return text;
 }
 
+bool is_path(const toml::node& node) {
+  return node.is_string() && !node.ref<std::string>().empty();
+}
+
 template <class Vector>
 std::optional<Vector> vector_of(const toml::node* node) {
   if (!node) return std::nullopt;
@@ -67,7 +71,12 @@ bool fits(const Key& key, const toml::node& node) {
     case KeyType::real4:
       return numbers_fit(4);
     case KeyType::path:
-      return node.is_string() && !node.ref<std::string>().empty();
+      return is_path(node);
+    case KeyType::paths: {
+      const auto* list = node.as_array();
+      return is_path(node) ||
+             (list && !list->empty() && std::all_of(list->begin(), list->end(), is_path));
+    }
     case KeyType::text: {
       if (!node.is_string()) return false;
       const std::string& text = node.ref<std::string>();
@@ -103,8 +112,13 @@ std::string text_of(const toml::node& node) {
   return text;
 }
 
+std::string Source::file_of(const toml::source_region& place) const {
+  return place.path ? *place.path : name_;
+}
+
 std::string Source::at(const toml::source_region& place) const {
-  return name_ + ":" + std::to_string(place.begin.line);
+  const std::string file = file_of(place);
+  return file.starts_with(kSetOption) ? file : file + ":" + std::to_string(place.begin.line);
 }
 
 void Source::fail(const toml::source_region& place, const std::string& message) const {

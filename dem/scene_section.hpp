@@ -31,12 +31,18 @@ std::string short_text(double x);
 /// A name in a scene: also part of a key's path, so without '-', '.' and blanks.
 bool is_name(std::string_view text);
 
+/// What stands before KEY=VALUE where messages name a setting of the command line in place of a
+/// file and a line.
+inline constexpr const char* kSetOption = "--set ";
+
 /// What every message starts with.
 class Source {
  public:
   explicit Source(std::string name) : name_(std::move(name)) {}
 
-  /// "scene.toml:12"
+  /// The file of a place: that which was parsed under its own name, or else this one.
+  std::string file_of(const toml::source_region& place) const;
+  /// "scene.toml:12", or "--set KEY=VALUE"
   std::string at(const toml::source_region& place) const;
   [[noreturn]] void fail(const toml::source_region& place, const std::string& message) const;
   /// For what is missing from the whole file.

@@ -31,15 +31,6 @@ constexpr std::size_t kSortedFrom = 2048;
 /// disks.
 constexpr double jamming_porosity(int dimensions) { return dimensions == 2 ? 0.16 : 0.36; }
 
-/// The share of a cell that bounding spheres (circles) fill where an assembly begins to bear
-/// stress, at the loosest, so that compaction takes at least as long as to there. Chosen: below
-/// 0.55 and 0.77, the loosest packings of spheres and of disks that stand [Onoda1990].
-constexpr double loosest_packing(int dimensions) { return dimensions == 2 ? 0.7 : 0.5; }
-
-/// Relative difference of two descriptions of one particle: the semi-axes of another machine's
-/// libm are a few roundings off. Chosen: far below any change that someone makes.
-constexpr double kSameRelatively = 1e-9;
-
 /// @throws CellTooThin
 void require_thickness(const Cell& cell, const LeastCell& least) {
   if (auto thin = thin_place(cell, least, kMostSqueeze)) throw CellTooThin(std::move(*thin));
@@ -48,143 +39,6 @@ void require_thickness(const Cell& cell, const LeastCell& least) {
 /// Axial strain from which a shear is held to its stress: what is before it is start. Chosen: a
 /// peak of friction comes at several times that.
 constexpr double kSettlingStrain = 0.01;
-
-void require_equal(const std::string& key, double in_state, double in_scene) {
-  if (std::abs(in_state - in_scene) <= kSameRelatively * in_scene) return;
-  throw std::invalid_argument("a state with " + key + " = " + tables::rounded_text(in_state, 10) +
-                              "; the scene has " + tables::rounded_text(in_scene, 10));
-}
-
-/// Of a type whose bodies are not alike.
-/// @throws std::invalid_argument  where those of the state are others
-void require_same_shapes(const Particles& particles, std::size_t type, const ParticleType& wanted) {
-  std::vector<std::array<double, 3>> is, was;
-  const auto add = [](auto& all, const Vec3& axes) { all.push_back({axes[0], axes[1], axes[2]}); };
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (static_cast<std::size_t>(particles.type[i]) == type) add(was, particles.semi_axes[i]);
-  for (const Shape& shape : wanted.batch.shapes) add(is, shape.semi_axes(particles.dimensions));
-  std::sort(is.begin(), is.end());
-  std::sort(was.begin(), was.end());
-  for (std::size_t i = 0; i < is.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      require_equal("a semi-axis of particles." + wanted.name, was[i][k], is[i][k]);
-}
-
-/// @throws std::invalid_argument  naming the first key of the scene that the particles are not of
-void require_same_particles(const State& state, const Scene& scene) {
-  const Particles& particles = state.particles;
-  const std::vector<ParticleType>& types = scene.particle_types;
-  require_equal("cell.dimensions", state.cell.dimensions, scene.dimensions);
-  if (state.cell.walled != scene.walled)
-    throw std::invalid_argument("a state with other cell.walls than the scene");
-  require_equal("wall tables", static_cast<double>(state.cell.planes.size()),
-                static_cast<double>(scene.planes.size()));
-  const auto count = static_cast<std::int32_t>(types.size());
-  std::vector<std::size_t> counts(types.size(), 0);
-  for (const std::int32_t type : particles.type) {
-    if (type < 0 || type >= count)
-      throw std::invalid_argument("a state with more particle types than the scene's " +
-                                  std::to_string(count));
-    ++counts[static_cast<std::size_t>(type)];
-  }
-  for (std::size_t k = 0; k < types.size(); ++k)
-    require_equal("particles." + types[k].name + ".count", static_cast<double>(counts[k]),
-                  static_cast<double>(types[k].batch.count));
-  for (const std::uint32_t i : particles.index_of_id()) {
-    const auto type = static_cast<std::size_t>(particles.type[i]);
-    const auto& [name, batch] = types[type];
-    const Shape shape = scene.shape_in(type, state.stage, state.increments);
-    const Vec3& axes = particles.semi_axes[i];
-    const std::string path = "particles." + name;
-    const int dimensions = scene.dimensions;
-    require_equal(path + ".density", particles.mass[i] / volume_of(axes, dimensions),
-                  batch.density);
-    if (!batch.shapes.empty()) continue;
-    require_equal(path + ".mean_radius", mean_radius_of(axes, dimensions), shape.mean_radius);
-    require_equal(path + ".elongation", axes[0] / axes[1], shape.elongation);
-    require_equal(path + ".flatness", axes[1] / axes[2], shape.flatness);
-  }
-  for (std::size_t k = 0; k < types.size(); ++k)
-    if (!types[k].batch.shapes.empty()) require_same_shapes(particles, k, types[k]);
-}
-
-std::string short_text(double x) { return tables::rounded_text(x, 6); }
-
-/// "contact.a-b.normal_stiffness = 2, and here 3" of each key that differs, of the first pair that
-/// it does for. Of one pair of types where there is but one law.
-std::string difference_of_laws(const ContactLaws& made, const Scene& scene) {
-  std::vector<std::string> keys;
-  std::string text;
-  const auto compare = [&](std::size_t pair, const std::string& key, double was, double is) {
-    if (std::abs(was - is) <= kSameRelatively * std::abs(is)) return;
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
-    keys.push_back(key);
-    const auto name = [&](std::size_t type) {
-      return type < scene.particle_types.size() ? scene.particle_types[type].name : "wall";
-    };
-    const std::size_t types = made.types;
-    text += (text.empty() ? "" : "; ") + std::string("contact.") + name(pair / types) + "-" +
-            name(pair % types) + "." + key + " = " + short_text(was) + ", and here " +
-            short_text(is);
-  };
-  if (made.law.size() != scene.laws.law.size()) return "other particle types";
-  for (std::size_t pair = 0; pair < made.law.size(); ++pair) {
-    const ContactLaw &was = made.law[pair], &is = scene.laws.law[pair];
-    if (was.hertz.has_value() != is.hertz.has_value()) return "another contact.law";
-    if (was.hertz) {
-      compare(pair, "young_modulus", was.hertz->young_modulus, is.hertz->young_modulus);
-      compare(pair, "poisson_ratio", was.hertz->poisson_ratio, is.hertz->poisson_ratio);
-    } else {
-      compare(pair, "normal_stiffness", was.normal_stiffness, is.normal_stiffness);
-      compare(pair, "shear_stiffness", was.shear_stiffness, is.shear_stiffness);
-    }
-    compare(pair, "friction_coefficient", was.friction_coefficient, is.friction_coefficient);
-    compare(pair, "cohesion", was.cohesion, is.cohesion);
-    compare(pair, "restitution", was.restitution(), is.restitution());
-  }
-  return text;
-}
-
-std::string short_text(const Vec3& v) {
-  return "[ " + short_text(v[0]) + ", " + short_text(v[1]) + ", " + short_text(v[2]) + " ]";
-}
-
-std::string wall_key(std::size_t k, const std::string& key) {
-  return "wall[" + std::to_string(k) + "]." + key;
-}
-
-/// @throws std::invalid_argument  naming the first wall that has another normal
-void require_same_normals(const std::vector<PlaneWall>& made, const Scene& scene) {
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const Vec3 &was = made[k].normal, &is = scene.planes[k].normal;
-    if ((was - is).norm() > kSameRelatively)
-      throw std::invalid_argument("a state with " + wall_key(k, "normal") + " = " +
-                                  short_text(was) + "; the scene has " + short_text(is));
-  }
-}
-
-/// "wall[0].velocity = [ 0, 0, 1 ], and here [ 0, 0, 2 ]" of each wall that differs. A state has no
-/// velocity of a wall that the scene holds at a stress, and a wall that moves is elsewhere by
-/// right.
-std::string difference_of_walls(const Cell& made, const Scene& scene) {
-  std::string text;
-  const auto add = [&](const std::string& difference) {
-    text += (text.empty() ? "" : "; ") + difference;
-  };
-  const double same = kSameRelatively * made.edges.diagonal().norm();
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const PlaneWall &was = made.planes[k], &is = scene.planes[k];
-    if (is.held) continue;
-    if ((was.velocity - is.velocity).norm() > kSameRelatively * is.velocity.norm())
-      add(wall_key(k, "velocity") + " = " + short_text(was.velocity) + ", and here " +
-          short_text(is.velocity));
-    const bool moves = was.normal.dot(was.velocity) != 0.0 || is.normal.dot(is.velocity) != 0.0;
-    if (!moves && std::abs(was.offset - is.offset) > same)
-      add(wall_key(k, "point") + " at " + short_text(was.offset) + " along its normal, and here " +
-          short_text(is.offset) + ": it stays where it is");
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -208,19 +62,9 @@ Simulation::Simulation(const Scene& scene, std::function<void(double)> placed)
 }
 
 Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(std::move(state)) {
-  if (state_.stage > scene_.stages.size())
-    throw std::invalid_argument("a state after " + std::to_string(state_.stage) +
-                                " stages; the scene has " + std::to_string(scene_.stages.size()));
-  const auto& growth = stage().growth;
-  const std::int64_t most = growth && !finished() ? growth->increments : 0;
-  if (state_.increments < 0 || state_.increments > most)
-    throw std::invalid_argument("a state after " + std::to_string(state_.increments) +
-                                " increments of growth; the scene's stage has " +
-                                std::to_string(most));
-  require_same_particles(state_, scene_);
+  require_state_of(scene_, state_);
   changed_laws_ = difference_of_laws(state_.laws, scene_);
   state_.laws = scene_.laws;
-  require_same_normals(state_.cell.planes, scene_);
   changed_walls_ = difference_of_walls(state_.cell, scene_);
   for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
     PlaneWall& plane = state_.cell.planes[k];
@@ -347,6 +191,7 @@ void Simulation::step() {
 void Simulation::describe_cell_anew() {
   const Reset reset = state_.cell.reset();
   if (reset.is_none()) return;
+  state_.description = state_.description.then(reset);
   Cell& cell = state_.cell;
   for (Mat3* edges : {&cell.edges, &cell.reference_edges}) *edges = reset.edges(*edges);
   NeighbourList::Reference reference = state_.list.reference();
@@ -367,15 +212,18 @@ void Simulation::require_in_front() const {
                          std::to_string(k) + "]: bodies are on the side that its normal points to");
 }
 
+Contacts::Borne Simulation::force_on_plane(std::size_t plane) const {
+  const std::size_t index = state_.particles.size() + kCellFaces + plane;
+  return state_.contacts.borne_by(static_cast<std::int32_t>(index), state_.list);
+}
+
 /// Moves the walls that move a step on.
 void Simulation::set_planes_going(double dt) {
   Cell& cell = state_.cell;
-  const auto first = static_cast<std::int32_t>(state_.particles.size() + kCellFaces);
   for (std::size_t k = 0; k < cell.planes.size(); ++k) {
     PlaneWall& plane = cell.planes[k];
     if (plane.held) {
-      const auto [force, stiffness] =
-          state_.contacts.borne_by(first + static_cast<std::int32_t>(k), state_.list);
+      const auto [force, stiffness] = force_on_plane(k);
       plane.follow(force, stiffness, section_area(plane, cell.edges.diagonal()), dt);
     }
     plane.offset += dt * plane.normal.dot(plane.velocity);
@@ -474,8 +322,21 @@ bool Simulation::is_relaxed() const {
       (balance.rattlers > 0 || balance.mean_contact_force == 0.0))
     return false;
   if (growth) return balance.inertial_fraction <= growth->max_inertial_fraction;
-  return std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
-         *stage.max_unbalanced_ratio;
+  return walls_bear_their_stress(*stage.max_unbalanced_ratio) &&
+         std::max(balance.largest_unbalanced_ratio, balance.largest_unbalanced_moment_ratio) <=
+             *stage.max_unbalanced_ratio;
+}
+
+/// A wall that is on its way presses nothing, and what lies below it may be at rest meanwhile.
+bool Simulation::walls_bear_their_stress(double tolerance) const {
+  const Cell& cell = state_.cell;
+  for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+    if (!cell.planes[k].held) continue;
+    const double wanted =
+        cell.planes[k].held->stress * section_area(cell.planes[k], cell.edges.diagonal());
+    if (!(std::abs(force_on_plane(k).force - wanted) <= tolerance * wanted)) return false;
+  }
+  return true;
 }
 
 bool Simulation::is_at_its_end() const {
@@ -523,38 +384,13 @@ StageStatus Simulation::status() const {
                                                         : StageStatus::out_of_cycles;
 }
 
-/// Cycles of straining as fast as allowed to where bounding spheres could bear stress.
-double Simulation::cycles_to_a_packing() const {
-  const Drive& stage = *this->stage().drive;
-  double bounding = 0.0;
-  for (const Vec3& axes : state_.particles.semi_axes)
-    bounding += volume_of(Vec3::Constant(axes.maxCoeff()), state_.cell.dimensions);
-  const double to_strain =
-      std::log(state_.cell.volume() * loosest_packing(scene_.dimensions) / bounding);
-  const double a_cycle =
-      -std::log1p(-stage.loading.servo.max_strain_rate * time_step()) * scene_.dimensions;
-  return std::max(0.0, to_strain / a_cycle);
-}
-
 CyclesNeeded Simulation::cycles_needed() const {
-  const Drive& stage = *this->stage().drive;
-  CyclesNeeded most;
-  const auto needs = [&](double cycles, const char* key) {
-    if (cycles > most.cycles) most = {std::ceil(cycles), key};
-  };
-  if (stage.duration) needs(static_cast<double>(*stage.duration - state_.stage_cycle), "duration");
-  if (stage.axial_strain) {
-    const int axial = state_.cell.dimensions - 1;
-    const double done =
-        state_.stage_cycle > 0 ? -state_.cell.logarithmic_strain()(axial, axial) : 0.0;
-    const double a_cycle = -std::log1p(stage.loading.strain_rate(axial, axial) * time_step());
-    needs((*stage.axial_strain - done) / a_cycle, "axial_strain");
-  }
-  if (stage.stress_tolerance) needs(cycles_to_a_packing(), "mean_stress");
-  if (const auto& growth = this->stage().growth)
-    needs(static_cast<double>(growth->increments - state_.increments),
-          growth->cycles_per_percent ? "cycles_per_percent" : "increments");
-  return most;
+  const int axial = state_.cell.dimensions - 1;
+  const double strain =
+      state_.stage_cycle > 0 ? -state_.cell.logarithmic_strain()(axial, axial) : 0.0;
+  const StageProgress done{state_.stage_cycle, state_.increments, strain,
+                           compression_to_packing(state_.particles, state_.cell.volume())};
+  return dem::cycles_needed(stage(), time_step(), scene_.dimensions, done);
 }
 
 double Simulation::stage_fraction() const {

@@ -12,51 +12,27 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/cell.hpp>
+#include <tangency/dem/contact_law.hpp>
 #include <tangency/dem/contacts.hpp>
-#include <tangency/dem/fire.hpp>
+#include <tangency/dem/cycles_needed.hpp>
 #include <tangency/dem/loading.hpp>
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/particles.hpp>
 #include <tangency/dem/profile.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/scene_model.hpp>
+#include <tangency/dem/state.hpp>
 #include <tangency/dem/thin_cell.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::dem {
-
-/// Everything that a run carries from one cycle to the next.
-struct State {
-  Particles particles;              ///< all of them
-  Cell cell;                        ///< now
-  NeighbourList list;               ///< pairs that may touch
-  Contacts contacts;                ///< of those pairs
-  std::int64_t cycle = 0;           ///< steps since the run began
-  double time = 0.0;                ///< since the run began
-  std::size_t stage = 0;            ///< the current one; the number of stages when all are done
-  std::int64_t stage_cycle = 0;     ///< steps since the stage began
-  std::vector<ServoMemory> servos;  ///< of the current stage's targets
-  Fire fire;                        ///< of the current stage, where no damping is given
-  ContactLaws laws;                 ///< the scene's, with which the contacts were made
-  std::int64_t increments = 0;      ///< of growth, made in the current stage
-  EnergyAccount energy;             ///< where energy went
-};
 
 /// How a stage goes on.
 enum class StageStatus {
   running,
   done,
   out_of_cycles,  ///< the stage's max_cycles are spent and its criterion is not met
-};
-
-/// Cycles, and the key of the stage that needs so many.
-struct CyclesNeeded {
-  double cycles = 0.0;  ///< how many the stage needs
-  /// of the scene
-  const char* key = "";
 };
 
 /// A run of a scene, step by step.
@@ -129,8 +105,8 @@ class Simulation {
   /// What differs between the contact laws that a resumed state was made with and the scene's, one
   /// line; empty where nothing does.
   const std::string& changed_laws() const { return changed_laws_; }
-  /// Alike of the velocities of walls, which become the scene's, and of the places of walls that
-  /// stand still, which stay the state's. Of a stress to hold the state knows nothing.
+  /// Alike of the velocities of walls and of the stresses that they hold, which become the scene's,
+  /// and of the places of walls that stand still, which stay the state's.
   const std::string& changed_walls() const { return changed_walls_; }
 
  private:
@@ -142,14 +118,15 @@ class Simulation {
   bool grows_now() const;
   bool is_relaxed() const;
   bool is_grown() const;
+  bool walls_bear_their_stress(double tolerance) const;
   bool is_at_its_end() const;
   void grow();
   void require_single_contacts() const;
   Mat3 next_rate(double dt);
   void move_particles(double dt);
+  Contacts::Borne force_on_plane(std::size_t plane) const;
   void set_planes_going(double dt);
   void require_in_front() const;
-  double cycles_to_a_packing() const;
   void keep_list_current(double dt);
   void renew_list(std::vector<Pair> before, double dt);
   void update_contacts(double dt);

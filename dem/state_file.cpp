@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kMagic = "TANGSTAT";
 /// Of a state with all that a scene may ask for, and of one that has none of what came last
 /// (pass_latest()): scenes that do not use it have files and hashes as before.
-constexpr std::uint32_t kFormatVersion = 6, kPlainVersion = 5;
+constexpr std::uint32_t kFormatVersion = 7, kPlainVersion = 5;
 
 // One description of the format for both ways: each function passes every number of its argument
 // to the archive, a StateWriter or a StateReader.
@@ -99,13 +99,18 @@ void pass(Archive& archive, L& law) {
   pass_material(archive, law.hertz);
 }
 
-/// A held stress is the scene's, not the state's.
+/// A wall that holds no stress has one of 0. What a run goes on with is the scene's.
 template <class Archive, class W>
 requires std::is_same_v<std::remove_const_t<W>, PlaneWall>
 void pass(Archive& archive, W& wall) {
   for (int k = 0; k < 3; ++k) archive(wall.normal[k]);
   archive(wall.offset);
   for (int k = 0; k < 3; ++k) archive(wall.velocity[k]);
+  PlaneWall::Held held = wall.held.value_or(PlaneWall::Held{0.0, 0.0});
+  archive(held.stress);
+  archive(held.max_speed);
+  if constexpr (!std::is_const_v<W>)
+    if (held.stress > 0.0) wall.held = held;
 }
 
 template <class T>
@@ -194,7 +199,8 @@ void pass_plain(Archive& archive, S& state) {
 
 /// Does a state have anything of pass_latest()?
 bool has_latest(const State& state) {
-  return state.laws.dissipate() || state.energy.viscous != 0.0 || !state.cell.planes.empty();
+  return state.laws.dissipate() || state.energy.viscous != 0.0 || !state.cell.planes.empty() ||
+         !state.description.is_none();
 }
 
 /// What the format of kFormatVersion has behind that of kPlainVersion.
@@ -204,6 +210,7 @@ void pass_latest(Archive& archive, S& state, R& reference) {
   archive(state.energy.viscous);
   pass(archive, reference.planes);
   pass(archive, state.cell.planes);
+  for (auto* x : {&state.description.xy, &state.description.yz, &state.description.xz}) archive(*x);
 }
 
 template <class Archive, class R>

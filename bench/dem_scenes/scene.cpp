@@ -196,8 +196,9 @@ int run(const fs::path& file, const std::string& level, int threads) {
   if (threads > 0) set_threads(threads);
   Json ready;
   const Times start = now();
-  Scene scene = load_scene(file);
-  read_bodies(scene, file);
+  const SceneFile source(file);
+  Scene scene = source.scene();
+  read_bodies(scene, source, file);
   Simulation simulation(scene);
   put_times_since(ready["set_up"], start);
   ready["set_up"]["peak_bytes"] = peak_memory();

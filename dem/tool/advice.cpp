@@ -5,27 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include <tangency/dem/tool/safe_text.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
-
-/// A number, two digits of it left.
-double two_digits(double x, double (*round)(double)) {
-  if (x == 0.0 || !std::isfinite(x)) return 0.0;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 1.0);
-  return std::copysign(round(std::abs(x) / unit * (1.0 - 1e-12)) * unit, x);
-}
-std::string rounded_down(double x) { return tables::rounded_text(two_digits(x, std::floor), 2); }
-std::string rounded_up(double x) { return tables::rounded_text(two_digits(x, std::ceil), 2); }
-/// Of what is not below `least`.
-std::string rounded_down_from(double least, double x) {
-  return tables::rounded_text(std::max(least, two_digits(x, std::floor)), 2);
-}
-/// An integer's text, without an exponent.
-std::string whole_up(double x) {
-  return tables::rounded_text(std::round(two_digits(std::ceil(x), std::ceil)), 17);
-}
 
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {
   std::string text;
@@ -33,31 +17,15 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
   return text;
 }
 
-/// "[ 0.1, 0, -0.2 ]", as in the scene.
-std::string text_of(const Vec3& v) {
-  return "[ " + rounded_down(v[0]) + ", " + rounded_down(v[1]) + ", " + rounded_down(v[2]) + " ]";
-}
-
-/// Keys of the stage that strain it at a given rate, each with `share` of what it is.
-std::vector<std::string> slower_strains(const Drive& stage, double share, int dimensions) {
-  std::vector<std::string> keys;
-  const Mat3 rate = -share * stage.loading.strain_rate;
-  const int axial = dimensions - 1;
-  if (stage.axial_strain) {
-    keys.push_back("axial_strain_rate to " + rounded_down(rate(axial, axial)));
-  } else {
-    const bool turns = rate != rate.transpose();  // as a simple shear alone does
-    const Vec3 strain = rate.diagonal(), shear(rate(0, 1), rate(1, 2), rate(0, 2));
-    if (!strain.isZero(0.0)) keys.push_back("strain_rate to " + text_of(strain));
-    if (!shear.isZero(0.0))
-      keys.push_back((turns ? "simple_shear_rate to " : "shear_rate to ") + text_of(shear));
-  }
-  return keys;
+std::vector<std::string> texts_of(const std::vector<Change>& changes) {
+  std::vector<std::string> texts;
+  for (const Change& one : changes) texts.push_back(one.key + " to " + one.to);
+  return texts;
 }
 
 /// The same, and the bound of its servo.
 std::vector<std::string> slower_rates(const Drive& stage, double share, int dimensions) {
-  std::vector<std::string> keys = slower_strains(stage, share, dimensions);
+  std::vector<std::string> keys = texts_of(slower_strains(stage, share, dimensions));
   if (!stage.loading.targets.empty())
     keys.push_back("max_strain_rate to " +
                    rounded_down(share * stage.loading.servo.max_strain_rate));
@@ -114,6 +82,25 @@ std::string earlier_end(const Simulation& simulation) {
 }
 
 }  // namespace
+
+std::vector<Change> slower_strains(const Drive& stage, double share, int dimensions) {
+  std::vector<Change> changes;
+  const Mat3 rate = -stage.loading.strain_rate;
+  const int axial = dimensions - 1;
+  const auto add = [&](const char* key, const Vec3& v) {
+    const auto text = [](double x) { return tables::rounded_text(x, 3); };
+    if (!v.isZero(0.0))
+      changes.push_back({key, "[ " + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + " ]",
+                         rounded_down(Vec3(share * v))});
+  };
+  if (stage.axial_strain)
+    return {{"axial_strain_rate", tables::rounded_text(rate(axial, axial), 3),
+             rounded_down(share * rate(axial, axial))}};
+  const bool turns = rate != rate.transpose();  // as a simple shear alone does
+  add("strain_rate", rate.diagonal());
+  add(turns ? "simple_shear_rate" : "shear_rate", {rate(0, 1), rate(1, 2), rate(0, 2)});
+  return changes;
+}
 
 std::string advice_on_gravity(const Simulation& simulation, const Observation& seen, double share) {
   const Scene& scene = simulation.scene();
@@ -172,7 +159,7 @@ std::string advice_on_servo(const Simulation& simulation) {
   if (servo.published_gain > 0.0) return "leave published_gain out, whose servo rings";
   if (const double gain = Servo().gain; servo.gain < 0.5 * gain)
     return raised("servo_gain", servo.gain, gain);
-  const auto keys = slower_strains(stage, 0.5, scene.dimensions);
+  const auto keys = texts_of(slower_strains(stage, 0.5, scene.dimensions));
   if (!keys.empty()) return "lower " + joined(keys, " and ");
   return "raise duration to " + whole_up(2.0 * static_cast<double>(stage.duration.value_or(0)));
 }
@@ -221,7 +208,7 @@ std::string advice_on_thickness(const Simulation& simulation, const ThinPlace& p
     ways.push_back(advice_on_count(scene, filled));
   } else if (!stage.duration && scene.cell_size) {
     const double edge = std::pow(scene.cell_size->head(dimensions).prod(), 1.0 / dimensions);
-    ways.push_back("set cell.size to " + text_of({edge, edge, dimensions == 3 ? edge : 1.0}));
+    ways.push_back("set cell.size to " + rounded_down({edge, edge, dimensions == 3 ? edge : 1.0}));
   }
   if (ways.empty()) ways.push_back(advice_on_count(scene, 2.0));
   return joined(ways, ", or ");

@@ -6,10 +6,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::inline v0::dem {
+
+/// A key of a scene, and its value, as TOML writes it, now and as advised.
+struct Change {
+  std::string key, from, to;
+};
+
+/// Keys of a stage that strain it at a given rate, each with `share` of what it is.
+/// @param dimensions  of the scene
+std::vector<Change> slower_strains(const Drive& stage, double share, int dimensions);
 
 /// For an inertial fraction above `sound`: "the motion is too fast ...; lower max_strain_rate to
 /// 0.012". Strain rates in proportion; where nothing strains, the time that damping needs; where a

@@ -176,7 +176,7 @@ BodyShapes own_shapes(std::vector<Body>& bodies, const Scene& scene) {
 
 }  // namespace
 
-void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
+void read_bodies(Scene& scene, const SceneFile& source, const std::filesystem::path& scene_file) {
   const std::string& name = scene.stages.front().place->file;
   if (name.empty()) return;
   const std::string file = (scene_file.parent_path() / name).string();
@@ -190,7 +190,7 @@ void read_bodies(Scene& scene, const std::filesystem::path& scene_file) {
     throw SceneError(error.what());
   }
   if (const BodyShapes shapes = own_shapes(bodies, scene); !shapes.empty())
-    scene = load_scene(scene_file, shapes);
+    scene = source.scene(shapes);
   set_bodies(scene, std::move(bodies), file);
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include <tangency/dem/scene.hpp>
+#include <tangency/dem/scene_file.hpp>
 
 namespace tangency::inline v0::dem {
 
@@ -16,7 +17,8 @@ namespace tangency::inline v0::dem {
 /// geometry/tool/body_columns.hpp but a quadric, in the plane as r1, r2. Types whose bodies are
 /// then not all as the scene says have these shapes, to rounding, and the scene is read again with
 /// them.
+/// @param scene  of that source
 /// @throws SceneError  "bodies.csv:3: type = p: ..."
-void read_bodies(Scene& scene, const std::filesystem::path& scene_file);
+void read_bodies(Scene& scene, const SceneFile& source, const std::filesystem::path& scene_file);
 
 }  // namespace tangency::inline v0::dem

@@ -169,8 +169,11 @@ int export_script(const ExportWords& words) {
     throw tables::UsageError("--lammps needs --scene, whose stages are done");
   if (!words.format.empty() || !words.out.empty())
     throw tables::UsageError("--lammps: without --format and --out");
-  const Simulation run = simulation_of(
-      words.scene, words.state.empty() ? std::nullopt : std::optional<fs::path>(words.state), true);
+  RunOptions options;
+  options.scene = words.scene;
+  if (!words.state.empty()) options.resume = words.state;
+  options.quiet = true;
+  const Simulation run = simulation_of(options, scene_file_of(options));
   std::string name = fs::path(words.scene).stem().string();
   for (char& c : name)  // LAMMPS divides words at blanks and reads $ as variables
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';

@@ -15,6 +15,7 @@
 #include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/scene_keys.hpp>
 #include <tangency/dem/state_file.hpp>
+#include <tangency/dem/tool/check_command.hpp>
 #include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/exchange_commands.hpp>
 #include <tangency/dem/tool/micro.hpp>
@@ -24,6 +25,7 @@
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/dem/tool/schema.hpp>
 #include <tangency/dem/tool/strain_report.hpp>
+#include <tangency/dem/tool/sweep.hpp>
 #include <tangency/dem/tool/table_help.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
@@ -39,6 +41,7 @@ constexpr const char* kProgramDescription =
 
 constexpr const char* kProgramHelp = R"(
 `tangency-dem run --help` lists what a run writes and how to stop and resume it;
+`tangency-dem check --help` says what of a scene is looked at before it runs;
 `tangency-dem report --help` says what a report of it shows;
 `tangency-dem schema` lists every key of a scene;
 `tangency-dem contacts --help` and `tangency-dem particles --help` list the columns of the tables
@@ -134,7 +137,16 @@ logarithmic and count from the start of the stage:
                         mean number of contacts of the particles that have two or more, under
                         gravity one or more
 
+A scene with a [sweep] has a run for each combination of its values, in DIR/KEY=VALUE_KEY=VALUE:
+  scene.toml         in each folder: the whole scene of that run
+  sweep.csv          in DIR: a row a run: folder, exit status, the values of [sweep], and the numbers
+                     of summary.json
+What is complete is not run again, and what was stopped goes on from its checkpoint. With `after`
+DIR/NAME has the one run of the stages up to that of this name, from whose end all go on. A folder of
+another scene is refused; --replace takes its results away. Exit status: that of the worst run.
+
 More keys of summary.json:
+  set                   with --set or [sweep]: keys and the values that they were set to
   particles, cycles, threads
   wall_seconds          of this process: what ran before a resumption is not in it
   ns_per_listed_pair_per_cycle, listed_pairs
@@ -215,6 +227,7 @@ void add_run(tables::Program& program) {
       .type_name("DIR")
       .not_empty();
   command.option("--threads", words->options.threads, "Number of threads [all]").between(1, 1024);
+  command.option("--set", words->options.settings, kSetHelp).type_name("KEY=VALUE");
   command.option("--resume", words->resume, "Continue from a final.state or checkpoint.state")
       .type_name("FILE")
       .not_empty();
@@ -227,13 +240,15 @@ void add_run(tables::Program& program) {
   command.flag("--verify", words->options.verify,
                "Check every cycle: contacts exactly, neighbours, energy, history; a fault ends it");
   command.footer(kRunHelp);
-  command.flag("--quiet", words->options.quiet, "No progress");
+  command.flag("--quiet", words->options.quiet, "No progress, no advice before the run");
   command.runs([words] {
     RunOptions& options = words->options;
     options.scene = words->scene;
     options.out = words->out.empty() ? default_directory(words->scene) : fs::path(words->out);
     if (!words->resume.empty()) options.resume = words->resume;
-    return run(options);
+    catch_interrupts();
+    const SceneFile file = scene_file_of(options);
+    return file.sweep() ? sweep(options, file) : run(options, file);
   });
 }
 
@@ -374,6 +389,7 @@ int main(int argc, char** argv) {
   tangency::tables::Program program("tangency-dem", kProgramDescription, tangency::version());
   program.footer(kProgramHelp);
   add_run(program);
+  add_check(program);
   add_report(program);
   add_tables(program);
   add_export(program);

@@ -20,6 +20,7 @@
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
+#include <tangency/dem/tool/check.hpp>
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/verification.hpp>
 #include <tangency/dem/whole_file.hpp>
@@ -58,21 +59,6 @@ volatile std::sig_atomic_t caught_signal = 0;
 
 extern "C" void catch_signal(int number) { caught_signal = number; }
 
-/// A signal that the parent had ignored, as nohup does, stays so. A reader of the progress that has
-/// gone ends no run, and a file that may not grow is a failed write.
-void catch_interrupts() {
-  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
-  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
-    struct sigaction action {};
-    sigaction(number, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;
-    action = {};
-    action.sa_handler = catch_signal;
-    action.sa_flags = SA_RESTART;
-    sigaction(number, &action, nullptr);
-  }
-}
-
 double mean_radius(const Scene& scene) {
   double sum = 0.0;
   for (const Batch& batch : scene.batches())
@@ -102,10 +88,12 @@ class Run {
       : simulation_(std::move(simulation)),
         verification_(verification),
         out_(options.out),
+        quiet_(options.quiet),
         results_(options, simulation_),
         progress_(options.quiet ? tables::Progress::Shown::nothing
                                 : tables::Progress::Shown::everywhere) {
     cost_.threads = threads();
+    cost_.settings = options.settings;
     if (options.profile) simulation_.record(&cost_.profile.emplace());
     work_.note(simulation_.state().energy);
   }
@@ -115,6 +103,7 @@ class Run {
       warn("goes on under other contact laws: the state was made with " + changed);
     if (const std::string& changed = simulation_.changed_walls(); !changed.empty())
       warn("goes on with other walls: the state was made with " + changed);
+    if (!quiet_) warn_by_check();
     for (const double strain : results_.kept().missed_strains())
       warn("stage " + simulation_.stage().name + " passed the axial strain " +
            tables::to_text(strain) + " of save_strains before cycle " +
@@ -222,9 +211,23 @@ class Run {
                                simulation_.state().stage_cycle);
   }
 
+  /// What `tangency-dem check` advises. Of cycles the current stage says it itself, and the others
+  /// do not say it again.
+  void warn_by_check() {
+    for (const Advice& one : check_of(simulation_).advice) {
+      const bool is_of_cycles = one.about == "cycles";
+      if (is_of_cycles && one.stage == simulation_.stage().name) continue;
+      if (is_of_cycles) told_of_cycles_.push_back(one.stage);
+      warn("check: " + one.text());
+    }
+  }
+
   void warn_of_too_many_cycles() {
     const auto [cycles, key] = simulation_.cycles_needed();
-    if (!(cycles > cycles_allowed())) return;
+    const auto& told = told_of_cycles_;
+    if (!(cycles > cycles_allowed()) ||
+        std::find(told.begin(), told.end(), simulation_.stage().name) != told.end())
+      return;
     const Stage& stage = simulation_.stage();
     warn("stage " + stage.name + " cannot end within max_cycles = " +
          std::to_string(stage.drive->max_cycles) + ": it needs " +
@@ -418,8 +421,10 @@ class Run {
   Simulation simulation_;
   Verification* verification_;
   std::filesystem::path out_;
+  bool quiet_;
   Results results_;
   tables::Progress progress_;
+  std::vector<std::string> told_of_cycles_;  ///< stages
   RunCost cost_;
   WorkDone work_;  ///< from where the run goes on
 };
@@ -435,30 +440,47 @@ Simulation placed(const Scene& scene, bool quiet) {
 
 }  // namespace
 
-Simulation simulation_of(const std::filesystem::path& file,
-                         const std::optional<std::filesystem::path>& from, bool quiet) {
-  Scene scene = load_scene(file);
-  read_bodies(scene, file);
-  try {
-    if (!from) return placed(scene, quiet);
-  } catch (const CellTooThin& error) {
-    throw SceneError(file.string() + ": " + error.what());
-  } catch (const DoesNotFit& error) {
-    throw SceneError(file.string() + ": " + error.what());
-  }
-  State state = load_state(*from);
-  try {
-    return Simulation(scene, std::move(state));
-  } catch (const std::invalid_argument& error) {
-    throw StateError(from->string() + ": " + error.what());
+void catch_interrupts() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    sigaction(number, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = catch_signal;
+    action.sa_flags = SA_RESTART;
+    sigaction(number, &action, nullptr);
   }
 }
 
-int run(const RunOptions& options) {
+SceneFile scene_file_of(const RunOptions& options) {
+  SceneFile file(options.scene);
+  for (const std::string& assignment : options.settings) file.set(assignment);
+  return file;
+}
+
+Simulation simulation_of(const RunOptions& options, const SceneFile& file) {
+  Scene scene = file.scene();
+  read_bodies(scene, file, options.scene);
+  try {
+    if (!options.resume) return placed(scene, options.quiet);
+  } catch (const CellTooThin& error) {
+    throw SceneError(options.scene.string() + ": " + error.what());
+  } catch (const DoesNotFit& error) {
+    throw SceneError(options.scene.string() + ": " + error.what());
+  }
+  State state = load_state(*options.resume);
+  try {
+    return Simulation(scene, std::move(state));
+  } catch (const std::invalid_argument& error) {
+    throw StateError(options.resume->string() + ": " + error.what());
+  }
+}
+
+int run(const RunOptions& options, const SceneFile& file) {
   if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
-  catch_interrupts();
-  Simulation simulation = simulation_of(options.scene, options.resume, options.quiet);
+  Simulation simulation = simulation_of(options, file);
   if (caught_signal != 0) {
     std::cerr << "tangency-dem: interrupted before the first cycle; nothing was written"
               << std::endl;

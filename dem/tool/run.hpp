@@ -3,9 +3,7 @@
 /// tangency-dem run.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-
+#include <tangency/dem/scene_file.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/run_options.hpp>
 
@@ -20,15 +18,23 @@ enum ExitStatus : int {
   fault_found = 3,  ///< a check of --verify and the run disagree
 };
 
-/// Runs a scene; messages go to standard error.
+/// Before anything of a run is read: HUP, INT and TERM end it after its cycle from now on. A signal
+/// that the parent had ignored, as nohup does, stays so. A reader of the progress that has gone
+/// ends no run, and a file that may not grow is a failed write.
+void catch_interrupts();
+
+/// The scene's file with what --set changes.
+/// @throws SceneError
+SceneFile scene_file_of(const RunOptions& options);
+
+/// The start of a run, or where it goes on.
+/// @param file  scene_file_of(options)
+/// @throws SceneError, StateError
+Simulation simulation_of(const RunOptions& options, const SceneFile& file);
+
+/// Runs a scene, without its [sweep]; messages go to standard error.
 /// @throws SceneError, StateError, OutputError  where the input is refused
 /// @throws WriteError, std::filesystem::filesystem_error  where a result cannot be written
-int run(const RunOptions& options);
-
-/// The run of a scene, from a state on, or from where the scene places its bodies.
-/// @param quiet  no progress to standard error
-/// @throws SceneError, StateError  where they are refused, or do not belong together
-Simulation simulation_of(const std::filesystem::path& scene,
-                         const std::optional<std::filesystem::path>& state, bool quiet);
+int run(const RunOptions& options, const SceneFile& file);
 
 }  // namespace tangency::inline v0::dem

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tangency::inline v0::dem {
 
@@ -12,7 +14,8 @@ struct RunOptions {
   std::filesystem::path scene;
   std::filesystem::path out;
   std::optional<std::filesystem::path> resume;
-  int threads = 0;  ///< 0: as many as set_threads(0) of dem/parallel.hpp takes
+  std::vector<std::string> settings;  ///< of --set, as given
+  int threads = 0;                    ///< 0: as many as set_threads(0) of dem/parallel.hpp takes
   bool quiet = false;
   bool replace = false;       ///< take away the results of another run
   bool profile = false;       ///< say where the time of the cycles went

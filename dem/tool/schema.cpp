@@ -84,6 +84,9 @@ std::string title_of(std::string_view section) {
   if (section == "contact") return "`[contact]` for all pairs, `[contact.NAME-NAME]` for one";
   if (section == "body") return "`[[body]]`: a body of an explicit arrangement";
   if (section == "wall") return "`[[wall]]`: a plane wall";
+  if (section == "sweep")
+    return "`[sweep]`: a run for each combination of values, `\"KEY\" = [VALUE, ...]` with keys by "
+           "their path, as `--set` has them";
   return "`[" + std::string(section) + "]`";
 }
 

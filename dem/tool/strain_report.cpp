@@ -121,17 +121,31 @@ StrainReport strain_report(const State& state, const Packing& packing) {
   return report;
 }
 
-StrainReport strain_report(const State& state, const Packing& packing, const State& older,
+namespace {
+
+/// A packing with edges and images as an older state describes its cell, whose lattice is the same.
+Packing described_as(const State& older, const State& state, Packing packing) {
+  const Reset back = state.description.inverse().then(older.description);
+  packing.edges = back.edges(packing.edges);
+  for (Image& image : packing.contacts.image) image = back.image(image);
+  return packing;
+}
+
+}  // namespace
+
+StrainReport strain_report(const State& state, const Packing& now, const State& older,
                            const std::string& file) {
   const Packing then = packing_of(older);
-  require_older(state, packing, older, then, file);
-  StrainReport report = strain_report(state, packing);
+  require_older(state, now, older, then, file);
+  StrainReport report = strain_report(state, now);
   if (!report.why_not.empty()) return report;
+  const Packing packing = described_as(older, state, now);
   StrainReport::Since since;
   since.cycle = older.cycle;
   since.time = older.time;
   since.gradient = packing.edges * then.edges.inverse() - Mat3::Identity();
   Cell cell = state.cell;
+  cell.edges = packing.edges;
   cell.reference_edges = then.edges;
   since.logarithmic = cell.logarithmic_strain();
   since.nets = nets_of(then, [&](const mm::StrainMesh& mesh, StrainOfNet& net) {

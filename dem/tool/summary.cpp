@@ -120,6 +120,12 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
     for (const auto& [name, count] : entries_of(*cost.verified))
       std::visit([&, &key = name](auto number) { summary["verified"][key] = number; }, count);
   add_points(summary, history, simulation.scene(), directory / "states");
+  for (const std::string& setting : cost.settings) {
+    const std::size_t equals = setting.find('=');
+    const auto value = nlohmann::ordered_json::parse(setting.substr(equals + 1), nullptr, false);
+    summary["set"][setting.substr(0, equals)] =
+        value.is_discarded() ? nlohmann::ordered_json(setting.substr(equals + 1)) : value;
+  }
   write_whole(directory / "summary.json", summary.dump(2) + "\n");
 }
 

@@ -17,7 +17,7 @@
 
 namespace tangency::inline v0::dem {
 
-/// What it took.
+/// What it took, and what else of a run is not in its state.
 struct RunCost {
   /// Of this process, output included: what ran before a resumption is not in it.
   double wall_seconds = 0.0;
@@ -27,6 +27,8 @@ struct RunCost {
   int threads = 1;
   std::optional<Profile> profile;    ///< of the cycles of this process
   std::optional<Verified> verified;  ///< by --verify, of this process
+  /// Keys that the command line set, "KEY=VALUE".
+  std::vector<std::string> settings{};
 };
 
 /// Of the run whose history is in the directory.

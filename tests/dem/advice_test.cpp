@@ -136,6 +136,22 @@ TEST(GoingOn, UnderAnotherVelocityOfAWallSaysSo) {
             "[ 0, 0, 0 ], and here [ 0, 1, 0 ]\n");
 }
 
+TEST(GoingOn, UnderAnotherStressOfAWallSaysSo) {
+  const TemporaryFolder folder;
+  const std::string wall = "normal = [1.0, 0.0, 2.0]\n";
+  const std::string held = with(with(read_file(std::string(TANGENCY_SCENES) + "/slope.toml"),
+                                     "duration = 8000", "duration = 10"),
+                                wall, wall + "stress = 50.0\nmax_speed = 0.1\n");
+  ASSERT_EQ(run_of(folder, held).status, 0);
+  const std::string other = folder.write("other.toml", with(held, "= 50.0", "= 60.0"));
+  const Finished resumed = run_tool({"run", other, "--out", folder.path("again"), "--quiet",
+                                     "--resume", folder.path("out/final.state")});
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_EQ(resumed.err,
+            "tangency-dem: goes on with other walls: the state was made with wall[0].stress = 50, "
+            "and here 60\n");
+}
+
 // It falls by half a radius, and is given the time that the advice names.
 TEST(Advice, OnABodyThatStillMovesIsADurationThatIsLongEnough) {
   const TemporaryFolder folder;

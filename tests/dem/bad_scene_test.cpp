@@ -38,14 +38,17 @@ std::string stage_of(const std::string& kind) {
 
 /// A scene that is accepted, with every section, and a stage of the kind last but for the body.
 std::string scene_with(const std::string& kind) {
-  const bool is_explicit = kind == "explicit", has_wall = kind == "wall";
+  const bool is_explicit = kind == "explicit", has_wall = kind == "wall", sweeps = kind == "sweep";
   return "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n" +
          std::string(has_wall ? "walls = \"xyz\"\n" : "") +
          "[motion]\n[particles.grain]\n"
          "count = 1\nmean_radius = 10.0\n[contact]\nnormal_stiffness = 1e10\n[output]\n" +
          stage_of("place") + (is_explicit ? "arrangement = \"explicit\"\n" : "") +
-         (is_explicit || has_wall || kind == "place" ? "" : stage_of(kind)) +
+         (is_explicit || has_wall || kind == "place" ? ""
+          : sweeps                                   ? stage_of("compress")
+                                                     : stage_of(kind)) +
          (is_explicit ? "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n" : "") +
+         (sweeps ? "[sweep]\n\"contact.friction_coefficient\" = [0.1, 0.2]\n" : "") +
          (has_wall ? "[[wall]]\npoint = [1.0, 2.0, 3.0]\nnormal = [1.0, 2.0, 3.0]\n"
                      "stress = 1e3\nmax_speed = 1.0\n"
                    : "");
@@ -113,6 +116,11 @@ std::vector<std::string> wrong_values(const Key& key) {
     return wrong;
   }
   wrong.push_back("true");
+  if (key.type == KeyType::paths) {
+    for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[7]", "[\"\"]", "[\"a\", 1]"})
+      wrong.push_back(value);
+    return wrong;
+  }
   const bool is_text = key.type == KeyType::text || key.type == KeyType::path;
   if (is_text) {
     for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[\"none\"]"})
@@ -148,6 +156,7 @@ std::vector<std::string> wrong_values(const Key& key) {
 std::vector<std::string> kinds_of(const Key& key) {
   if (key.section == "body") return {"explicit"};
   if (key.section == "wall") return {"wall"};
+  if (key.section == "sweep") return {"sweep"};
   if (key.section != "stage") return {"compress"};
   std::istringstream stream{std::string(key.kinds)};
   std::vector<std::string> kinds;
@@ -281,6 +290,16 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
       {"a wall across a periodic axis", with(scene_with("wall"), "\"xyz\"", "\"yz\""),
        "scene.toml:16: wall[0].normal = [ 1.0, 2.0, 3.0 ]: 0 along axes without walls in "
        "cell.walls"},
+      // The smallest semi-axis goes by in 10 steps of 0.2 sqrt(m / K), m = 4/3 pi 1e6 kg, K = 1e10.
+      {"a wall that is too fast",
+       with(scene_with("wall") + stage_of("servo"), "stress = 1e3\nmax_speed = 1.0\n",
+            "velocity = [0.0, 0.0, -305.5]\n"),
+       "scene.toml:17: wall[0].velocity = [ 0.0, 0.0, -305.5 ]: 3 finite numbers, their part along "
+       "the normal < 244 (m/s), 0.1 of the smallest semi-axis in the longest time step"},
+      {"a held wall that may be too fast",
+       with(scene_with("wall") + stage_of("servo"), "max_speed = 1.0\n", "max_speed = 245.0\n"),
+       "scene.toml:18: wall[0].max_speed = 245.0: a finite number < 244 (m/s), 0.1 of the smallest "
+       "semi-axis in the longest time step"},
       {"a wall in a periodic cell", with(scene_with("wall"), "walls = \"xyz\"\n", ""),
        "scene.toml:13: wall: in a cell with a size and walls of its own, cell.walls"},
       {"a held wall without a bound", with(scene_with("wall"), "max_speed = 1.0\n", ""),

@@ -156,6 +156,15 @@ TEST(PlaneWall, ThatHoldsAStressBearsItInTheEnd) {
             0.05 * std::abs(simulation.observe().account.boundary));
 }
 
+// What lies below is at rest while the wall is still on its way.
+TEST(PlaneWall, IsWaitedForByAStageThatComesToRest) {
+  const Simulation simulation = at_end(with(pressed(), "duration = 9500", "duration = 1"));
+  const State& state = simulation.state();
+  const auto count = static_cast<std::int32_t>(state.particles.size());
+  EXPECT_NEAR(state.contacts.borne_by(count + 6, state.list).force / 25.0, 50e3, 0.02 * 50e3);
+  EXPECT_LE(simulation.observe().balance.largest_unbalanced_ratio, 0.02);
+}
+
 TEST(PlaneWall, IsSavedWithTheBitsThatItGoesOnWith) {
   const auto file = std::filesystem::path(testing::TempDir()) / "plane_wall.state";
   Simulation whole = at_stage(pressed(), 1);

@@ -177,8 +177,8 @@ TEST(RunCommand, NamesAMistypedSubcommandAndTheNearest) {
   EXPECT_EQ(run_tool({"shcema"}).err,
             "tangency-dem: shcema is no subcommand; the nearest is schema" + end);
   EXPECT_EQ(run_tool({"fly"}).err,
-            "tangency-dem: fly is no subcommand; run, report, contacts, particles, export, import, "
-            "micro and schema are" +
+            "tangency-dem: fly is no subcommand; run, check, report, contacts, particles, export, "
+            "import, micro and schema are" +
                 end);
 }
 

@@ -102,8 +102,8 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "elongation, flatness, elongations, flatnesses, sizes, size_spread, size_tails, "
             "sieve_openings, sieve_passing, layer, density");
   EXPECT_EQ(refusal_with("[cell]", "[sell]"),
-            "scene.toml:2: sell: no such key; allowed are schema, cell, motion, particles, wall, "
-            "body, contact, stage, output");
+            "scene.toml:2: sell: no such key; allowed are schema, include, cell, motion, "
+            "particles, wall, body, contact, stage, output, sweep");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
             "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, "
@@ -270,7 +270,8 @@ TEST(Scene, ThatIsNoTomlIsRefusedWithItsLine) {
 
 TEST(Scene, PassesItsOwnTableOfKeys) {
   for (const char* name : {"assembly-27", "assembly-125", "assembly-1000", "plane-1000", "impact",
-                           "slope", "settle-1000", "packing-1000"})
+                           "slope", "settle-1000", "packing-1000", "isotropic-packing",
+                           "triaxial-drained", "triaxial-undrained", "oedometer", "simple-shear"})
     EXPECT_NO_THROW(load_scene(std::string(TANGENCY_SCENES) + "/" + name + ".toml")) << name;
 }
 

@@ -193,6 +193,38 @@ TEST_P(StrainOfStates, PartsAddUpToTheStrainOfTheCell) {
     }
   }
 }
+// A cell in simple shear is described by other edges of the same lattice in between.
+TEST(StrainSince, AcrossNewEdgesIsTheShearOfTheCell) {
+  const std::string text = with(small_scene(), "[output]\n",
+                                "[[stage]]\nkind = \"servo\"\nsimple_shear_rate = [1.0, 0.0, 0.0]\n"
+                                "duration = 1000\n[output]\n");
+  dem::Simulation run = at_stage(text, 3);
+  const TemporaryFolder folder;
+  for (int k = 0; k < 100; ++k) run.step();
+  const dem::State older = run.state();
+  dem::save_state(older, folder.path("older.state"));
+  while (run.state().description.xy == older.description.xy) run.step();
+  for (int k = 0; k < 10; ++k) run.step();
+  dem::save_state(run.state(), folder.path("later.state"));
+  const Finished done = run_tool(
+      {"micro", folder.path("later.state"), "--since", folder.path("older.state"), "--json", "-"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  const json since = json::parse(done.out)["average_strain"]["displacements"];
+  Mat3 gradient = Mat3::Zero();
+  gradient(0, 1) = run.state().time - older.time;
+  EXPECT_LT((tensor(since["gradient"]) - gradient).norm(), 1e-12);
+  for (const json& net : since["nets"]) {
+    ASSERT_TRUE(net["why_not"].is_null()) << net["why_not"];
+    EXPECT_LT((tensor(net["sum"]) - gradient).norm(), kExact);
+    EXPECT_GT(net["kept"]["edges"], 0);
+  }
+  // Both ways of a reset, on images.
+  const dem::Reset one{2, -1, 3}, two{-4, 5, 1};
+  const dem::Image image{7, -2, 3};
+  EXPECT_EQ(one.then(two).image(image), two.image(one.image(image)));
+  EXPECT_EQ(one.inverse().image(one.image(image)), image);
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, StrainOfStates, ::testing::Values(2, 3));
 
 /// Disks on a square lattice that touch their four neighbours, at rest; `edit` gives them motion.
