@@ -162,6 +162,9 @@ class Reader {
       for (std::size_t k = 0; k <= scene_.stages.size(); ++k)
         smallest =
             std::min(smallest, scene_.shape_in(type, k, 0).semi_axes(scene_.dimensions).minCoeff());
+    for (const ParticleType& type : scene_.particle_types)
+      for (const Shape& shape : type.batch.shapes)
+        smallest = std::min(smallest, shape.semi_axes(scene_.dimensions).minCoeff());
     return smallest;
   }
 
