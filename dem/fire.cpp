@@ -36,18 +36,29 @@ double Fire::steer(Particles& particles, const Resultants& resultants, const Mot
       sum_by_chunks<detail::InertiaProducts>(count, [&](std::size_t first, std::size_t last) {
         return detail::inertia_products_lanes(columns, gravity, turns, first, last);
       });
-  const bool runs_downhill = sum.va > 0.0;
-  if (!runs_downhill) *this = {kStartMixing, 0};
-  const double keep = runs_downhill ? 1.0 - mixing : 0.0;
-  const double push = runs_downhill ? mixing * std::sqrt(sum.vv / sum.aa) : 0.0;
+  const Turn turn = turn_by(sum);
   for_each_chunk(count, [&](std::size_t first, std::size_t last) {
-    detail::steer_lanes(columns, moved, keep, push, gravity, turns, first, last);
+    detail::steer_lanes(columns, moved, turn.keep, turn.push, gravity, turns, first, last);
   });
-  if (runs_downhill && ++downhill > kLeastDownhill) mixing *= kMixingDecay;
+  return turn.taken(sum, dt);
+}
+
+Fire::Turn Fire::turn_by(const detail::InertiaProducts& all) {
+  const bool runs_downhill = all.va > 0.0;
+  if (!runs_downhill) {
+    *this = {kStartMixing, 0};
+    return {0.0, 0.0};
+  }
+  const Turn turn{1.0 - mixing, mixing * std::sqrt(all.vv / all.aa)};
+  if (++downhill > kLeastDownhill) mixing *= kMixingDecay;
+  return turn;
+}
+
+double Fire::Turn::taken(const detail::InertiaProducts& before, double dt) const {
   const detail::InertiaProducts after{
-      keep * keep * sum.vv + 2.0 * keep * push * sum.va + push * push * sum.aa,
-      keep * sum.va + push * sum.aa, sum.aa};
-  return energy_at(sum, dt) - energy_at(after, dt);
+      keep * keep * before.vv + 2.0 * keep * push * before.va + push * push * before.aa,
+      keep * before.va + push * before.aa, before.aa};
+  return energy_at(before, dt) - energy_at(after, dt);
 }
 
 }  // namespace tangency::inline v0::dem

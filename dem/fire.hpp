@@ -21,6 +21,10 @@
 #include <tangency/dem/motion.hpp>
 #include <tangency/dem/particles.hpp>
 
+namespace tangency::inline v0::detail {
+struct InertiaProducts;
+}
+
 namespace tangency::inline v0::dem {
 
 /// How far the velocities are turned, and for how long they have run downhill.
@@ -35,6 +39,16 @@ struct Fire {
   /// @return  the energy taken; below 0 by up to half a step's work of the forces on what was
   /// turned
   double steer(Particles& particles, const Resultants& resultants, const Motion& motion, double dt);
+
+  /// What a cycle does to velocities: v <- keep v + push a.
+  struct Turn {
+    double keep = 1.0, push = 0.0;
+    /// The energy that it takes. @param before  the products of all particles
+    double taken(const detail::InertiaProducts& before, double dt) const;
+  };
+  /// The next cycle's, by the products of all particles: what steer() does, for who keeps the
+  /// particles elsewhere.
+  Turn turn_by(const detail::InertiaProducts& all);
 };
 
 }  // namespace tangency::inline v0::dem

@@ -17,6 +17,8 @@ detail::DampedKick kick_of(double damping, double largest, double dt) {
   return {(1.0 - half) / (1.0 + half), dt / (1.0 + half), largest > 0.0 ? damping / largest : 0.0};
 }
 
+}  // namespace
+
 detail::MotionStep step_of(const Motion& motion, const Mat3& rate, double dt) {
   const double of_turns = motion.rotational_damping.value_or(motion.damping);
   detail::MotionStep step{};
@@ -32,8 +34,6 @@ detail::MotionStep step_of(const Motion& motion, const Mat3& rate, double dt) {
   step.is_full = motion.rotation == Rotation::full;
   return step;
 }
-
-}  // namespace
 
 double characteristic_time(const Particles& particles, double largest_stiffness) {
   const double lightest = *std::min_element(particles.mass.begin(), particles.mass.end());

@@ -23,6 +23,10 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
 
+namespace tangency::inline v0::detail {
+struct MotionStep;
+}
+
 namespace tangency::inline v0::dem {
 
 /// The run blew up: a velocity is no longer finite, or as good as that.
@@ -62,6 +66,10 @@ struct MotionWork {
 ///     step, or by Euler's equations in one of the five turns that its step is made of
 MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
                 const Motion& motion, double dt);
+
+/// The coefficients of a step of move(), for who keeps the particles elsewhere.
+/// @param rate  of the cell
+detail::MotionStep step_of(const Motion& motion, const Mat3& rate, double dt);
 
 /// Translational and rotational energy of the fluctuating velocities.
 double kinetic_energy(const Particles& particles);

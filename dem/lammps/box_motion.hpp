@@ -16,8 +16,15 @@ namespace tangency::inline v0::lammps {
 /// rate of strain, some nothing.
 class BoxMotion {
  public:
+  /// Edges of a box: xx yy zz yz xz xy, as Domain::h has them.
+  using Edges = std::array<double, 6>;
+
   /// From this box on.
   void start(const LAMMPS_NS::Domain& domain);
+  /// From a box of these edges on.
+  void start(const Edges& edges) { edges_ = edges; }
+  /// Those of the last call of start() or advance().
+  const Edges& edges() const { return edges_; }
   /// Velocity gradient since the last call of start() or advance(), 1/time; a tilted box that was
   /// flipped since, described by other edges, has not moved. Of a box without any strain exactly 0.
   /// @param dt  > 0
@@ -27,7 +34,7 @@ class BoxMotion {
   static Vec3 thickness(const LAMMPS_NS::Domain& domain);
 
  private:
-  std::array<double, 6> edges_{};  ///< xx yy zz yz xz xy
+  Edges edges_{};
 };
 
 }  // namespace tangency::inline v0::lammps

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <tangency/dem/contact_blocks.hpp>
@@ -107,6 +108,7 @@ void PairTangency::compute(int eflag, int vflag) {
   bodies_.refresh(listed_anew);
   history_->change();
   const Step now = step();
+  affine_stiffness_ = 0.0;
   collect(now);
   finish(within_, now, 1.0);
   // The rank of the other atom has the pair too.
@@ -158,6 +160,7 @@ void PairTangency::finish(PairBlock& pairs, const Step& step, double weight) {
   work_[1] += weight * sums.boundary;
   work_[2] += weight * sums.branch;
   work_[3] += weight * sums.viscous;
+  affine_stiffness_ += weight * sums.affine_stiffness;
   if (step.keeps) {
     for (std::size_t k = 0; k < count; ++k)
       if (const ContactRecord before = record_at(pairs.atoms(k).history);
@@ -244,18 +247,24 @@ double PairTangency::single(int i, int j, int, int, double rsq, double, double, 
   return record.normal_energy + record.shear_energy;
 }
 
+void* PairTangency::extract(const char* name, int& dimension) {
+  dimension = 0;
+  return std::string_view(name) == "affine_stiffness" ? &affine_stiffness_ : nullptr;
+}
+
 void PairTangency::for_each_contact(const std::function<void(const SeenContact&)>& look) const {
+  if (history_ == nullptr || list == nullptr) return;
   const bool newton = force->newton_pair != 0;
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      if (history_->firstflag[i][jj] == 0) continue;
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      const bool in_order = atom->tag[i] < atom->tag[j];
-      // Without newton's third law two ranks have it.
-      if (!newton && j >= atom->nlocal && !in_order) continue;
+      const bool i_is_a = atom->tag[i] < atom->tag[j];
+      if (!newton && j >= atom->nlocal && !i_is_a) continue;
       const ContactRecord record = record_at(history_->firstvalue[i] + kRecordNumbers * jj);
       if (!record.touches()) continue;
-      look({in_order ? i : j, in_order ? j : i, record.normal, record.branch, record.force()});
+      look({i_is_a ? i : j, i_is_a ? j : i, record.normal, record.branch, record.force()});
     }
   }
 }

@@ -70,7 +70,11 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   /// `compute pair/local`: docs/lammps.md.
   double single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
                 double factor_lj, double& fforce) override;
-  /// For computes: the contacts of the last call of compute().
+  /// "affine_stiffness": the share of this rank in the sum of K_n (n . branch)^2 over all contacts
+  /// of the last step, what a servo needs (dem::ContactSums).
+  void* extract(const char* name, int& dimension) override;
+  /// Those of records that touch. A pair that another rank has too is told by the one of its atom
+  /// a.
   void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
   /// A record is the same from both sides.
   void transfer_history(double* source, double* target) override;
@@ -107,6 +111,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   BoxMotion box_;
   PairBlock within_, across_;  ///< pairs of owned atoms; those that another rank has too
   std::array<double, 4> work_{};
+  double affine_stiffness_ = 0.0;
   bool laws_are_new_ = false;  ///< since the last compute()
   FixContactHistory* history_ = nullptr;
   std::string history_id_;

@@ -4,7 +4,12 @@
 #include <array>
 #include <span>
 
+#include <tangency/dem/lammps/compute_balance.hpp>
+#include <tangency/dem/lammps/compute_fabric.hpp>
 #include <tangency/dem/lammps/fix_contact_history.hpp>
+#include <tangency/dem/lammps/fix_move.hpp>
+#include <tangency/dem/lammps/fix_servo.hpp>
+#include <tangency/dem/lammps/fix_wall.hpp>
 #include <tangency/dem/lammps/pair_tangency.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -25,8 +30,12 @@ template <class Style>
 
 // One line a style: its name, and the class of its header.
 constexpr std::array kPairStyles{PairEntry{"tangency", kPair<PairTangency>}};
-constexpr std::array kFixStyles{FixEntry{"NEIGH_HISTORY_TANGENCY", kFix<FixContactHistory>}};
-constexpr std::array<ComputeEntry, 0> kComputeStyles{};
+constexpr std::array kFixStyles{FixEntry{"NEIGH_HISTORY_TANGENCY", kFix<FixContactHistory>},
+                                FixEntry{"tangency/move", kFix<FixMove>},
+                                FixEntry{"tangency/servo", kFix<FixServo>},
+                                FixEntry{"wall/tangency", kFix<FixWall>}};
+constexpr std::array kComputeStyles{ComputeEntry{"tangency/balance", kCompute<ComputeBalance>},
+                                    ComputeEntry{"tangency/fabric", kCompute<ComputeFabric>}};
 
 }  // namespace
 

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <tangency/dem/tool/exchange_commands.hpp>
 
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <tangency/dem/simulation.hpp>
 #include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/exchange_sample.hpp>
+#include <tangency/dem/tool/export_lammps.hpp>
 #include <tangency/dem/tool/export_text.hpp>
 #include <tangency/dem/tool/gsd_file.hpp>
 #include <tangency/dem/tool/import_scene.hpp>
@@ -43,13 +47,24 @@ quaternions, which no two formats give alike:
                origin is the centre of the box
   xyz          extended XYZ, for OVITO and ASE: RADII as aspherical_shape, quaternion X Y Z W as
                orientation, angular_velocity, mass; as lammps-dump reads back
+--lammps writes a whole run for tangency-lammps, the program of dem/lammps, into a folder: NAME.data
+as lammps-data, and the script in.NAME, which does the stages of --scene that are left, each by fix
+tangency/servo and fix tangency/move, with the same laws, steps, rates, stresses and ends. NAME is
+that of the scene, with _ for what is no letter and no digit. Without STATE it begins where the
+scene places its bodies:
+  tangency-dem export --lammps cluster --scene shear.toml
+  cd cluster && mpirun -np 2 tangency-lammps -in in.shear
+Shear forces of contacts do not go into the data file: a message says where a state has some. Walls
+go where no stage strains the cell, each as fix wall/tangency; those that hold a stress, plane scenes
+and stages that grow particles do not go to LAMMPS.
 LAMMPS and HOOMD have cells with the first edge along x and the second in the plane of x and y. A
 cell that shear has tilted otherwise is turned into that, with all vectors: it then does not read
 back to the same double, and LAMMPS may ask for `box tilt large`.
 
 Exit status:
   0    done
-  2    STATE is no state of this program's version, or one in the plane; or FILE cannot be written
+  2    STATE is no state of this program's version, one in the plane, or not one of SCENE; SCENE has
+       what LAMMPS has not; or a file cannot be written
 )";
 
 constexpr const char* kImportHelp = R"(
@@ -144,6 +159,47 @@ void write(const std::string& file, const std::string& text) {
   out.commit();
 }
 
+struct ExportWords {
+  std::string state, format, out, folder, scene;
+};
+
+/// @throws tables::UsageError, and what the files are refused for
+int export_script(const ExportWords& words) {
+  if (words.scene.empty())
+    throw tables::UsageError("--lammps needs --scene, whose stages are done");
+  if (!words.format.empty() || !words.out.empty())
+    throw tables::UsageError("--lammps: without --format and --out");
+  const Simulation run = simulation_of(
+      words.scene, words.state.empty() ? std::nullopt : std::optional<fs::path>(words.state));
+  std::string name = fs::path(words.scene).stem().string();
+  for (char& c : name)  // LAMMPS divides words at blanks and reads $ as variables
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+  const std::string script = lammps_script(run, name, words.scene);
+  std::vector<std::string> types;
+  for (const ParticleType& type : run.scene().particle_types) types.push_back(type.name);
+  const std::string data = lammps_data(with_triangular_cell(sample_of(run.state(), types)));
+  fs::create_directories(words.folder);
+  tables::OutputFile script_out(words.folder + "/in." + name),
+      data_out(words.folder + "/" + name + ".data");
+  script_out.write(script);
+  data_out.write(data);
+  data_out.commit();
+  script_out.commit();
+  for (const std::string& lost : lost_in_lammps(run.state()))
+    std::cerr << "tangency-dem: " << words.state << ": " << lost << std::endl;
+  return success;
+}
+
+/// @throws tables::UsageError, and what STATE is refused for
+int export_bodies(const ExportWords& words) {
+  if (words.state.empty()) throw tables::UsageError("STATE: missing");
+  if (words.format.empty()) throw tables::UsageError("--format or --lammps: one of them is needed");
+  if (!words.scene.empty()) throw tables::UsageError("--scene: with --lammps alone");
+  write(words.out.empty() ? "-" : words.out,
+        exported(sample_of(load_state(words.state)), words.format));
+  return success;
+}
+
 struct ImportWords {
   std::string file, format, out, scene;
   int frame = 0;
@@ -183,23 +239,23 @@ int import_file(const ImportWords& words, bool has_frame) {
 }  // namespace
 
 void add_export(tables::Program& program) {
-  struct Words {
-    std::string state, format, out;
-  };
-  const auto words = std::make_shared<Words>();
-  tables::Command& command =
-      program.subcommand("export", "A state's bodies as a file of another program");
-  command.option("STATE", words->state, "State of a run").required();
-  command.option("--format", words->format, "Which").required().one_of(kFormats);
+  const auto words = std::make_shared<ExportWords>();
+  tables::Command& command = program.subcommand(
+      "export", "A state's bodies, or the rest of a run, as files of another program");
+  command.option("STATE", words->state, "State of a run; not needed with --lammps");
+  command.option("--format", words->format, "Which").one_of(kFormats);
   command.option("--out", words->out, "File to write [standard output]")
       .type_name("FILE")
       .not_empty();
+  command.option("--lammps", words->folder, "Folder for a script of LAMMPS and its data file")
+      .type_name("DIR")
+      .not_empty();
+  command.option("--scene", words->scene, "Scene of the run, whose stages the script does")
+      .type_name("FILE")
+      .not_empty();
   command.footer(kExportHelp);
-  command.runs([words] {
-    write(words->out.empty() ? "-" : words->out,
-          exported(sample_of(load_state(words->state)), words->format));
-    return success;
-  });
+  command.runs(
+      [words] { return words->folder.empty() ? export_bodies(*words) : export_script(*words); });
 }
 
 void add_import(tables::Program& program) {

@@ -407,39 +407,40 @@ class Run {
 };
 
 /// Placing many particles takes a while, too.
-Simulation placed(const Scene& scene, const RunOptions& options) {
+Simulation placed(const Scene& scene, bool quiet) {
   tables::Progress progress(
-      options.quiet ? tables::Progress::Shown::nothing : tables::Progress::Shown::everywhere, 0.0);
+      quiet ? tables::Progress::Shown::nothing : tables::Progress::Shown::everywhere, 0.0);
   return Simulation(scene, [&](double share) {
     if (share > 0.0 && progress.is_due()) progress.show(share, "particles that have their place");
   });
 }
 
-Simulation simulation_of(const RunOptions& options) {
-  Scene scene = load_scene(options.scene);
-  read_bodies(scene, options.scene);
+}  // namespace
+
+Simulation simulation_of(const std::filesystem::path& file,
+                         const std::optional<std::filesystem::path>& from, bool quiet) {
+  Scene scene = load_scene(file);
+  read_bodies(scene, file);
   try {
-    if (!options.resume) return placed(scene, options);
+    if (!from) return placed(scene, quiet);
   } catch (const CellTooThin& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
+    throw SceneError(file.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
-    throw SceneError(options.scene.string() + ": " + error.what());
+    throw SceneError(file.string() + ": " + error.what());
   }
-  State state = load_state(*options.resume);
+  State state = load_state(*from);
   try {
     return Simulation(scene, std::move(state));
   } catch (const std::invalid_argument& error) {
-    throw StateError(options.resume->string() + ": " + error.what());
+    throw StateError(from->string() + ": " + error.what());
   }
 }
-
-}  // namespace
 
 int run(const RunOptions& options) {
   if (options.reproducible) use_reproducible_arithmetic();
   if (options.threads > 0) set_threads(options.threads);
   catch_interrupts();
-  Simulation simulation = simulation_of(options);
+  Simulation simulation = simulation_of(options.scene, options.resume, options.quiet);
   if (caught_signal != 0) {
     std::cerr << "tangency-dem: interrupted before the first cycle; nothing was written"
               << std::endl;

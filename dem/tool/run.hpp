@@ -3,6 +3,10 @@
 /// tangency-dem run.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
+#include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/run_options.hpp>
 
 namespace tangency::inline v0::dem {
@@ -19,5 +23,11 @@ enum ExitStatus : int {
 /// @throws SceneError, StateError, OutputError  where the input is refused
 /// @throws WriteError, std::filesystem::filesystem_error  where a result cannot be written
 int run(const RunOptions& options);
+
+/// The run of a scene, from a state on, or from where the scene places its bodies.
+/// @param quiet  does it say nothing while it places them?
+/// @throws SceneError, StateError  where they are refused, or do not belong together
+Simulation simulation_of(const std::filesystem::path& scene,
+                         const std::optional<std::filesystem::path>& state, bool quiet = true);
 
 }  // namespace tangency::inline v0::dem

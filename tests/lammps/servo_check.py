@@ -1,0 +1,269 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holds loading, moving and measuring by tangency-lammps to tangency-dem: one study by both.
+
+Usage: servo_check.py TANGENCY_DEM TANGENCY_LAMMPS FOLDER [CHECK...]    (CHECK: of those below)
+
+125 spheroids are compressed without friction by tangency-dem, which leaves no shear forces, and go
+on from there in both programs, with friction; LAMMPS by the script of `export --lammps`.
+- move:     2,000 strained steps: stresses, and places, turns and speeds
+- hold:     7,000 steps at a mean stress, which is held within 1e-6 at the end
+- triaxial: 10 % of axial compression: how well the lateral stresses are held, by both
+- ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
+- fabric:   tensors and balance of one state, on one rank and on two, newton on and off
+- wall:     spheroids that slide and tumble down a slope into a corner, walls and all
+- restart:  hold, stopped half way and resumed on another number of ranks
+Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
+"""
+import csv
+import json
+import re
+import sys
+
+import numpy as np
+
+from fixes_check import Check, columns, near, require
+
+SAMPLE = """schema = 1
+[particles.spheroid]
+count = 125
+mean_radius = 10.0
+elongation = 1.4285714285714286
+[contact]
+normal_stiffness = 1.5e10
+friction_coefficient = 0.5
+[[stage]]
+kind = "place"
+[[stage]]
+kind = "compress"
+mean_stress = 10e6
+max_strain_rate = 0.05
+friction_coefficient = 0.0
+"""
+OUTPUT = "[output]\nframe_interval = 0\nhistory_interval = 50\n"
+PRESS = 10e6
+WALL = """schema = 1
+[cell]
+size = [1.0, 0.3, 0.6]
+walls = "xz"
+[[wall]]
+point = [0.0, 0.0, 0.5]
+normal = [1.0, 0.0, 2.0]
+[motion]
+gravity = [0.0, 0.0, -9.81]
+[particles.grain]
+count = 3
+mean_radius = 0.02
+elongation = 1.5
+flatness = 1.1
+density = 2500.0
+[contact]
+normal_stiffness = 1e5
+friction_coefficient = 0.2
+[[stage]]
+kind = "place"
+arrangement = "explicit"
+[[body]]
+type = "grain"
+position = [0.08, 0.05, 0.51]
+[[body]]
+type = "grain"
+position = [0.16, 0.07, 0.47]
+orientation = [0.9, 0.1, 0.4, 0.0]
+[[body]]
+type = "grain"
+position = [0.25, 0.2, 0.42]
+angular_velocity = [0.0, 3.0, 1.0]
+[[stage]]
+kind = "servo"
+duration = 1500
+damping = 0.0
+[output]
+frame_interval = 0
+"""
+STRESSES = "s_xx s_yy s_zz s_xy s_zx s_yz"
+
+
+class Study(Check):
+    def __init__(self, dem, lammps, folder):
+        super().__init__(dem, lammps, folder)
+        self.write("sample.toml", SAMPLE + OUTPUT)
+        self.tool("run", "sample.toml", "--out", "sample", "--quiet", "--replace")
+
+    def both(self, name, stage):
+        """Goes on from the sample with one stage more by tangency-dem, and exports the same."""
+        self.write(name + ".toml", SAMPLE + "[[stage]]\n" + stage + OUTPUT)
+        # A scene with another stage goes on from the state of the shorter one.
+        self.tool("run", name + ".toml", "--resume", "sample/final.state", "--out", name + ".run",
+                  "--quiet", "--replace")
+        self.tool("export", "sample/final.state", "--lammps", name, "--scene", name + ".toml")
+        return self.read(f"{name}/in.{name}")
+
+    def rows(self, name, stage):
+        """Of tangency-dem's history, of a stage."""
+        rows = csv.DictReader(self.read(name + ".run/history.csv").splitlines())
+        return [row for row in rows if row["stage"] == stage]
+
+    def thermo(self, printed):
+        """The rows that LAMMPS printed, by the names of its columns."""
+        names, rows = [], []
+        for line in printed.splitlines():
+            words = line.split()
+            if words[:1] == ["Step"]:
+                names = words
+            elif names and len(words) == len(names) and re.fullmatch(r"[-+.0-9e ]+", line.strip()):
+                rows.append(dict(zip(names, map(float, words))))
+        return rows
+
+    def compare(self, name, ranks, bounds, suffix=""):
+        there = self.tool("particles", f"{name}.run/final.state")
+        here = self.tool("import", f"{name}/{name}.end{suffix}.data")
+        for names, bound in bounds.items():
+            a, b = columns(here, names), columns(there, names)
+            if names == "qw qx qy qz":
+                a *= np.sign((a * b).sum(axis=1))[:, None]
+            if names == "x y z":
+                edges = self.edges(f"{name}/{name}.end{suffix}.data")
+                a, b = (np.linalg.solve(edges, v.T).T for v in (a, b))
+                a -= np.round(a - b)
+            near(f"{name} on {ranks} ranks, {names}", a, b, bound)
+
+    # The checks.
+
+    def move(self):
+        stage = ('kind = "servo"\nduration = 2000\ndamping = 0.1\n'
+                 "strain_rate = [0.01, 0.01, 0.01]\n")
+        script = self.both("move", stage)
+        for ranks in (1, 2):
+            rows = self.thermo(self.in_folder("move", "in.move", ranks))
+            last = self.rows("move", "servo")[-1]
+            here = [rows[-1][f"c_push[{k}]"] for k in range(1, 7)]
+            near(f"move on {ranks} ranks, stresses", here,
+                 [float(last[column]) for column in STRESSES.split()], 1e-9)
+            near(f"move on {ranks} ranks, elastic energy", [rows[-1]["PotEng"]],
+                 [float(last["elastic_energy"])], 1e-9)
+            self.compare("move", ranks, {"x y z": 1e-9, "qw qx qy qz": 1e-9, "vx vy vz": 1e-5,
+                                         "wx wy wz": 1e-5})
+        return script
+
+    def hold(self):
+        script = self.both("hold", f'kind = "servo"\nduration = 7000\nmean_stress = {PRESS}\n'
+                                   "max_strain_rate = 0.05\n")
+        rows = self.thermo(self.in_folder("hold", "in.hold", 2))
+        last = self.rows("hold", "servo")[-1]
+        here = np.mean([rows[-1][f"c_push[{k}]"] for k in (1, 2, 3)]) / PRESS - 1.0
+        there = float(last["mean_stress"]) / PRESS - 1.0
+        print(f"hold: off by {here:.2g} of the mean stress, tangency-dem by {there:.2g}")
+        require(abs(here) <= 1e-6, "hold: more than 1e-6 off")
+        return script
+
+    def triaxial(self):
+        self.both("triaxial", 'kind = "shear"\naxial_strain_rate = 0.02\naxial_strain = 0.1\n'
+                              f"lateral_stress = {PRESS}\n")
+        rows = self.thermo(self.in_folder("triaxial", "in.triaxial", 2))
+        there = self.rows("triaxial", "shear")
+        half = len(there) // 2  # the servo settles before
+        off = {"tangency-lammps": [abs(row[f"c_push[{k}]"] / PRESS - 1.0)
+                                   for row in rows[len(rows) // 2:] for k in (1, 2)],
+               "tangency-dem": [abs(float(row[name]) / PRESS - 1.0) for row in there[half:]
+                                for name in ("s_xx", "s_yy")]}
+        for program, values in off.items():
+            print(f"triaxial: lateral stresses off by {max(values):.2g} at most and "
+                  f"{np.mean(values):.2g} in the mean, {program}")
+        require(max(off["tangency-lammps"]) <= 2.0 * max(off["tangency-dem"]),
+                "triaxial: lateral stresses are held worse")
+        axial = {float(row["cycle"]): float(row["s_zz"]) for row in there}
+        both = [(row["c_push[3]"], axial[row["Step"]]) for row in rows if row["Step"] in axial]
+        require(len(both) > 20, "triaxial: too few rows of the same steps")
+        near(f"triaxial: axial stress of {len(both)} steps", *np.array(both).T, 1e-6)
+
+    def ring(self):
+        self.both("ring", f'kind = "servo"\nduration = 4000\nplane_mean_stress = {PRESS}\n'
+                          "strain_rate = [0.0, 0.0, 0.01]\nmajor_direction = 20.0\n"
+                          "max_strain_rate = 0.05\n")
+        rows = self.thermo(self.in_folder("ring", "in.ring", 2))
+        last = rows[-1]
+        plane = (last["c_push[1]"] + last["c_push[2]"]) / 2.0 / PRESS - 1.0
+        angle = 0.5 * np.arctan2(2.0 * last["c_push[5]"], last["c_push[3]"] - last["c_push[1]"])
+        print(f"ring: plane mean off by {plane:.2g}, direction {np.degrees(angle):.4g} degrees")
+        require(abs(plane) <= 1e-2 and abs(np.degrees(angle) - 20.0) <= 1.0, "ring: not held")
+
+    def fabric(self):
+        self.both("fabric", 'kind = "servo"\nduration = 1\n')
+        head = self.read("fabric/in.fabric").split("# Stage")[0]
+        seen = json.loads(self.tool("micro", "sample/final.state", "--json", "-"))
+
+        def of(tensor):
+            return [tensor[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+
+        there = of(seen["fabric"]["second"])
+        for key in ("normal_force", "tangential_force", "branch_normal", "branch_tangential"):
+            there += of(seen[key]["second"])
+        there += [seen["f0"], seen["z0"], seen["contact_density"], seen["contacts"]]
+        last = list(csv.DictReader(self.read("sample/history.csv").splitlines()))[-1]
+        for ranks, newton in ((1, "on"), (2, "on"), (2, "off")):
+            names = " ".join(f"c_fabric[{k}]" for k in range(1, 35))
+            self.write("fabric/in.look", head.replace("newton on", "newton " + newton) +
+                       "compute fabric all tangency/fabric\nthermo_style custom step " + names +
+                       " c_balance[1] c_balance[2] c_balance[3] c_balance[7]\nrun 0\n")
+            row = self.thermo(self.in_folder("fabric", "in.look", ranks))[-1]
+            here = [row[f"c_fabric[{k}]"] for k in range(1, 35)]
+            what = f"on {ranks} ranks, newton {newton}"
+            # The tangential force of contacts without friction is rounding: its tensor is not held.
+            scale = np.r_[np.full(30, 1.0), np.abs(there[30:])]
+            keep = [k for k in range(34) if not 12 <= k < 18]
+            # tangency-dem's normals, of the standard accuracy, are within some 1e-8 of the true ones.
+            near("fabric " + what, 1.0 + (np.array(here) / scale)[keep],
+                 1.0 + (np.array(there) / scale)[keep], 1e-7)
+            near("balance " + what, [row[f"c_balance[{k}]"] for k in (1, 2, 7)],
+                 [float(last[name]) for name in ("contacts", "mean_normal_force",
+                                                 "mechanical_coordination")], 1e-7)
+            near("unbalanced " + what, [row["c_balance[3]"]], [float(last["inertial_fraction"])], 1e-6)
+
+    def wall(self):
+        """A scene of its own: bodies in front of a plane, with gravity, friction and restitution."""
+        self.write("wall.toml", WALL)
+        self.tool("run", "wall.toml", "--out", "wall.run", "--quiet", "--replace")
+        self.tool("export", "--lammps", "wall", "--scene", "wall.toml")
+        moved = columns(self.tool("particles", "wall.run/final.state"), "x y z")
+        start = columns(self.tool("import", "wall/wall.data"), "x y z")
+        require(np.abs(moved - start).max() > 0.05, "wall: nothing slides")
+        for ranks in (1, 2):
+            printed = self.in_folder("wall", "in.wall", ranks)
+            require("WARNING" not in printed, printed[-600:])
+            self.compare("wall", ranks, {"x y z": 1e-9, "qw qx qy qz": 1e-8, "vx vy vz": 1e-7,
+                                         "wx wy wz": 1e-7})
+        # Stopped in the slide and resumed on another number of ranks.
+        script = self.read("wall/in.wall")
+        steps = int(re.search("(?m)^run (.*)", script).group(1))
+        self.write("wall/in.first", re.sub("(?m)^run .*", f"run {steps // 2}\nwrite_restart half.restart",
+                                           script).split("unfix motion")[0])
+        self.in_folder("wall", "in.first", 2)
+        kept = [line for line in script.splitlines() if re.match(
+            "fix |group |neigh|comm_modify|timestep", line)]
+        self.write("wall/in.second", "read_restart half.restart\n" + "\n".join(kept) +
+                   f"\nrun {steps - steps // 2}\nwrite_data wall.end.resumed.data\n")
+        self.in_folder("wall", "in.second", 1)
+        self.compare("wall", "resumed", {"x y z": 1e-8, "vx vy vz": 1e-5}, ".resumed")
+
+    def restart(self):
+        script = self.hold()
+        whole = self.thermo(self.in_folder("hold", "in.hold", 1))[-1]
+        self.write("hold/in.first", script.replace("run 7000", "run 3500\nwrite_restart half.restart")
+                   .split("unfix motion")[0])
+        self.in_folder("hold", "in.first", 1)
+        kept = [line for line in script.splitlines() if re.match(
+            "fix |compute |thermo|neigh|comm_modify|timestep", line)]
+        self.write("hold/in.second", "read_restart half.restart\n" + "\n".join(kept) + "\nrun 3500\n")
+        resumed = self.thermo(self.in_folder("hold", "in.second", 2))[-1]
+        for column in ("PotEng", "c_push[1]", "c_push[2]", "c_push[3]", "Lx"):
+            near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
+
+
+CHECKS = ("move", "hold", "triaxial", "ring", "fabric", "wall", "restart")
+
+if __name__ == "__main__":
+    require(len(sys.argv) > 3, __doc__)
+    study = Study(*sys.argv[1:4])
+    for chosen in sys.argv[4:] or CHECKS:
+        getattr(study, chosen)()
