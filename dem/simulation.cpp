@@ -587,8 +587,12 @@ Observation Simulation::observe() const {
   seen.account = state_.energy;
   seen.boundary_stress =
       boundary_stress_of(state_.particles, state_.cell, state_.contacts, state_.list);
-  seen.energy_error = kinetic_energy_now() + seen.elastic_energy - state_.energy.sum();
+  seen.energy_error = energy_error();
   return seen;
+}
+
+double Simulation::energy_error() const {
+  return kinetic_energy_now() + state_.contacts.totals().energy - state_.energy.sum();
 }
 
 }  // namespace tangency::inline v0::dem

@@ -119,6 +119,9 @@ class Simulation {
   /// What the state is like now.
   Observation observe() const;
 
+  /// Kinetic and elastic energy now less what the account says: Observation::energy_error.
+  double energy_error() const;
+
   /// From now on cycles are added to a profile, which has to live as long; null: to none, which
   /// costs nothing.
   void record(Profile* profile) { profile_ = profile; }

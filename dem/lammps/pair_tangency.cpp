@@ -258,13 +258,13 @@ void PairTangency::for_each_contact(const std::function<void(const SeenContact&)
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
-      if (history_->firstflag[i][jj] == 0) continue;
       const int j = list->firstneigh[i][jj] & NEIGHMASK;
-      const bool i_is_a = atom->tag[i] < atom->tag[j];
-      if (!newton && j >= atom->nlocal && !i_is_a) continue;
+      const bool in_order = atom->tag[i] < atom->tag[j];
+      // Without newton's third law two ranks have it.
+      if (!newton && j >= atom->nlocal && !in_order) continue;
       const ContactRecord record = record_at(history_->firstvalue[i] + kRecordNumbers * jj);
       if (!record.touches()) continue;
-      look({i_is_a ? i : j, i_is_a ? j : i, record.normal, record.branch, record.force()});
+      look({in_order ? i : j, in_order ? j : i, record.normal, record.branch, record.force()});
     }
   }
 }

@@ -214,8 +214,9 @@ std::string escaped(const std::string& text) {
 std::string svg_of(const Chart& chart) {
   const Axes axes(chart);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(kWidth) +
-                    "\" height=\"" + pixels(kHeight) + "\" role=\"img\" aria-label=\"" +
-                    escaped(chart.title) + "\">\n";
+                    "\" height=\"" + pixels(kHeight) + "\" viewBox=\"0 0 " + pixels(kWidth) + " " +
+                    pixels(kHeight) + "\" role=\"img\" aria-label=\"" + escaped(chart.title) +
+                    "\">\n";
   svg += bands_of(chart, axes.x) + frame_of(chart, axes);
   double at_x = kLeft, at_y = kHeight - 22;
   for (std::size_t k = 0; k < chart.curves.size(); ++k) {

@@ -170,7 +170,7 @@ int export_script(const ExportWords& words) {
   if (!words.format.empty() || !words.out.empty())
     throw tables::UsageError("--lammps: without --format and --out");
   const Simulation run = simulation_of(
-      words.scene, words.state.empty() ? std::nullopt : std::optional<fs::path>(words.state));
+      words.scene, words.state.empty() ? std::nullopt : std::optional<fs::path>(words.state), true);
   std::string name = fs::path(words.scene).stem().string();
   for (char& c : name)  // LAMMPS divides words at blanks and reads $ as variables
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <deque>
 #include <fstream>
-#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -95,16 +94,6 @@ std::string xyz_of(const Simulation& simulation) {
   return text;
 }
 
-/// The text between `before` and `after` in a line, if both are there.
-std::optional<std::string> between(const std::string& line, const std::string& before,
-                                   const std::string& after) {
-  const std::size_t start = line.find(before);
-  if (start == line.npos) return std::nullopt;
-  const std::size_t end = line.find(after, start + before.size());
-  if (end == line.npos) return std::nullopt;
-  return line.substr(start + before.size(), end - start - before.size());
-}
-
 }  // namespace
 
 Frames::Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds,
@@ -156,13 +145,8 @@ std::string Frames::index_of(const Kind& kind) const {
 std::vector<VtkEntry> Frames::read_index(Kind& kind, std::int64_t last_cycle) const {
   std::vector<VtkEntry> later;
   std::ifstream in(directory_ / kind.index);
-  for (std::string line; std::getline(in, line);) {
-    const auto time = between(line, "timestep=\"", "\"");
-    const auto cycle = between(line, "file=\"frames/", kind.ending + "\"");
-    if (!time || !cycle) continue;
-    const VtkEntry entry{std::stoll(*cycle), std::stod(*time)};
+  for (const VtkEntry& entry : vtk_entries(in, "frames", kind.ending))
     (entry.cycle <= last_cycle ? kind.entries : later).push_back(entry);
-  }
   return later;
 }
 
@@ -177,9 +161,11 @@ void Frames::keep_xyz(std::int64_t last_cycle) {
     const auto cycle = between(line, " cycle=", " ");
     if (!cycle || std::stoll(*cycle) > last_cycle) break;
     frame += line + "\n";
-    for (long left = std::stol(count); left > 0 && std::getline(in, line); --left)
-      frame += line + "\n";
+    long left = std::stol(count);
+    for (; left > 0 && std::getline(in, line); --left) frame += line + "\n";
+    if (left > 0 || in.eof()) break;  // cut short
     kept += frame;
+    xyz_cycle_ = std::stoll(*cycle);
   }
   in.close();
   write_whole(part, kept);
@@ -201,15 +187,17 @@ void Frames::add_to(Kind& kind, const State& state, const std::string& file) {
 void Frames::add(const Simulation& simulation) {
   const State& state = simulation.state();
   auto& [particles, contacts, chains] = kinds_;
-  if (adds_contacts_ && !has(contacts, state.cycle)) {
+  if (adds_contacts_ && !has(chains, state.cycle)) {
     const Packing packing = packing_of(state, laws_of(simulation));
     write_whole(bonds_of(state.cycle), bonds_dump(state, packing));
-    add_to(contacts, state, contacts_vtp(state, packing));
+    if (!has(contacts, state.cycle)) add_to(contacts, state, contacts_vtp(state, packing));
     add_to(chains, state, chains_vtp(state, packing));
   }
-  if (!adds_ || has(particles, state.cycle)) return;
-  add_to(particles, state, particles_vtp(state));
+  if (!adds_) return;
+  if (!has(particles, state.cycle)) add_to(particles, state, particles_vtp(state));
+  if (xyz_cycle_ == state.cycle) return;
   write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
+  xyz_cycle_ = state.cycle;
 }
 
 void Frames::finish() {

@@ -35,7 +35,8 @@ class Frames {
   Frames(const std::filesystem::path& directory, std::int64_t last_cycle, bool adds,
          bool adds_contacts);
 
-  /// Adds one frame, if any are to be; a second one of the same cycle is left out.
+  /// Adds one frame, if any are to be; what is there of the same cycle is left out: a disk that was
+  /// full may have left a part.
   /// @throws WriteError
   void add(const Simulation& simulation);
 
@@ -62,7 +63,8 @@ class Frames {
 
   std::filesystem::path directory_;
   bool adds_, adds_contacts_;
-  tables::Descriptor xyz_;  // frames.xyz.part
+  tables::Descriptor xyz_;       // frames.xyz.part
+  std::int64_t xyz_cycle_ = -1;  ///< of its last whole frame
   std::array<Kind, 3> kinds_{{{"frames.pvd", ".vtp"},
                               {"contacts.pvd", ".contacts.vtp", true},
                               {"chains.pvd", ".chains.vtp"}}};

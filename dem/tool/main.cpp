@@ -144,6 +144,7 @@ More keys of summary.json:
   instruction_set, reproducible
                         that of the processor's which the run used, on which last bits depend;
                         and whether --reproducible was given
+  verified              with --verify: what was checked in this process, and what was found
   profile               with --profile: seconds of each phase, counts of pairs a cycle, builds
                         of the neighbour list, and the most memory the run has had, bytes
   unanswered_contacts   with contacts = "trace": of final.state, those that the published scheme
@@ -175,6 +176,7 @@ Exit status:
   0          the run is complete
   1          a stage did not reach its criterion within max_cycles, the cell became too thin for
              its particles, or the run blew up
+  3          --verify found a fault: fault.state is the state, what was saved before stays
   2          the scene, the state or the command line was refused, and earlier results are
              untouched; or a file could not be written
   128 + N    signal N stopped it: 129 HUP, 130 INT, 143 TERM
@@ -189,7 +191,9 @@ Prints a line a stage with the values at its end (or at the last row so far):
 Writes DIR/report.html, one page that needs no network: for each stage in which the cell changes
 its shape stresses, friction angle, volumetric strain and coordination against axial strain; for
 the whole run, stages shaded, stress, coordination and porosity, strains, inertial fraction and
-the account of energy against time; and the numbers of summary.json.
+the account of energy against time; the numbers of summary.json; and the sample in space, of the
+frames that are there (24 MB of them at most, evenly spread): drag to turn it, click on a particle
+for its values, colour it by any column, draw force chains, cut it, play its frames.
 
 Exit status:
   0    done
@@ -220,6 +224,8 @@ void add_run(tables::Program& program) {
                "Print the time of the cycles by phase after the run");
   command.flag("--reproducible", words->options.reproducible,
                "Compute without fused multiply-adds: one state_hash on every x86-64 processor");
+  command.flag("--verify", words->options.verify,
+               "Check every cycle: contacts exactly, neighbours, energy, history; a fault ends it");
   command.footer(kRunHelp);
   command.flag("--quiet", words->options.quiet, "No progress");
   command.runs([words] {

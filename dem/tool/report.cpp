@@ -16,6 +16,7 @@
 #include <tangency/dem/tool/results.hpp>
 #include <tangency/dem/tool/run.hpp>
 #include <tangency/dem/tool/summary.hpp>
+#include <tangency/dem/tool/view/sample_view.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
@@ -26,7 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPageHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>tangency-dem report</title><style>
+<html lang="en"><head><meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1"><title>tangency-dem report</title><style>
 body { font: 15px/1.45 sans-serif; margin: 1.5em auto; max-width: 112em; padding: 0 1em; color: #222; }
 h2 { margin: 1.2em 0 .3em; }
 table { border-collapse: collapse; font-size: 13px; }
@@ -34,11 +36,13 @@ th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #ddd; w
 th:first-child, td:first-child { text-align: left; }
 .parts { display: flex; gap: 2em; align-items: flex-start; }
 @media (max-width: 70em) { .parts { flex-wrap: wrap; } }
+.parts > * { min-width: 0; max-width: 100%; }
 .charts { display: flex; flex-wrap: wrap; gap: 1em; flex: 1 1 620px; }
+.wide { overflow-x: auto; }
+svg { max-width: 100%; height: auto; }
 svg text { font: 12px sans-serif; fill: #222; }
 svg text.title { font-weight: bold; font-size: 13px; }
 svg text.stage { fill: #667; font-size: 11px; }
-</style></head><body>
 )";
 
 /// How far a cell's shape may be off a uniform strain before a stage counts as one that shears.
@@ -179,14 +183,14 @@ std::string text_of(const std::vector<Line>& lines) {
 }
 
 std::string table_of(const std::vector<Line>& lines) {
-  std::string text = "<table><tr>";
+  std::string text = "<div class=\"wide\"><table><tr>";
   for (const Headed& head : kHeads)
     text += "<th>" + head.name + (head.unit.empty() ? "" : "<br>" + head.unit) + "</th>";
   for (const Line& line : lines) {
     text += "</tr>\n<tr>";
     for (const std::string& cell : line) text += "<td>" + escaped(cell) + "</td>";
   }
-  return text + "</tr></table>\n";
+  return text + "</tr></table></div>\n";
 }
 
 std::string summary_table(const SummaryLines& summary) {
@@ -254,15 +258,19 @@ std::string time_charts(const Run& run) {
 
 std::string page_of(const Run& run, const fs::path& directory) {
   std::string page = kPageHead;
+  page.append(view_style()) += "</style></head><body>\n";
   page += "<h1>" + escaped(directory.string()) + "</h1>\n<p>";
   page += run.summary() ? "A complete run." : "A run that is not complete.";
   page += " Compression is positive in stress and axial strain.</p>\n" + table_of(run.lines());
+  page += sample_view(directory);
   page += "<div class=\"parts\"><div class=\"charts\">\n";
   for (const StageRows& stage : run.stages())
     if (run.shears(stage)) page += shear_charts(run, stage);
   page += time_charts(run) + "</div>\n";
-  if (run.summary()) page += "<div><h2>Summary</h2>\n" + summary_table(*run.summary()) + "</div>";
-  return page + "</div></body></html>\n";
+  if (run.summary())
+    page += "<div class=\"wide\"><h2>Summary</h2>\n" + summary_table(*run.summary()) + "</div>";
+  page += "</div>\n<script>\n\"use strict\";\n";
+  return page.append(view_script()) + "</script></body></html>\n";
 }
 
 }  // namespace

@@ -87,8 +87,9 @@ micromechanics::Classes classes_of(const OutputIntervals& output) {
 
 /// The first result of a run in a directory.
 std::optional<std::string> result_in(const fs::path& directory) {
-  for (const char* name : {"history.csv", "summary.json", "final.state", "checkpoint.state",
-                           "frames.pvd", "frames.xyz", "frames.xyz.part", "micro.csv"})
+  for (const char* name :
+       {"history.csv", "summary.json", "final.state", "checkpoint.state", "fault.state",
+        "frames.pvd", "frames.xyz", "frames.xyz.part", "micro.csv"})
     if (fs::exists(directory / name)) return name;
   for (const auto& file : {first_file(directory / "contacts", cycle_of_contact_table),
                            first_file(directory / "states", cycle_of_kept_state)})
@@ -166,7 +167,7 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
   }
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
   if (carries_on_) return;
-  for (const char* name : {"checkpoint.state", "history.csv", "micro.csv"})
+  for (const char* name : {"checkpoint.state", "fault.state", "history.csv", "micro.csv"})
     fs::remove(directory_ / name);
 }
 

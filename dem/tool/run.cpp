@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,7 +21,9 @@
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/results.hpp>
+#include <tangency/dem/verification.hpp>
 #include <tangency/dem/whole_file.hpp>
+#include <tangency/dem/work_done.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/tables/output_file.hpp>
 #include <tangency/geometry/tables/progress.hpp>
@@ -94,15 +97,17 @@ std::string short_text(double x) { return tables::rounded_text(x, 3); }
 
 class Run {
  public:
-  Run(Simulation simulation, const RunOptions& options)
+  /// @param verification  that has checked the simulation as it is; null: nothing is checked
+  Run(Simulation simulation, const RunOptions& options, Verification* verification)
       : simulation_(std::move(simulation)),
+        verification_(verification),
         out_(options.out),
         results_(options, simulation_),
         progress_(options.quiet ? tables::Progress::Shown::nothing
                                 : tables::Progress::Shown::everywhere) {
     cost_.threads = threads();
     if (options.profile) simulation_.record(&cost_.profile.emplace());
-    note_work();
+    work_.note(simulation_.state().energy);
   }
 
   int execute() {
@@ -142,8 +147,10 @@ class Run {
     } catch (const Diverged& error) {
       warn(error.what());
       results_.finish_without_state();
-      print_profile();
+      print_costs();
       return not_reached;
+    } catch (const VerificationFault& fault) {
+      return stop_at(fault);
     } catch (const WriteError&) {
       save_what_can_be();
       throw;
@@ -151,8 +158,9 @@ class Run {
     progress_.show(1.0, where());
     progress_.finish();
     cost_.wall_seconds = seconds_since(start_);
+    if (verification_ != nullptr) cost_.verified = verification_->verified();
     results_.finish(simulation_, cost_);
-    print_profile();
+    print_costs();
     return success;
   }
 
@@ -163,12 +171,13 @@ class Run {
       simulation_.step();
     }
     ++cost_.cycles;
-    note_work();
+    work_.note(simulation_.state().energy);
+    if (verification_ != nullptr) verification_->check(simulation_);
     cost_.listed_pair_cycles += static_cast<double>(simulation_.state().list.pairs().size());
 
     const OutputIntervals& every = simulation_.scene().output;
     const std::int64_t now = simulation_.state().cycle;
-    if (now % every.history == 0) results_.add_row(simulation_);
+    if (now % every.history == 0) add_row();
     if (every.micro > 0 && now % every.micro == 0) results_.add_micro(simulation_);
     if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
     if (every.contacts > 0 && now % every.contacts == 0) results_.add_contacts(simulation_);
@@ -183,12 +192,10 @@ class Run {
     if (progress_.is_due()) show_progress();
   }
 
-  void note_work() {
-    const EnergyAccount& now = simulation_.state().energy;
-    for (const auto work :
-         {&EnergyAccount::start, &EnergyAccount::boundary, &EnergyAccount::gravity,
-          &EnergyAccount::growth, &EnergyAccount::branch})
-      work_.*work = std::max(work_.*work, std::abs(now.*work));
+  /// A row of the history, of a cycle.
+  void add_row() {
+    if (verification_ != nullptr) verification_->recount(simulation_, true);
+    results_.add_row(simulation_);
   }
 
   void show_progress() {
@@ -271,8 +278,7 @@ class Run {
            short_text(kSoundTimeStepRatio) +
            ": what it computed may be wrong without looking it; " +
            advice_on_step(simulation_, 1.0 / step));
-    const double through =
-        work_.start + work_.boundary + work_.gravity + work_.growth + work_.branch;
+    const double through = work_.sum();
     // An error of second order in the step; halved at least, since what is large may not be so yet.
     const double error = std::abs(seen.energy_error) / through;
     if (std::abs(seen.energy_error) > kSoundEnergyError * through)
@@ -364,8 +370,20 @@ class Run {
     if (simulation_.scene().output.micro > 0) results_.add_micro(simulation_);
     results_.add_contacts(simulation_);
     results_.finish_incomplete(simulation_);
-    print_profile();
+    print_costs();
     return not_reached;
+  }
+
+  /// What was written before stays: a checkpoint of a state that was found wrong would take the
+  /// place of a good one.
+  int stop_at(const VerificationFault& fault) {
+    const std::filesystem::path state = out_ / "fault.state";
+    warn(std::string("fault: ") + fault.what() + "; the state is in " + state.string() +
+         ", checkpoint.state stays as it was");
+    save_state(simulation_.state(), state);
+    results_.finish_without_state();
+    print_costs();
+    return fault_found;
   }
 
   /// A frame may have found the disk full, and a state still have room.
@@ -380,11 +398,12 @@ class Run {
     results_.finish_incomplete(simulation_);
     warn("interrupted in cycle " + std::to_string(simulation_.state().cycle) +
          "; continue with --resume " + (out_ / "checkpoint.state").string());
-    print_profile();
+    print_costs();
     return 128 + caught_signal;
   }
 
-  void print_profile() const {
+  void print_costs() {
+    if (verification_ != nullptr) warn(text_of(verification_->verified()));
     if (!cost_.profile) return;
     tables::OutputFile("-").write(table_of(*cost_.profile, cost_.cycle_seconds));
   }
@@ -397,13 +416,12 @@ class Run {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
   Simulation simulation_;
+  Verification* verification_;
   std::filesystem::path out_;
   Results results_;
   tables::Progress progress_;
   RunCost cost_;
-  /// The largest size of each work, from where the run goes on: what goes to and fro comes to
-  /// nothing in the end.
-  EnergyAccount work_;
+  WorkDone work_;  ///< from where the run goes on
 };
 
 /// Placing many particles takes a while, too.
@@ -446,7 +464,18 @@ int run(const RunOptions& options) {
               << std::endl;
     return 128 + caught_signal;
   }
-  return Run(std::move(simulation), options).execute();
+  std::optional<Verification> verification;
+  if (options.verify) {
+    try {
+      verification.emplace().check(simulation);
+      verification->recount(simulation, false);
+    } catch (const VerificationFault& fault) {
+      std::cerr << "tangency-dem: fault before the first cycle: " << fault.what()
+                << "; nothing was written" << std::endl;
+      return fault_found;
+    }
+  }
+  return Run(std::move(simulation), options, verification ? &*verification : nullptr).execute();
 }
 
 }  // namespace tangency::inline v0::dem

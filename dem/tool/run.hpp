@@ -17,6 +17,7 @@ namespace tangency::inline v0::dem {
 enum ExitStatus : int {
   success = 0,
   not_reached = 1,  ///< a stage did not end, the cell became too thin, or the run blew up
+  fault_found = 3,  ///< a check of --verify and the run disagree
 };
 
 /// Runs a scene; messages go to standard error.
@@ -25,9 +26,9 @@ enum ExitStatus : int {
 int run(const RunOptions& options);
 
 /// The run of a scene, from a state on, or from where the scene places its bodies.
-/// @param quiet  does it say nothing while it places them?
+/// @param quiet  no progress to standard error
 /// @throws SceneError, StateError  where they are refused, or do not belong together
 Simulation simulation_of(const std::filesystem::path& scene,
-                         const std::optional<std::filesystem::path>& state, bool quiet = true);
+                         const std::optional<std::filesystem::path>& state, bool quiet);
 
 }  // namespace tangency::inline v0::dem

@@ -17,6 +17,7 @@ struct RunOptions {
   bool replace = false;       ///< take away the results of another run
   bool profile = false;       ///< say where the time of the cycles went
   bool reproducible = false;  ///< the same bits on every machine
+  bool verify = false;        ///< check every cycle (dem/verification.hpp)
 };
 
 }  // namespace tangency::inline v0::dem

@@ -116,6 +116,9 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
   if (cost.profile)
     for (const auto& [name, value] : entries_of(*cost.profile))
       std::visit([&, &key = name](auto number) { summary["profile"][key] = number; }, value);
+  if (cost.verified)
+    for (const auto& [name, count] : entries_of(*cost.verified))
+      std::visit([&, &key = name](auto number) { summary["verified"][key] = number; }, count);
   add_points(summary, history, simulation.scene(), directory / "states");
   write_whole(directory / "summary.json", summary.dump(2) + "\n");
 }

@@ -13,6 +13,7 @@
 
 #include <tangency/dem/profile.hpp>
 #include <tangency/dem/simulation.hpp>
+#include <tangency/dem/verification.hpp>
 
 namespace tangency::inline v0::dem {
 
@@ -24,7 +25,8 @@ struct RunCost {
   std::int64_t cycles = 0;          ///< of this process
   double listed_pair_cycles = 0.0;  ///< sum over this run's cycles of the pairs listed
   int threads = 1;
-  std::optional<Profile> profile;  ///< of the cycles of this process
+  std::optional<Profile> profile;    ///< of the cycles of this process
+  std::optional<Verified> verified;  ///< by --verify, of this process
 };
 
 /// Of the run whose history is in the directory.

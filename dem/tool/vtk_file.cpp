@@ -145,4 +145,24 @@ std::string vtk_collection(std::span<const VtkEntry> entries, const std::string&
   return text + "</Collection>\n</VTKFile>\n";
 }
 
+std::optional<std::string> between(const std::string& line, const std::string& before,
+                                   const std::string& after) {
+  const std::size_t start = line.find(before);
+  if (start == line.npos) return std::nullopt;
+  const std::size_t end = line.find(after, start + before.size());
+  if (end == line.npos) return std::nullopt;
+  return line.substr(start + before.size(), end - start - before.size());
+}
+
+std::vector<VtkEntry> vtk_entries(std::istream& index, const std::string& folder,
+                                  const std::string& ending) {
+  std::vector<VtkEntry> entries;
+  for (std::string line; std::getline(index, line);) {
+    const auto time = between(line, "timestep=\"", "\"");
+    const auto cycle = between(line, "file=\"" + folder + "/", ending + "\"");
+    if (time && cycle) entries.push_back({std::stoll(*cycle), std::stod(*time)});
+  }
+  return entries;
+}
+
 }  // namespace tangency::inline v0::dem

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <istream>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,5 +64,12 @@ struct VtkEntry {
 /// @param ending  with its point
 std::string vtk_collection(std::span<const VtkEntry> entries, const std::string& folder,
                            const std::string& ending);
+/// The entries of such an index; a line that is none is passed over.
+std::vector<VtkEntry> vtk_entries(std::istream& index, const std::string& folder,
+                                  const std::string& ending);
+
+/// The text between `before` and `after` in a line, if both are there.
+std::optional<std::string> between(const std::string& line, const std::string& before,
+                                   const std::string& after);
 
 }  // namespace tangency::inline v0::dem

@@ -2,12 +2,17 @@
 #include <tangency/geometry/tables/command_line.hpp>
 
 #include <CLI/CLI.hpp>
+#include <cxxabi.h>
+#include <errno.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -16,6 +21,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 
 #include <tangency/geometry/tables/command_text.hpp>
@@ -31,6 +37,32 @@ int complain(const std::string& message) {
   std::cerr << message << std::endl;
   return kRefused;
 }
+
+/// One line, without an allocation.
+int complain_of_memory(const char* name) noexcept {
+  for (const char* part : {name, ": out of memory\n"}) {
+    const ssize_t written = ::write(STDERR_FILENO, part, std::strlen(part));
+    static_cast<void>(written);  // nobody is left to tell
+  }
+  return kRefused;
+}
+
+std::terminate_handler before = nullptr;
+
+/// Where memory ends in a call that may not throw, before a program has begun, or while it tells of
+/// something else, it ends as where it ends elsewhere.
+[[noreturn]] void end_without_memory() {
+  const std::type_info* const thrown = abi::__cxa_current_exception_type();
+  if (thrown != nullptr && *thrown == typeid(std::bad_alloc))
+    ::_exit(complain_of_memory(program_invocation_short_name));
+  before();
+  std::abort();
+}
+
+[[maybe_unused]] const bool is_set = [] {
+  before = std::set_terminate(end_without_memory);
+  return true;
+}();
 
 /// Letters to add, drop, replace or exchange with their neighbour to make one word of the other.
 std::size_t slips_between(std::string_view a, std::string_view b) {
@@ -246,7 +278,7 @@ int Program::run(int argc, const char* const* argv) {
     return parse_and_run(argc, argv);
   } catch (const ReaderHasGone&) {
   } catch (const std::bad_alloc&) {
-    return complain(own_->get_name() + ": out of memory");
+    return complain_of_memory(own_->get_name().c_str());
   } catch (const std::filesystem::filesystem_error& error) {
     return complain(own_->get_name() + ": " + error.what());
   } catch (const std::exception& error) {

@@ -6,6 +6,8 @@
 /// (2) Help and the version go to standard output, whose full disk is an error.
 /// (3) Where the reader of standard output has gone, as of `| head`, the program ends as if SIGPIPE
 ///     had ended it.
+/// (4) Where memory ends, in whatever call, a line says so and the status is 2. GMP says it in a
+///     line of its own and aborts.
 #pragma once
 
 #include <deque>

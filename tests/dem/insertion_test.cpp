@@ -47,8 +47,8 @@ std::size_t pairs_that_meet(const Particles& particles, const Cell& cell) {
     if (cell.dimensions == 2 && pair.image[2] != 0) continue;
     meet += relation(body(particles, a), body(particles, b), branch_vector(pair, particles, cell))
                         .relation == Relation::separate
-                ? 0
-                : 1;
+                ? 0U
+                : 1U;
   }
   return meet;
 }
@@ -92,7 +92,7 @@ TEST(Insertion, KeepsBodiesWithinWallsByTheirExtentAndNotByTheirLargestAxis) {
           Vec3(rotation.row(k).transpose().cwiseProduct(particles.semi_axes[i])).norm();
       EXPECT_GE(particles.position[i][k], extent);
       EXPECT_LE(particles.position[i][k], cell.edges(k, k) - extent);
-      nearer += particles.position[i][k] < particles.semi_axes[i][0] ? 1 : 0;
+      nearer += particles.position[i][k] < particles.semi_axes[i][0] ? 1U : 0U;
     }
   }
   EXPECT_GT(nearer, 0u) << "a body lies nearer to a wall than it is long";

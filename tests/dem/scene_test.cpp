@@ -270,7 +270,7 @@ TEST(Scene, ThatIsNoTomlIsRefusedWithItsLine) {
 
 TEST(Scene, PassesItsOwnTableOfKeys) {
   for (const char* name : {"assembly-27", "assembly-125", "assembly-1000", "plane-1000", "impact",
-                           "slope", "settle-1000"})
+                           "slope", "settle-1000", "packing-1000"})
     EXPECT_NO_THROW(load_scene(std::string(TANGENCY_SCENES) + "/" + name + ".toml")) << name;
 }
 

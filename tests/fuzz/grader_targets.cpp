@@ -126,6 +126,10 @@ void run_truth(Bytes input) {
     }
     require(normals <= truth.maximisers.size() && neighbours <= truth.neighbours.size(), "truth",
             "normals and neighbours");
+    constexpr int kMostEdges = 1000000;
+    for (const TrueNeighbour& one : truth.neighbours)
+      for (const int edges : one.image)
+        require(edges >= -kMostEdges && edges <= kMostEdges, "truth", "an image");
     // The truth as answers to itself.
     hold_grade("truth", truth, grade(truth, named(text), Demands()));
     count("read");

@@ -63,6 +63,7 @@ int LLVMFuzzerInitialize(int*, char***) {
   chosen();
   if (const std::string folder = environment("TANGENCY_FUZZ_SEEDS"); !folder.empty())
     write_seeds(folder);
+  counts();  // made before, so that they are there when they are written
   if (!environment("TANGENCY_FUZZ_COUNTS").empty()) std::atexit(write_counts);
   return 0;
 }

@@ -12,7 +12,7 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
-- restart:  hold, stopped half way and resumed on another number of ranks
+- restart:  an axial compression, stopped half way and resumed on another number of ranks
 Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
 """
 import csv
@@ -247,15 +247,21 @@ class Study(Check):
         self.compare("wall", "resumed", {"x y z": 1e-8, "vx vy vz": 1e-5}, ".resumed")
 
     def restart(self):
-        script = self.hold()
-        whole = self.thermo(self.in_folder("hold", "in.hold", 1))[-1]
-        self.write("hold/in.first", script.replace("run 7000", "run 3500\nwrite_restart half.restart")
+        self.both("again", 'kind = "shear"\naxial_strain_rate = 0.02\naxial_strain = 0.1\n'
+                           f"lateral_stress = {PRESS}\n")
+        script = re.sub("(?m)^(variable (height|first|ended)|fix end|if|unfix end).*\n", "",
+                        self.read("again/in.again"))
+        run = re.compile("(?m)^run .*")
+        self.write("again/in.whole", run.sub("run 1500", script))
+        whole = self.thermo(self.in_folder("again", "in.whole", 1))[-1]
+        self.write("again/in.first", run.sub("run 700\nwrite_restart half.restart", script)
                    .split("unfix motion")[0])
-        self.in_folder("hold", "in.first", 1)
+        self.in_folder("again", "in.first", 1)
         kept = [line for line in script.splitlines() if re.match(
             "fix |compute |thermo|neigh|comm_modify|timestep", line)]
-        self.write("hold/in.second", "read_restart half.restart\n" + "\n".join(kept) + "\nrun 3500\n")
-        resumed = self.thermo(self.in_folder("hold", "in.second", 2))[-1]
+        self.write("again/in.second", "read_restart half.restart\n" + "\n".join(kept) + "\nrun 800\n")
+        resumed = self.thermo(self.in_folder("again", "in.second", 2))[-1]
+        require(resumed["Step"] == whole["Step"], "restart: other steps")
         for column in ("PotEng", "c_push[1]", "c_push[2]", "c_push[3]", "Lx"):
             near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
 

@@ -317,7 +317,9 @@ class NeighbourReader {
     if (!again) row.first_neighbour = table_.neighbours.size();
     if (line.text(j_).empty()) return;
     TrueNeighbour one{whole(line, j_), {}};
-    for (std::size_t k = 0; k < 3; ++k) one.image[k] = static_cast<int>(line.number(image_[k]));
+    for (std::size_t k = 0; k < 3; ++k) one.image[k] = edges(line, image_[k]);
+    if (again && row.neighbours == 0)
+      throw line.error(j_, "the first line of this row says that it has no neighbour");
     if (again && !(table_.neighbours.back() < one))
       throw line.error(j_, "neighbours must be in order");
     table_.neighbours.push_back(one);
@@ -331,6 +333,12 @@ class NeighbourReader {
     if (value >= 0 && value < kMost && value == std::floor(value))
       return static_cast<std::size_t>(value);
     throw line.error(column, "this must be the number of a body");
+  }
+  static int edges(const RowCursor& line, Column column) {
+    constexpr double kMost = 1e6;  // as of answers: grade.cpp
+    const double value = line.number(column);
+    if (std::abs(value) <= kMost && value == std::floor(value)) return static_cast<int>(value);
+    throw line.error(column, "an image is given by whole numbers");
   }
 
   TruthTable& table_;
