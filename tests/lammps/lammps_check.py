@@ -11,6 +11,7 @@ program with 1 where a bound is passed. Programs of MPI run with as many ranks a
 number of cores. Packages: .ci/setup lammps
 """
 import csv
+import json
 import os
 import subprocess
 import sys
@@ -31,15 +32,28 @@ neighbor {skin} bin
 read_data sample.data
 """
 PAIR = """pair_style tangency {style}
-pair_coeff * * hooke 1.5e10 {law}
+pair_coeff * * {law}
 """
 RANKS = ((1, "on"), (2, "on"), (4, "on"), (1, "off"), (4, "off"))
-LINEAR = "tangential linear 1.5e10 0.5"
+LINEAR = "hooke 1.5e10 tangential linear 1.5e10 0.5"
+HERTZ = """
+[contact]
+law = "hertz"
+young_modulus = 1e10
+poisson_ratio = 0.25
+friction_coefficient = 0.5
+"""
 CONTACT = """
 [contact]
 normal_stiffness = 1.5e10
 friction_coefficient = 0.5
 """
+# Laws as a scene and as pair_coeff have them.
+LAWS = {
+    "linear": (CONTACT, LINEAR),
+    "restitution": (CONTACT + "restitution = 0.5\n", LINEAR + " restitution 0.5"),
+    "hertz": (HERTZ, "hertz/material 1e10 0.25 tangential mindlin 0.5"),
+}
 OUTPUT = """thermo_style custom step pe ke pxx pyy pzz pxy pxz pyz
 thermo_modify format float %.17g norm no
 thermo {every}
@@ -140,7 +154,11 @@ class Run:
         self.atoms = dict(zip(names, values.T))
 
     def stress(self):
-        return np.array([self.last[name] for name in ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")])
+        """By contacts and velocities; where a script has asked for it, by contacts alone."""
+        names = ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")
+        if "c_push[1]" in self.last:
+            names = [f"c_push[{k}]" for k in range(1, 7)]
+        return np.array([self.last[name] for name in names])
 
     def forces(self):
         return columns(self.atoms, "fx fy fz")
@@ -166,11 +184,11 @@ class Check:
         require(done.returncode == 0, f"{' '.join(words)}: {done.stderr}")
         return done.stdout
 
-    def simulate(self, name, stages):
+    def simulate(self, name, stages, contact=CONTACT):
         """Places the sample's bodies and goes through stages; the path of the final state."""
         self.tell("import", "sample.data", "--out", f"{name}.csv", "--scene", f"{name}.toml")
         with open(os.path.join(self.folder, f"{name}.toml"), "a", encoding="ascii") as file:
-            file.write(CONTACT + stages)
+            file.write(contact + stages)
         self.tell("run", f"{name}.toml", "--out", name, "--quiet", "--replace")
         return os.path.join(name, "final.state")
 
@@ -248,6 +266,39 @@ class Check:
         v = columns(self.bodies, "vx vy vz")
         all_of_it = np.einsum("k,ki,kj->ij", mass, v, v) / volume
         return all_of_it[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+
+    def check_trajectories(self):
+        """2000 strained steps by each law end where those of the simulator end."""
+        for law in LAWS:
+            self.trajectory(law, RANKS if law == "linear" else RANKS[:2])
+
+    def trajectory(self, law, all_ranks):
+        stage = '[[stage]]\nkind = "servo"\nduration = 2000\nstrain_rate = [0.01, 0.01, 0.01]\n'
+        contact, coefficients = LAWS[law]
+        state = self.simulate("strained", stage, contact)
+        with open(os.path.join(self.folder, "strained", "summary.json"), encoding="ascii") as file:
+            summary = json.load(file)
+        c, count = table(self.tell("contacts", state)), len(self.bodies["id"])
+        force = np.zeros((count, 3))
+        on_b = columns(c, "fx fy fz")
+        np.add.at(force, c["a"].astype(int), -on_b)
+        np.add.at(force, c["b"].astype(int), on_b)
+        stress = np.array([summary[name] for name in ("s_xx", "s_yy", "s_zz", "s_xy", "s_zx", "s_yz")])
+        # Time step, strain and law of motion as the simulator's own export has them.
+        self.tell("export", "--lammps", "script", "--scene", "strained.toml")
+        with open(os.path.join(self.folder, "script", "in.strained"), encoding="ascii") as file:
+            script = file.read()
+        text = script[script.rindex("timestep "):script.index("run 2000")]
+        text = ("compute push all pressure NULL virial\n" +
+                "thermo_style custom step pe ke c_push[1] c_push[2] c_push[3] c_push[4] c_push[5] c_push[6]\n" +
+                "thermo_modify format float %.17g norm no\n" + text + "run 2000\n")
+        for ranks, newton in all_ranks:
+            run = self.lammps("strained", text, ranks, newton=newton, law=coefficients,
+                              style="accuracy standard")
+            what = f"{law}: 2000 steps at -0.01/s beside tangency-dem, {ranks} ranks, newton {newton}"
+            within(f"{what}: energy", abs(run.last["PotEng"] / summary["elastic_energy"] - 1.0), 1e-11)
+            within(f"{what}: stress", off(run.stress(), stress), 1e-9)
+            within(f"{what}: forces", off(run.forces(), force), 1e-7)
 
     def check_ranks(self):
         """A strained sample does the same on any number of ranks, with newton on and off."""
@@ -338,7 +389,7 @@ class Check:
         # fix deform has moved the box since the last ones, and fix langevin damps other velocities.
         first = STRAIN + "run 300\nunfix strain\nunfix damp\n"
         move = "fix move all nve/asphere\ntimestep 0.002\n"
-        for law in (LINEAR, LINEAR + " restitution 0.5"):
+        for name, (_, law) in LAWS.items():
             whole = self.lammps("whole", first + "run 700\n", law=law)
             for before, after in ((1, 1), (1, 2), (4, 1)):
                 text = first + "run 200\nwrite_restart half.restart\n"
@@ -349,7 +400,7 @@ class Check:
                 require(done.returncode == 0, f"on: {done.stdout[-400:]}")
                 run = Run(self.folder, "on")
                 require(max(run.rows) == 1000, "the run that goes on ends at step 1000")
-                what = f"{law}: restart from {before} to {after} ranks"
+                what = f"{name}: restart from {before} to {after} ranks"
                 within(f"{what}: stress", off(run.stress(), whole.stress()), 1e-10)
                 within(f"{what}: forces", off(run.forces(), whole.forces()), 1e-7)
 
