@@ -11,7 +11,7 @@
 namespace tangency::inline v0::dem {
 namespace {
 
-/// Steps of the additive sequence that fills a square most evenly: 1/g and 1/g^2 of the root g of
+/// Steps of the additive sequence that fills a square evenly: 1/g and 1/g^2 of the root g of
 /// g^3 = g + 1 [Roberts2018].
 constexpr double kFirstStep = 0.7548776662466927, kSecondStep = 0.5698402909980532;
 
@@ -93,7 +93,7 @@ std::vector<Shape> shapes_of(const BodySizes& sizes, const BodyRatios& ratios, s
 
 double normal_quantile(double share) {
   // Newton's method on the share below z, which is 1/2 + f (z + z^3/3 + z^5/15 + ...), f the
-  // density [Marsaglia2004, eq. 1]. From 0 it goes up to the root of a share above 1/2 without
+  // density [Marsaglia2004]. From 0 it goes up to the root of a share above 1/2 without
   // passing it.
   const bool low = share < 0.5;
   const double wanted = std::max(share, 1.0 - share) - 0.5;

@@ -183,7 +183,7 @@ class Contacts {
   struct Borne {
     double force = 0.0, stiffness = 0.0;  ///< sums
   };
-  /// @param body  of the wall in the pairs of the list (Pair)
+  /// By the number that the wall has as a body in the pairs of the list (Pair).
   Borne borne_by(std::int32_t body, const NeighbourList& list) const;
 
   /// Of the contacts as they are, those of two ellipsoids that the published scheme has no answer

@@ -42,8 +42,8 @@ struct Fire {
 
   /// What a cycle does to velocities: v <- keep v + push a.
   struct Turn {
-    double keep = 1.0, push = 0.0;
-    /// The energy that it takes. @param before  the products of all particles
+    double keep = 1.0, push = 0.0;  ///< factors of velocity and of acceleration
+    /// The energy that it takes, by the products of all particles before it.
     double taken(const detail::InertiaProducts& before, double dt) const;
   };
   /// The next cycle's, by the products of all particles: what steer() does, for who keeps the

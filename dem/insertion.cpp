@@ -213,6 +213,32 @@ class Insertion {
   Particles particles_;
 };
 
+/// Refuses a layer that its own bodies would fill too far, or of which walls leave nothing.
+void check_layer(const Batch& batch, const Placement& how, const Vec3& edges) {
+  const int across = how.dimensions - 1;
+  const double low = batch.layer[0] * edges[across], high = batch.layer[1] * edges[across];
+  double volume = 0.0, longest = 0.0, thinnest = 0.0;
+  for (const Coming& one : coming_particles({batch}, how.dimensions)) {
+    volume += volume_of(one.axes, how.dimensions);
+    longest = std::max(longest, one.radius());
+    thinnest = std::max(thinnest, one.axes[across]);
+  }
+  std::ostringstream text;
+  text << "the layer from " << batch.layer[0] << " to " << batch.layer[1];
+  // Its bodies reach beyond it by their longest axis at most.
+  const double share = std::min(1.0, (high - low + 2.0 * longest) / edges[across]);
+  const double filled = volume / (share * edges.prod());
+  if (!(filled <= kMostInserted * (1.0 + kInsertionClearance))) {
+    text << " would be filled to " << filled << ", more than " << kMostInserted;
+    throw DoesNotFit(text.str());
+  }
+  if (how.walled[static_cast<std::size_t>(across)] &&
+      !(std::max(low, thinnest) <= std::min(high, edges[across] - thinnest))) {
+    text << " lies nearer to a wall than its particles are thick, " << thinnest << " to a side";
+    throw DoesNotFit(text.str());
+  }
+}
+
 }  // namespace
 
 Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how) {
@@ -238,6 +264,7 @@ Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how) {
     room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
     throw DoesNotFit(room.str());
   }
+  for (const Batch& batch : batches) check_layer(batch, how, edges);
   return edges;
 }
 

@@ -31,8 +31,8 @@ inline constexpr int kPlainDraws = 64;
 
 /// Edges of the cell: those given, or a cube (in the plane a square) of which the particles fill
 /// how.volume_fraction.
-/// @throws DoesNotFit  where they fill more than kMostInserted, or an edge (with walls a layer) is
-///     shorter than the largest particle
+/// @throws DoesNotFit  where they fill more than kMostInserted of it or of a layer, an edge is
+///     shorter than the largest particle, or walls leave nothing of a layer
 Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how);
 
 /// Puts the particles at rest at random.

@@ -68,7 +68,7 @@ MotionWork move(Particles& particles, Cell& cell, const Resultants& resultants,
                 const Motion& motion, double dt);
 
 /// The coefficients of a step of move(), for who keeps the particles elsewhere.
-/// @param rate  of the cell
+/// The rate is that of the cell.
 detail::MotionStep step_of(const Motion& motion, const Mat3& rate, double dt);
 
 /// Translational and rotational energy of the fluctuating velocities.

@@ -80,9 +80,9 @@ class NarrowPhase {
                         std::span<const Vec3> normals, Branch branch, BlockGeometry& block) const;
   /// The same of the first pairs of a block, whose bodies and separations stand there already: no
   /// walls, and of branches follow and global alone.
-  /// @param count  at most kPairBlock
-  /// @param accuracy  of the gaps of ellipsoids
-  /// @param normals  as above, `count` of them
+  ///
+  /// There are `count` of them, at most kPairBlock, with as many normals as above. The accuracy is
+  /// that of the gaps of ellipsoids.
   MeasuredPairs measure(std::size_t count, std::span<const Vec3> normals, Branch branch,
                         const Accuracy& accuracy, BlockGeometry& block) const;
 

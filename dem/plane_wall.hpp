@@ -32,9 +32,9 @@ struct PlaneWall {
   /// Sets the velocity along the normal of a wall that is held, by a proportional servo: it would
   /// take a share of what the force lacks away in a step if bodies stayed where they are. Without
   /// contacts the wall comes at its largest speed.
-  /// @param force  on the wall, along -normal
-  /// @param stiffness  sum over its contacts of their normal stiffness
-  /// @param area  section_area()
+  ///
+  /// The force is that on the wall along -normal, the stiffness the sum over its contacts of their
+  /// normal stiffness, the area section_area(), dt the step's.
   void follow(double force, double stiffness, double area, double dt);
 };
 

@@ -20,8 +20,8 @@ inline constexpr double kRecountError = 1e-9;
 /// against each other: numbers and spread of contacts, stress, mean force and overlap, stored and
 /// kinetic energy, porosity, and force, moment and number of contacts of each particle. A pair
 /// apart bears nothing.
-/// @param with_laws  the contacts were made by Simulation::laws(), as after a step: is the push
-///                   of linear undamped contacts their stiffness times the overlap, and no shear
+/// `with_laws`: the contacts were made by Simulation::laws(), as after a step. Then it asks too
+/// whether the push of linear undamped contacts is their stiffness times the overlap, and no shear
 ///                   above what friction bears?
 /// @return the first difference, one line: the run's number and the other; nothing where there is
 ///         none

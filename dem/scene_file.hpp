@@ -50,6 +50,7 @@ struct Sweep {
   std::vector<Setting> combination(std::size_t index) const;
 };
 
+/// A scene's text with what it includes, and its keys as they are set since.
 class SceneFile {
  public:
   /// @throws SceneError  for a file that cannot be read or is no TOML, and for an include of these
@@ -58,8 +59,8 @@ class SceneFile {
   /// what it includes.
   SceneFile(const std::string& text, const std::string& name);
   ~SceneFile();
-  SceneFile(SceneFile&&) noexcept;
-  SceneFile& operator=(SceneFile&&) noexcept;
+  SceneFile(SceneFile&&) noexcept;             ///< takes over another's text
+  SceneFile& operator=(SceneFile&&) noexcept;  ///< the same
 
   /// The same text read anew, without what was set since.
   SceneFile again() const;

@@ -43,7 +43,7 @@ class Simulation {
   /// @throws CellTooThin  where a particle touches two images of another, or one of its own
   explicit Simulation(const Scene& scene);
   /// @overload
-  /// @param placed  called now and then with the share of the particles that have their place
+  /// `placed` is called now and then with the share of the particles that have their place.
   Simulation(const Scene& scene, std::function<void(double)> placed);
 
   /// Continues from a saved state.

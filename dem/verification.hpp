@@ -62,7 +62,7 @@ class Verification {
   void check(const Simulation& simulation);
 
   /// Counts again what is measured.
-  /// @param with_laws  as for difference_from_recount()
+  /// `with_laws` is as for difference_from_recount().
   /// @throws VerificationFault
   void recount(const Simulation& simulation, bool with_laws);
 

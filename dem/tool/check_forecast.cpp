@@ -15,8 +15,9 @@ namespace {
 using std::numbers::pi;
 
 /// A packing of equal spheres (disks) where it begins to bear stress, and how its contacts grow
-/// with its volume fraction [OHern2003]. With friction it is looser and has fewer contacts, how
-/// many depends on how it was made: chosen between what small and large friction give [Onoda1990].
+/// with the root of its volume fraction [OHern2003]; by how much is chosen. With friction it is
+/// looser and has fewer contacts, how many depends on how it was made: chosen between what small
+/// and large friction give [Onoda1990].
 struct Packing {
   double fraction, contacts, rise;
 };

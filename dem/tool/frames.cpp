@@ -64,6 +64,10 @@ std::string particles_vtp(const State& state) {
   };
   const Eigen::Matrix<double, 9, 1> edges = state.cell.edges.reshaped();
   file.add(Of::whole, "cell", 9, std::span<const double>(edges.data(), 9));
+  std::vector<double> walls;
+  for (const PlaneWall& wall : state.cell.planes)
+    walls.insert(walls.end(), {wall.normal[0], wall.normal[1], wall.normal[2], wall.offset});
+  if (!walls.empty()) file.add(Of::whole, "walls", 4, walls);
   file.places(numbers(0.0, [&](std::size_t i) { return wrapped(state, i); }));
   file.add(Of::points, "axes", 9, numbers(0.0F, [&](std::size_t i) { return axes_tensor(p, i); }));
   file.add(Of::points, "orientation", 4,

@@ -5,8 +5,9 @@
 /// DIR/frames.pvd (ParaView) lists DIR/frames/CYCLE.vtp: points with `orientation` (x y z w),
 /// `semi_axes`, `velocity`, `type`, `contacts` and, of 32 bits, the tensor `axes` = R diag(2a) R',
 /// which the filter Tensor Glyph draws to scale as its sphere of diameter 1; field data `cell`, its
-/// three edge vectors. DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation` x
-/// y z w, `aspherical_shape`, the three semi-axes, and `id`, from 1.
+/// three edge vectors, and, of scenes with [[wall]], `walls`, a normal out of each and the offset
+/// of its face along it. DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation`
+/// x y z w, `aspherical_shape`, the three semi-axes, and `id`, from 1.
 ///
 /// With contacts DIR/contacts.pvd lists DIR/frames/CYCLE.contacts.vtp, DIR/chains.pvd
 /// DIR/frames/CYCLE.chains.vtp, and for OVITO each cycle has DIR/frames/CYCLE.bonds:

@@ -269,8 +269,7 @@ std::string page_of(const Run& run, const fs::path& directory) {
   page += time_charts(run) + "</div>\n";
   if (run.summary())
     page += "<div class=\"wide\"><h2>Summary</h2>\n" + summary_table(*run.summary()) + "</div>";
-  page += "</div>\n<script>\n\"use strict\";\n";
-  return page.append(view_script()) + "</script></body></html>\n";
+  return page + "</div>\n</body></html>\n";
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ def hands(browser, page):
 
 def links(browser, page, state):
     """The link gives the same pair to the bit, and so does the CSV."""
-    fragment = browser.run("return location.hash")
+    fragment = browser.run("while (location.hash !== tangency.linkOf(tangency.state.pair)) await new Promise(requestAnimationFrame);"
+                           "return location.hash")
     text = browser.run("return document.getElementById('csv').textContent")
     browser.open(page, fragment)
     browser.run("await tangency.ready")
@@ -166,11 +167,18 @@ def links(browser, page, state):
 
 def fields(browser):
     """What cannot be is said as the command says it, and what is typed counts at once."""
-    browser.run("const f = document.querySelector('[data-body=a][data-name=r2]'); f.focus(); f.value = '-1';"
-                "f.dispatchEvent(new Event('input'))")
-    pair_now(browser)
-    said = browser.run("return document.getElementById('says').textContent")
-    require(said == "a.r2 = -1: a semi-axis must be finite and > 0", f"a wrong semi-axis is answered by: {said}")
+    for name, typed, answer in (("r2", "-1", "a.r2 = -1: a semi-axis must be finite and > 0"), ("x", "", "a.x = nan: a centre must be finite"),
+                                ("r1", "many", "a.r1 = nan: a semi-axis must be finite and > 0")):
+        browser.run("const f = document.querySelector(`[data-body=a][data-name=${given[0]}]`); f.focus(); const before = f.value; f.value = given[1];"
+                    "f.dispatchEvent(new Event('input')); window.before = before", name, typed)
+        pair_now(browser)
+        said = browser.run("return document.getElementById('says').textContent")
+        require(said == answer, f"{typed!r} in a.{name} is answered by: {said}")
+        browser.run("const f = document.querySelector(`[data-body=a][data-name=${given[0]}]`); f.value = window.before;"
+                    "f.dispatchEvent(new Event('input'))", name)
+        require("relation" in pair_now(browser)["answer"], f"a.{name} is not taken back")
+    browser.run("tangency.state.pair.b.x = 1e308; tangency.state.pair.b.y = 1e308; changed()")
+    require("relation" in pair_now(browser)["answer"], "a body that is far away has no answer")
     browser.run("const s = document.getElementById('start'); s.value = 'An exact touch'; s.dispatchEvent(new Event('change'))")
     require(pair_now(browser)["answer"]["relation"] == "external_touch", "An exact touch is none")
     browser.run("const s = document.getElementById('start'); s.value = 'The next double after a touch'; s.dispatchEvent(new Event('change'))")

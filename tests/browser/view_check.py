@@ -5,7 +5,7 @@
 Usage: view_check.py TANGENCY_DEM FOLDER
 Runs a dense sample of 125 bodies with frames of contacts and, for the times, one of 10,000 in FOLDER. Along rays drawn
 at random the body that a click finds, and what the picture has there, is compared with the frame as it is read here. Then
-the page is used: colours, chains, cut, frames, hands. Last come times with 10,000 bodies: of pictures while the view turns, and of
+the page is used: colours, chains, cut, frames, hands, a wall. Last come times with 10,000 bodies: of pictures while the view turns, and of
 the same bodies as meshes of 320 triangles beside. On a machine with other work the time of the graphics' own
 process counts, where that is less. Ends with 1 at the first fault. Packages: .ci/setup browser
 """
@@ -196,6 +196,20 @@ def controls(browser, pictures):
     browser.run("const v = await sample, from = v.place; while (v.place === from) await new Promise((next) => setTimeout(next, 20)); await v.playOrStop()")
 
 
+def walls(browser, page):
+    """A [[wall]] is drawn where it is: its outline, around the cell's middle, in its plane and on faces of the cell."""
+    browser.open(page)
+    frame = browser.run("const { edges, cell, walls } = (await sample).frame; return { edges, cell: [...cell], walls: [...walls] }")
+    require(len(frame["walls"]) == 4, f"the frame has the walls {frame['walls']}")
+    n, w, sizes = frame["walls"][:3], frame["walls"][3], [frame["cell"][4 * k] for k in range(3)]
+    points = [frame["edges"][k:k + 3] for k in range(72, len(frame["edges"]), 3)]
+    require(len(points) == 8, f"the outline of a plane through four edges of the cell has {len(points)} ends")
+    for p in points:
+        require(abs(sum(a * b for a, b in zip(n, p)) - w) < 1e-12, f"{p} is not in the wall")
+        require(sum(min(abs(x), abs(x - size)) < 1e-12 for x, size in zip(p, sizes)) >= 2, f"{p} is on no edge of the cell")
+    require(all(sum(p == q for q in points) == 2 for p in points), "the outline is not closed")
+
+
 def looks(browser, page, pictures):
     for width, height in ((1200, 900), (400, 800)):
         browser.size(width, height, touch=width < 600)
@@ -274,6 +288,7 @@ def main():
     tool, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     page, out = report_of(tool, folder, "pressed", SPHEROIDS.format(count=125) + PRESSED)
+    slope, _ = report_of(tool, folder, "slope", (HERE.parents[1] / "dem" / "scenes" / "slope.toml").read_text(encoding="utf-8"))
     many, _ = report_of(tool, folder, "many", SPHEROIDS.format(count=10_000))
     with Browser() as browser:
         browser.size(1200, 900)
@@ -285,6 +300,7 @@ def main():
         picked_is_drawn(browser)
         controls(browser, folder)
         looks(browser, page, folder)
+        walls(browser, slope)
         pid, full = times(browser, many)
         beside_meshes(browser, pid, full)
         browser.picture(folder / "many.png")

@@ -172,4 +172,29 @@ TEST(Insertion, SaysHowFarItCameWhereThereIsNoMoreRoom) {
   EXPECT_THROW(insertion_edges({batch_of({1.0, 1.0, 1.0}, 130)}, small), DoesNotFit);
 }
 
+TEST(Insertion, RefusesLayersThatCannotHoldTheirBodiesBeforeItDraws) {
+  const auto refusal = [](const std::array<double, 2>& layer, std::size_t count, bool walled) {
+    Placement how{{}, 0.0, 1, Arrangement::insertion};
+    how.cell_size = Vec3(20.0, 20.0, 20.0);
+    how.walled = {false, false, walled};
+    Batch batch = batch_of({1.0, 1.0, 1.0}, count);
+    batch.layer = layer;
+    try {
+      insertion_edges({batch}, how);
+    } catch (const DoesNotFit& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  // Bodies of a layer of 2 reach 1 beyond it: 400 spheres in 20 by 20 by 4.
+  EXPECT_EQ(refusal({0.4, 0.5}, 400, false),
+            "the layer from 0.4 to 0.5 would be filled to 1.0472, more than 0.5");
+  EXPECT_EQ(refusal({0.4, 0.5}, 190, false), "");
+  EXPECT_EQ(refusal({0.0, 0.04}, 1, true),
+            "the layer from 0 to 0.04 lies nearer to a wall than its particles are thick, 1 to a "
+            "side");
+  EXPECT_EQ(refusal({0.0, 0.04}, 1, false), "");
+  EXPECT_EQ(refusal({0.0, 0.06}, 1, true), "");
+}
+
 }  // namespace

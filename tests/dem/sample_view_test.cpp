@@ -120,7 +120,7 @@ TEST(SampleView, TakesTheLastChainsFromTheStateWhereNoFrameHasAny) {
   EXPECT_EQ(frames_in(page_of(out)).count({"chains", with_chains[0]}), 0u);
 }
 
-TEST(SampleView, SaysWhereThereIsNoFrame) {
+TEST(SampleView, SaysWhereThereIsNoFrameAndBringsNoProgram) {
   const TemporaryFolder folder;
   const std::string scene = with(placing_scene(), "frame_interval = 100", "frame_interval = 0");
   const std::string out = folder.path("out");
@@ -129,6 +129,28 @@ TEST(SampleView, SaysWhereThereIsNoFrame) {
   const std::string page = page_of(out);
   EXPECT_NE(page.find("The run has no frames"), std::string::npos);
   EXPECT_TRUE(frames_in(page).empty());
+  EXPECT_EQ(page.find("<script"), std::string::npos) << "a program that has nothing to draw";
+}
+
+// The page draws their outlines: tests/browser/view_check.py.
+TEST(SampleView, HoldsTheWallsOfTheSceneAndNoneWhereItHasNone) {
+  const TemporaryFolder folder;
+  const std::string walled =
+      with(placing_scene(), "[cell]\n",
+           "[cell]\nsize = [200.0, 200.0, 200.0]\nwalls = \"xyz\"\n[[wall]]\npoint = [0.0, 0.0, "
+           "-1.0]\nnormal = [0.0, 0.0, 1.0]\n");
+  for (const auto& [scene, walls] : {std::pair{placing_scene(), false}, {walled, true}}) {
+    const std::string out = folder.path(walls ? "walled" : "periodic");
+    const Finished run =
+        run_tool({"run", folder.write("scene.toml", scene), "--out", out, "--quiet"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto frames = frames_in(page_of(out));
+    ASSERT_FALSE(frames.empty());
+    const std::string& frame = frames.begin()->second;
+    EXPECT_EQ(frame.find("Name=\"walls\" NumberOfComponents=\"4\" NumberOfTuples=\"1\"") !=
+                  std::string::npos,
+              walls);
+  }
 }
 
 TEST(SampleView, SpreadsItsFramesEvenlyWhereTheyAreTooManyAndSaysSo) {

@@ -47,8 +47,10 @@ def main():
         os.remove(summary)
         if run(out).returncode or not os.path.exists(summary):
             return "a packing that was interrupted does not go on"
-        if run(out, "--count", "0").returncode != 2:
-            return "a count of 0 was not refused"
+        for words in (("--count", "0"), ("--only", "0"), ("--only", "nan"), ("--only", "many")):
+            refused = run(out, *words)
+            if refused.returncode != 2 or "Traceback" in refused.stderr or words[1] not in refused.stderr:
+                return f"{' '.join(words)} is not refused by a line: {refused.stderr}"
     return 0
 
 

@@ -13,10 +13,11 @@ class Frame {
   constructor(particles, chains) { Object.assign(this, { particles, chains }); }
 
   async read() {
-    const [centres, orientations, axes, cell] = await Promise.all([
+    const [centres, orientations, axes, cell, walls] = await Promise.all([
       this.particles.numbers("Points", "Points"), this.particles.numbers("PointData", "orientation"),
-      this.particles.numbers("PointData", "semi_axes"), this.particles.numbers("FieldData", "cell")]);
-    Object.assign(this, { centres, orientations, axes, cell, count: axes.length / 3 });
+      this.particles.numbers("PointData", "semi_axes"), this.particles.numbers("FieldData", "cell"),
+      this.particles.numbers("FieldData", "walls")]);
+    Object.assign(this, { centres, orientations, axes, cell, walls: walls ?? [], count: axes.length / 3 });
     return this;
   }
 
@@ -44,7 +45,23 @@ class Frame {
     const places = [];
     for (const [p, q] of [[0, 0], [0, 1], [1, 0], [1, 1]])
       places.push(...at(0, p, q), ...at(1, p, q), ...at(p, 0, q), ...at(p, 1, q), ...at(p, q, 0), ...at(p, q, 1));
+    for (let k = 0; k < this.walls.length; k += 4) places.push(...this.outlineOf([...this.walls.subarray(k, k + 3)], this.walls[k + 3], places.slice(0, 72)));
     return places;
+  }
+
+  /** The outline of the plane n.p = w within the cell, two ends each; none where it lies outside. @param edges of the cell */
+  outlineOf(n, w, edges) {
+    const met = [];
+    for (let k = 0; k < edges.length; k += 6) {
+      const [p, q] = [edges.slice(k, k + 3), edges.slice(k + 3, k + 6)], [from, to] = [dot(n, p) - w, dot(n, q) - w];
+      if (from * to <= 0 && from !== to) met.push(p.map((x, axis) => x + (q[axis] - x) * from / (from - to)));
+    }
+    if (met.length < 3) return [];
+    const middle = SPACE.map((_, axis) => met.reduce((sum, p) => sum + p[axis], 0) / met.length);
+    const u = met[0].map((x, axis) => x - middle[axis]), v = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]];
+    const angle = (p) => { const d = p.map((x, axis) => x - middle[axis]); return Math.atan2(dot(d, v), dot(d, u)); };
+    met.sort((p, q) => angle(p) - angle(q));
+    return met.flatMap((p, k) => [...p, ...met[(k + 1) % met.length]]);
   }
 
   get middle() { return SPACE.map((_, axis) => (this.cell[axis] + this.cell[3 + axis] + this.cell[6 + axis]) / 2); }

@@ -132,7 +132,8 @@ std::string sample_view(const fs::path& directory) {
     said = note(to_text(chosen.size()) + " of " + to_text(all.size()) +
                 " frames, evenly spread: the others would make the page too large. ParaView opens "
                 "all of them, <code>frames.pvd</code>.");
-  return head + said + end + frames;
+  std::string page = head + said + end + frames + "<script>\n\"use strict\";\n";
+  return page.append(view_script()) + "</script>\n";
 }
 
 }  // namespace tangency::inline v0::dem

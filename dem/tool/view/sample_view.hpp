@@ -18,12 +18,12 @@ inline constexpr std::size_t kMostFrameBytes = 24'000'000;
 
 /// HTML for a page's body. Of more frames than the page may hold it takes ones that are evenly
 /// spread, the last one always; where a frame alone is larger, or there is none, a line that says
-/// so. Force chains are those of the frames; the last frame has those of final.state, where no
-/// frame has any and both are of one cycle.
+/// so, and then no program. Force chains are those of the frames; the last frame has those of
+/// final.state, where no frame has any and both are of one cycle.
 /// @param directory  of a run
 std::string sample_view(const std::filesystem::path& directory);
 
-/// Style and programs of the view, for the head of its page and for its end.
+/// Style of the view, for the head of its page, and its programs, which sample_view() brings.
 std::string_view view_style();
 std::string_view view_script();
 

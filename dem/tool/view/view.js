@@ -37,6 +37,7 @@ class SampleView {
     this.bar.style.background = `linear-gradient(to right, ${stops})`;
     this.withBodies = make("input", { type: "checkbox", checked: true });
     this.withChains = make("input", { type: "checkbox" });
+    this.widest = make("span");
     this.size = range({ min: 0.1, max: 1, step: 0.05, value: 1, ariaLabel: "Size of the bodies" });
     this.cut = make("select", { ariaLabel: "Clipping plane" }, new Option("no cut", ""), ...["x", "y", "z", "-x", "-y", "-z"].map((way) => new Option(`cut ${way}`, way)));
     this.cutAt = range({ min: 0, max: 1, step: 0.01, value: 0.5, ariaLabel: "Place of the cut", disabled: true });
@@ -51,7 +52,7 @@ class SampleView {
       this.canvas, film,
       make("div", { className: "row" }, make("label", {}, "colour ", this.colour), make("span", {}, this.least, " ", this.bar, " ", this.most)),
       make("div", { className: "row" }, make("label", {}, this.withBodies, " bodies"), make("label", {}, "size ", this.size),
-           make("label", {}, this.withChains, " force chains"), this.cut, this.cutAt, make("button", { textContent: "From the front", onclick: () => this.front() })),
+           make("label", {}, this.withChains, " force chains"), this.widest, this.cut, this.cutAt, make("button", { textContent: "From the front", onclick: () => this.front() })),
       make("p", { className: "note", textContent: "Drag: turn. Wheel or two fingers: nearer. Drag with the right button or with shift: move. Click: a particle's values." }),
       this.values, this.note);
   }
@@ -89,7 +90,8 @@ class SampleView {
     this.renderer.setEdges(frame.edges);
     const lines = await frame.lines();
     this.withChains.disabled = lines === null;
-    this.withChains.parentElement.title = lines === null ? "This frame has no contacts: contact_frames = true in [output] writes them" : `widest: ${shown(lines.largest)}, in the unit of force`;
+    this.withChains.parentElement.title = lines === null ? "This frame has no contacts: contact_frames = true in [output] writes them" : "";
+    this.widest.textContent = lines === null ? "no contacts in this frame" : `widest: ${shown(lines.largest)} N, thickness by its root`;
     this.renderer.setChains(lines?.numbers ?? []);
     await this.showValues();
   }

@@ -61,6 +61,7 @@ class Drawing {
     this.canvas.width = width * sharp, this.canvas.height = height * sharp;
     const pen = (this.pen = this.canvas.getContext("2d"));
     pen.scale(sharp, sharp);
+    if (!Number.isFinite(this.camera.scale)) this.camera.fit(pair, width, height);  // it was that of a pair that is none
     this.at = this.projection;
     const names = ["a", "b"].sort((p, q) => this.depth(pair[p]) - this.depth(pair[q]));
     for (const name of names) this.body(pair[name], name, name === show.selected);
@@ -82,6 +83,7 @@ class Drawing {
   body(body, name, selected) {
     const { pen } = this, centre = this.at.place([body.x, body.y, body.z]), axes = this.at.axes(body);
     const reach = this.at.camera.scale * Math.max(body.r1, body.r2, body.r3);
+    if (![...centre, reach].every(Number.isFinite)) return;  // too far away or too large to be seen
     const light = pen.createRadialGradient(centre[0] - 0.35 * reach, centre[1] - 0.45 * reach, 0, centre[0], centre[1], 1.2 * reach);
     light.addColorStop(0, `rgba(${COLOURS[name]},.18)`), light.addColorStop(1, `rgba(${COLOURS[name]},.55)`);
     this.curve(centre, outline(axes), true);

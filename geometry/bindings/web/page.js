@@ -51,13 +51,19 @@ function show() {
   } catch (fault) {
     state.answer = { refused: fault.message };
   }
-  drawing.draw(state.pair, state);
   showAnswer(state.answer);
+  if (!state.answer.refused) drawing.draw(state.pair, state);  // else the picture stays that of the last pair
   showNumbers();
   element("csv").textContent = csvOf(state.pair);
   element("code").textContent = CODE[state.language](state.pair);
-  history.replaceState(null, "", linkOf(state.pair));
+  clearTimeout(addressing);
+  addressing = setTimeout(address, REST);
 }
+
+/** Milliseconds without a change after which the address follows. Chosen: browsers refuse some hundred changes in a row. */
+const REST = 150;
+let addressing = null;
+const address = () => history.replaceState(null, "", linkOf(state.pair));
 
 function gapLine(gap) {
   return gap === null || gap === 0 ? "" : gap > 0 ? ` Distance ${short(gap)}.` : ` Depth ${short(-gap)}.`;
@@ -215,6 +221,7 @@ function listen() {
 }
 
 async function copyLink() {
+  address();
   try {
     await navigator.clipboard.writeText(location.href);
     element("copy").textContent = "Copied";
