@@ -54,7 +54,9 @@ class Frame {
     const met = [];
     for (let k = 0; k < edges.length; k += 6) {
       const [p, q] = [edges.slice(k, k + 3), edges.slice(k + 3, k + 6)], [from, to] = [dot(n, p) - w, dot(n, q) - w];
-      if (from * to <= 0 && from !== to) met.push(p.map((x, axis) => x + (q[axis] - x) * from / (from - to)));
+      if (from * to > 0 || from === to) continue;
+      const place = p.map((x, axis) => x + (q[axis] - x) * from / (from - to)), near = 1e-9 * Math.hypot(...this.cell);
+      if (!met.some((other) => Math.hypot(...other.map((x, axis) => x - place[axis])) < near)) met.push(place);  // edges share corners
     }
     if (met.length < 3) return [];
     const middle = SPACE.map((_, axis) => met.reduce((sum, p) => sum + p[axis], 0) / met.length);
