@@ -67,6 +67,8 @@ std::string particles_vtp(const State& state) {
   std::vector<double> walls;
   for (const PlaneWall& wall : state.cell.planes)
     walls.insert(walls.end(), {wall.normal[0], wall.normal[1], wall.normal[2], wall.offset});
+  const std::array<std::int32_t, 1> plane{2};
+  if (state.cell.dimensions == 2) file.add(Of::whole, "dimensions", 1, plane);
   if (!walls.empty()) file.add(Of::whole, "walls", 4, walls);
   file.places(numbers(0.0, [&](std::size_t i) { return wrapped(state, i); }));
   file.add(Of::points, "axes", 9, numbers(0.0F, [&](std::size_t i) { return axes_tensor(p, i); }));

@@ -8,6 +8,7 @@
 /// three edge vectors, and, of scenes with [[wall]], `walls`, a normal out of each and the offset
 /// of its face along it. DIR/frames.xyz (OVITO) is extended XYZ under OVITO's names: `orientation`
 /// x y z w, `aspherical_shape`, the three semi-axes, and `id`, from 1.
+/// Of the plane there is the field data `dimensions`, 2.
 ///
 /// With contacts DIR/contacts.pvd lists DIR/frames/CYCLE.contacts.vtp, DIR/chains.pvd
 /// DIR/frames/CYCLE.chains.vtp, and for OVITO each cycle has DIR/frames/CYCLE.bonds:

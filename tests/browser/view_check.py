@@ -210,6 +210,13 @@ def walls(browser, page):
     require(all(sum(p == q for q in points) == 2 for p in points), "the outline is not closed")
 
 
+def plane(browser, page):
+    """A sample of the plane is seen from the front and fills the picture, though the third edge of its cell is a unit."""
+    browser.open(page)
+    turn, half, cell = browser.run("const v = await sample; return [v.turn, v.half, [...v.frame.cell]]")
+    require(turn == [1, 0, 0, 0] and half < max(cell[0], cell[4]), f"a plane cell of {cell[0]} by {cell[4]} is seen by {turn} with half a height of {half}")
+
+
 def looks(browser, page, pictures):
     for width, height in ((1200, 900), (400, 800)):
         browser.size(width, height, touch=width < 600)
@@ -289,6 +296,8 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     page, out = report_of(tool, folder, "pressed", SPHEROIDS.format(count=125) + PRESSED)
     slope, _ = report_of(tool, folder, "slope", (HERE.parents[1] / "dem" / "scenes" / "slope.toml").read_text(encoding="utf-8"))
+    flat, _ = report_of(tool, folder, "flat", SPHEROIDS.format(count=100).replace("[cell]", "[cell]\ndimensions = 2").replace(
+        "_radius = 10.0", "_radius = 0.001").replace("1.5e10", "1e5"))
     many, _ = report_of(tool, folder, "many", SPHEROIDS.format(count=10_000))
     with Browser() as browser:
         browser.size(1200, 900)
@@ -301,6 +310,7 @@ def main():
         controls(browser, folder)
         looks(browser, page, folder)
         walls(browser, slope)
+        plane(browser, flat)
         pid, full = times(browser, many)
         beside_meshes(browser, pid, full)
         browser.picture(folder / "many.png")

@@ -13,11 +13,12 @@ class Frame {
   constructor(particles, chains) { Object.assign(this, { particles, chains }); }
 
   async read() {
-    const [centres, orientations, axes, cell, walls] = await Promise.all([
+    const [centres, orientations, axes, cell, walls, dimensions] = await Promise.all([
       this.particles.numbers("Points", "Points"), this.particles.numbers("PointData", "orientation"),
       this.particles.numbers("PointData", "semi_axes"), this.particles.numbers("FieldData", "cell"),
-      this.particles.numbers("FieldData", "walls")]);
-    Object.assign(this, { centres, orientations, axes, cell, walls: walls ?? [], count: axes.length / 3 });
+      this.particles.numbers("FieldData", "walls"), this.particles.numbers("FieldData", "dimensions")]);
+    Object.assign(this, { centres, orientations, axes, cell, walls: walls ?? [], count: axes.length / 3, isPlane: dimensions?.[0] === 2 });
+    if (this.isPlane) this.cell = cell.map((x, k) => (k < 6 ? x : 0));  // its third edge is a unit
     return this;
   }
 

@@ -70,6 +70,7 @@ class SampleView {
       this.colour.value = frame.columns.includes("contacts") ? "contacts" : frame.columns[0];
       await this.findRange();
       this.fit();
+      if (frame.isPlane) this.turn = [1, 0, 0, 0];
     }
     await this.upload();
     this.redraw();
