@@ -215,6 +215,7 @@ class Check:
 
     # Checks, in the order in which they are run.
 
+    # dem/lammps/pair_tangency.hpp (4)
     def check_configuration(self):
         """Forces of one configuration whose shear memory is empty are those of the simulator."""
         c = self.contacts
@@ -267,6 +268,7 @@ class Check:
         all_of_it = np.einsum("k,ki,kj->ij", mass, v, v) / volume
         return all_of_it[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
 
+    # dem/lammps/pair_tangency.hpp (2)
     def check_trajectories(self):
         """2000 strained steps by each law end where those of the simulator end."""
         for law in LAWS:
@@ -300,6 +302,7 @@ class Check:
             within(f"{what}: stress", off(run.stress(), stress), 1e-9)
             within(f"{what}: forces", off(run.forces(), force), 1e-7)
 
+    # dem/lammps/pair_tangency.hpp (1)
     def check_ranks(self):
         """A strained sample does the same on any number of ranks, with newton on and off."""
         first = None
@@ -383,6 +386,7 @@ class Check:
                     f"{there}: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
             print(lines[0])
 
+    # dem/lammps/pair_tangency.hpp (3)
     def check_restart(self):
         """A run that goes on from a restart file, on other ranks, is the run that was not stopped."""
         # Strained first, so that contacts remember shear. Forces are computed anew at a restart:

@@ -263,6 +263,7 @@ class Study(Check):
         self.in_folder("wall", "in.second", 1)
         self.compare("wall", "resumed", {"x y z": 1e-9, "vx vy vz": 1e-7}, ".resumed")
 
+    # dem/lammps/pair_tangency.hpp (4)
     def energy(self):
         self.both("energy", 'kind = "servo"\nduration = 2000\ndamping = 0.1\n'
                             "strain_rate = [0.01, 0.0, 0.02]\n")
