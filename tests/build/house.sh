@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: house.sh SOURCE
-# Every text file names its licence, and every [Key and year] that is cited stands in the bibliography.
+# Every text file names its licence, every [Key and year] that is cited stands in the bibliography, and
+# no two decisions have one number.
 set -euo pipefail
 cd "$1"
 status=0
@@ -17,5 +18,9 @@ cited=$(grep -rhoE '\[[A-Z][A-Za-z]+(19|20)[0-9]{2}' "${folders[@]}" | tr -d '['
 [ -n "$cited" ] || { echo "no citation found: this test cannot fail"; exit 1; }
 for key in $cited; do
   grep -q "{$key," docs/bibliography.bib || { echo "[$key] is not in docs/bibliography.bib"; status=1; }
+done
+for number in $(basename -a docs/decisions/*.md | cut -c1-4 | uniq -d); do
+  echo "docs/decisions: $number is the number of two"
+  status=1
 done
 exit $status
