@@ -10,7 +10,7 @@ folders=(bench check demo dem docs geometry tests verify CMakeLists.txt CHANGELO
          CONTRIBUTING.md LICENSE README.md SECURITY.md .ci .github)
 
 while read -r file; do
-  case $file in *.png | *.json | *.xz) continue ;; esac  # none of them has comments
+  case $file in *.bin | *.png | *.json | *.xz) continue ;; esac  # none of them has comments
   grep -q 'SPDX-License-Identifier' "$file" || { echo "$file names no licence"; status=1; }
 done < <(find "${folders[@]}" -type f)
 
