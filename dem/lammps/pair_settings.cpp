@@ -83,18 +83,27 @@ void PairTangency::require_host() {
                "numbers: something in this program, as what -ffast-math links, changes that");
 }
 
-void PairTangency::init_style() {
-  require_host();
+void PairTangency::require_one_law() {
+  const dem::ContactLaw* first = nullptr;
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      if (setflag[i][j] == 0) continue;
+      if (first == nullptr) first = &law_between(i, j);
+      if (law_between(i, j).hertz.has_value() != first->hertz.has_value())
+        error->all(FLERR,
+                   "Pair style tangency: all pairs of types need the law hooke, or all "
+                   "hertz/material");
+    }
+  // Where one is missing init_one() says so; with pair_style hybrid it is of another style, and
+  // nobody asks for its law.
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j)
-      if (setflag[i][j] == 0)
-        error->all(FLERR, "Pair style tangency: pair_coeff " + std::to_string(i) + " " +
-                              std::to_string(j) + " is missing: laws are not mixed");
-  for (const dem::ContactLaw& law : laws_.law)
-    if (law.hertz.has_value() != laws_.are_hertz())
-      error->all(FLERR,
-                 "Pair style tangency: all pairs of types need the law hooke, or all "
-                 "hertz/material");
+      if (setflag[i][j] == 0 && first != nullptr) law_between(i, j) = law_between(j, i) = *first;
+}
+
+void PairTangency::init_style() {
+  require_host();
+  require_one_law();
   reach_ = AtomBodies::reach_by_type(lmp);
   neighbor->request(this, instance_me);
   make_history();
@@ -114,6 +123,9 @@ void PairTangency::make_history() {
 }
 
 double PairTangency::init_one(int i, int j) {
+  if (setflag[i][j] == 0)
+    error->all(FLERR, "Pair style tangency: pair_coeff " + std::to_string(i) + " " +
+                          std::to_string(j) + " is missing: laws are not mixed");
   return reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)];
 }
 

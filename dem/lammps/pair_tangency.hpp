@@ -95,6 +95,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   dem::ContactLaw& law_between(int i, int j);
   void make_history();
   void require_host();
+  void require_one_law();
   void require_room();
   Step step();
   void collect(const Step& step);

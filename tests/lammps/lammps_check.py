@@ -88,6 +88,12 @@ REFUSED = (
     ("pair_coeff * * hooke 1.5e10 tangential linear 1.5e10 0.5", "pair_coeff * * ",
      "hooke or hertz/material: missing at the end of the command"),
     ("neighbor 2.0 bin", "neighbor 90.0 bin", "lest a pair meet twice"),
+    ("read_data sample.data\npair_style tangency \npair_coeff * *",
+     "read_data sample.data extra/atom/types 1\npair_style tangency\npair_coeff 2 2 hooke 1e9\npair_coeff 1 1",
+     "pair_coeff 1 2 is missing: laws are not mixed"),
+    ("read_data sample.data\npair_style tangency \npair_coeff * *",
+     "read_data sample.data extra/atom/types 1\npair_style tangency\npair_coeff * 2 hertz/material 1e9 0.2\n"
+     "pair_coeff 1 1", "need the law hooke, or all hertz/material"),
     ("run 10", "run_style respa 2 2\nrun 10", "run_style respa"),
     ("run 10", "create_atoms 1 single 5.0 5.0 5.0\nunfix move\nrun 10", "atom 1001 is no ellipsoid"),
     ("timestep 0.002", "timestep 1e305", "that is no finite number"),

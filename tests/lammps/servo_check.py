@@ -14,11 +14,13 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
 - energy:   the account of energies closes as that of tangency-dem does
+- examples: the scripts of dem/lammps/examples run one after the other, as their heads say
 - restart:  an axial compression, stopped half way and resumed on another number of ranks
 Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
 """
 import csv
 import json
+import os
 import re
 import sys
 
@@ -306,8 +308,26 @@ class Study(Check):
         for column in ("PotEng", "c_push[1]", "c_push[2]", "c_push[3]", "Lx"):
             near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
 
+    def examples(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "dem")
+        for script in ("compress", "triaxial", "replicate", "large"):
+            with open(os.path.join(root, "lammps", "examples", "in." + script), encoding="ascii") as file:
+                self.write("in." + script, file.read())
+        self.tool("export", "--lammps", "start", "--scene", os.path.join(root, "scenes", "assembly-1000.toml"))
+        for script, ranks, values in (("compress", 2, {}), ("triaxial", 1, {"strain": 0.01}),
+                                      ("replicate", 2, {"n": 2, "steps": 20}),
+                                      ("large", 2, {"n": 1, "steps": 300, "every": 200}),
+                                      ("large", 1, {"n": 1, "steps": 400, "from": 200})):
+            words = [str(word) for pair in values.items() for word in ("-var", *pair)]
+            last = self.thermo(self.engine("in." + script, ranks, variables=words))[-1]
+            print(f"in.{script} on {ranks} ranks {values}: step {last['Step']:.0f}, "
+                  f"mean stress {np.mean([last[f'c_push[{k}]'] for k in (1, 2, 3)]):.4g}")
+            require(abs(last["c_push[1]"] / PRESS - 1.0) < 0.01, f"in.{script}: lateral stress is not held")
+        require(last["Step"] == 400.0, "in.large: does not go on from its restart")
 
-CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart")
+
+CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart",
+          "examples")
 
 if __name__ == "__main__":
     require(len(sys.argv) > 3, __doc__)
