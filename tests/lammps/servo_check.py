@@ -12,6 +12,7 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
 - relax:    velocities run downhill to rest, and the script ends the stage where tangency-dem does
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
+- rubbed:   tensors of contacts with friction, after 500 steps
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
 - energy:   the account of energies closes as that of tangency-dem does
 - examples: the scripts of dem/lammps/examples run one after the other, as their heads say
@@ -206,18 +207,40 @@ class Study(Check):
                  [PRESS] * 3, 0.2)
             self.compare("relax", ranks, {"x y z": 1e-6, "qw qx qy qz": 1e-5})
 
-    def fabric(self):
-        self.both("fabric", 'kind = "servo"\nduration = 1\n')
-        head = self.read("fabric/in.fabric").split("# Stage")[0]
-        seen = json.loads(self.tool("micro", "sample/final.state", "--json", "-"))
+    def fabric_of(self, state):
+        """The columns of compute tangency/fabric, by tangency-dem."""
+        seen = json.loads(self.tool("micro", state, "--json", "-"))
 
         def of(tensor):
             return [tensor[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
 
-        there = of(seen["fabric"]["second"])
+        numbers = of(seen["fabric"]["second"])
         for key in ("normal_force", "tangential_force", "branch_normal", "branch_tangential"):
-            there += of(seen[key]["second"])
-        there += [seen["f0"], seen["z0"], seen["contact_density"], seen["contacts"]]
+            numbers += of(seen[key]["second"])
+        return numbers + [seen["f0"], seen["z0"], seen["contact_density"], seen["contacts"]]
+
+    def rubbed(self):
+        """The fabric of contacts with friction: its tensor of tangential forces is none of rounding."""
+        self.both("rubbed", 'kind = "servo"\nduration = 500\ndamping = 0.1\n'
+                            "strain_rate = [0.01, 0.0, 0.02]\n")
+        there = np.array(self.fabric_of("rubbed.run/final.state"))
+        require(np.abs(there[12:18]).max() > 1e-3, "rubbed: no friction")
+        names = " ".join(f"c_fabric[{k}]" for k in range(1, 35))
+        script = re.sub("(?m)^thermo_style.*", "compute fabric all tangency/fabric\n"
+                        "thermo_style custom step " + names, self.read("rubbed/in.rubbed"))
+        self.write("rubbed/in.look", script)
+        for ranks in (1, 2):
+            row = self.thermo(self.in_folder("rubbed", "in.look", ranks))[-1]
+            here = np.array([row[f"c_fabric[{k}]"] for k in range(1, 35)])
+            for what, columns_of in (("normals", slice(0, 6)), ("normal forces", slice(6, 12)),
+                                     ("tangential forces", slice(12, 18)), ("branches", slice(18, 30)),
+                                     ("numbers", slice(30, 34))):
+                near(f"rubbed on {ranks} ranks, {what}", here[columns_of], there[columns_of], 1e-9)
+
+    def fabric(self):
+        self.both("fabric", 'kind = "servo"\nduration = 1\n')
+        head = self.read("fabric/in.fabric").split("# Stage")[0]
+        there = self.fabric_of("sample/final.state")
         last = list(csv.DictReader(self.read("sample/history.csv").splitlines()))[-1]
         for ranks, newton in ((1, "on"), (2, "on"), (2, "off")):
             names = " ".join(f"c_fabric[{k}]" for k in range(1, 35))
@@ -326,7 +349,7 @@ class Study(Check):
         require(last["Step"] == 400.0, "in.large: does not go on from its restart")
 
 
-CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart",
+CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "rubbed", "wall", "energy", "restart",
           "examples")
 
 if __name__ == "__main__":
