@@ -91,7 +91,6 @@ void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from)
   const LAMMPS_NS::AtomVecEllipsoid::Bonus& bonus = from.bonus[atom->ellipsoid[i]];
   const double* const q = bonus.quat;
   const double *const v = atom->v[i], *const l = atom->angmom[i];
-  // NaN and infinity both make the sum no finite number.
   if (!are_finite(atom->x[i], 3) || !are_finite(v, 3) || !are_finite(l, 3) || !are_finite(q, 4))
     refuse(i,
            "has a place, a turn or a motion that is no finite number: is the time step too long?");
