@@ -41,8 +41,8 @@ Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how);
 ///     geometry/relation.hpp, for each body made larger by kInsertionClearance of itself.
 /// (2) The same seed gives the same sample on every machine.
 /// (3) The centres of a batch lie within its layer.
-/// (4) Time is linear in the number of particles of one mixture and volume fraction, but for what
-///     memory costs beyond the caches: a look at a body is one at a random place.
+/// Time is linear in the number of particles of one mixture and volume fraction, but for what
+/// memory costs beyond the caches: a look at a body is one at a random place.
 /// @throws DoesNotFit  as insertion_edges(), and where a particle finds no room
 Particles insert(const std::vector<Batch>& batches, const Placement& how, Cell& cell);
 

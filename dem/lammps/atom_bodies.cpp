@@ -31,6 +31,12 @@ const LAMMPS_NS::AtomVecEllipsoid* AtomBodies::ellipsoids(LAMMPS_NS::LAMMPS* lam
   return dynamic_cast<LAMMPS_NS::AtomVecEllipsoid*>(lammps->atom->style_match("ellipsoid"));
 }
 
+Vec3 AtomBodies::spin_of(const Vec3& momentum, const Quaternion& turn, double mass,
+                         const Vec3& axes) {
+  const Vec3 along = turn.conjugate() * momentum;
+  return turn * Vec3(along.cwiseQuotient(dem::principal_inertia(mass, axes)));
+}
+
 std::vector<double> AtomBodies::reach_by_type(LAMMPS_NS::LAMMPS* lammps) {
   const LAMMPS_NS::Atom& atoms = *lammps->atom;
   const LAMMPS_NS::AtomVecEllipsoid& from = *ellipsoids(lammps);
@@ -85,10 +91,11 @@ void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from)
   const LAMMPS_NS::AtomVecEllipsoid::Bonus& bonus = from.bonus[atom->ellipsoid[i]];
   const double* const q = bonus.quat;
   const double *const v = atom->v[i], *const l = atom->angmom[i];
-  // NaN and infinity both make the sum no finite number.
   if (!are_finite(atom->x[i], 3) || !are_finite(v, 3) || !are_finite(l, 3) || !are_finite(q, 4))
     refuse(i,
            "has a place, a turn or a motion that is no finite number: is the time step too long?");
+  if (!(atom->rmass[i] > 0.0) || !std::isfinite(atom->rmass[i]))
+    refuse(i, "has a mass that is not > 0 and finite");
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 0x1p-40)
     refuse(i, "has the quaternion 0, which is no orientation");
   for (const double axis : bonus.shape)
@@ -101,9 +108,7 @@ void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from)
   particles_.orientation[body] = turn;
   particles_.mass[body] = atom->rmass[i];
   particles_.type[body] = atom->type[i] - 1;
-  const Vec3 inertia = dem::principal_inertia(atom->rmass[i], axes);
-  const Vec3 along = (turn.conjugate() * Vec3(l[0], l[1], l[2])).cwiseQuotient(inertia);
-  const Vec3 spin = turn * along;
+  const Vec3 spin = spin_of(Vec3(l[0], l[1], l[2]), turn, atom->rmass[i], axes);
   motion_[body] = {{v[0], v[1], v[2]}, 0.0, {spin[0], spin[1], spin[2]}, 0.0};
 }
 

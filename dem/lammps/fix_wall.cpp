@@ -23,16 +23,16 @@
 namespace tangency::inline v0::lammps {
 namespace {
 
-constexpr const char *kCommand = "fix wall/tangency";
+constexpr const char* kCommand = "fix wall/tangency";
 
-Vec3 vector_of(Words &words, const std::string &key) {
+Vec3 vector_of(Words& words, const std::string& key) {
   Vec3 v;
   for (int k = 0; k < 3; ++k) v[k] = words.number(key);
   return v;
 }
 
 /// The stress of a force on the wall with its branch, as LAMMPS orders it.
-std::array<double, 6> virial_of(const Vec3 &on_wall, const Vec3 &branch) {
+std::array<double, 6> virial_of(const Vec3& on_wall, const Vec3& branch) {
   const Mat3 all = branch * on_wall.transpose();
   const Mat3 s = 0.5 * (all + all.transpose());
   return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)};
@@ -40,17 +40,11 @@ std::array<double, 6> virial_of(const Vec3 &on_wall, const Vec3 &branch) {
 
 }  // namespace
 
-FixWall::FixWall(LAMMPS_NS::LAMMPS *lammps, int count, char **arguments)
+FixWall::FixWall(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments)
     : Fix(lammps, count, arguments), cell_(dem::Cell::box(Vec3::Ones())) {
   Words words(lammps, kCommand, count, arguments, 3);
   read_plane(words);
-  std::vector<const char *> law;
-  for (int k = words.place(); k < count; ++k) law.push_back(arguments[k]);
-  try {
-    laws_ = {1, {law_of(law)}, true};
-  } catch (const InvalidCoefficients &fault) {
-    words.refuse(std::string("law: ") + fault.what());
-  }
+  laws_ = {1, {law_of(words)}, true};
   if (AtomBodies::ellipsoids(lammps) == nullptr || atom->rmass_flag == 0)
     words.refuse("needs atom_style ellipsoid");
   if (domain->dimension != 3) words.refuse("needs dimension 3");
@@ -75,7 +69,7 @@ FixWall::~FixWall() {
 }
 
 /// All words before those of the law.
-void FixWall::read_plane(Words &words) {
+void FixWall::read_plane(Words& words) {
   dem::PlaneWall wall;
   bool has_plane = false;
   while (true) {
@@ -113,7 +107,7 @@ void FixWall::init() {
 void FixWall::setup(int vflag) { post_force(vflag); }
 
 void FixWall::initial_integrate(int) {
-  dem::PlaneWall &wall = cell_.planes[0];
+  dem::PlaneWall& wall = cell_.planes[0];
   wall.offset += update->dt * wall.normal.dot(wall.velocity);
 }
 
@@ -122,10 +116,10 @@ void FixWall::collect() {
   atom_.clear();
   particles_ = {};
   motion_.clear();
-  const LAMMPS_NS::AtomVecEllipsoid &from = *AtomBodies::ellipsoids(lmp);
+  const LAMMPS_NS::AtomVecEllipsoid& from = *AtomBodies::ellipsoids(lmp);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0 || atom->ellipsoid[i] < 0) continue;
-    const auto &body = from.bonus[atom->ellipsoid[i]];
+    const auto& body = from.bonus[atom->ellipsoid[i]];
     const Vec3 axes = Vec3::Map(body.shape), place = Vec3::Map(atom->x[i]);
     if (!(cell_.planes[0].height_of(place) < axes.maxCoeff())) {
       std::fill_n(record_of(i), kRecordNumbers, 0.0);
@@ -134,14 +128,12 @@ void FixWall::collect() {
     const Quaternion turn(body.quat[0], body.quat[1], body.quat[2], body.quat[3]);
     particles_.add(place, turn, axes, 1.0, 0);
     particles_.mass.back() = atom->rmass[i];
-    const Vec3 momentum = turn.conjugate() * Vec3(Vec3::Map(atom->angmom[i]));
-    const Vec3 spin =
-        turn * Vec3(momentum.cwiseQuotient(dem::principal_inertia(atom->rmass[i], axes)));
-    const double *v = atom->v[i];
+    const Vec3 spin = AtomBodies::spin_of(Vec3::Map(atom->angmom[i]), turn, atom->rmass[i], axes);
+    const double* v = atom->v[i];
     motion_.push_back({{v[0], v[1], v[2]}, 0.0, {spin[0], spin[1], spin[2]}, 0.0});
     atom_.push_back(i);
   }
-  const Vec3 &v = cell_.planes[0].velocity;
+  const Vec3& v = cell_.planes[0].velocity;
   motion_.resize(motion_.size() + dem::kCellFaces, {});
   motion_.push_back({{v[0], v[1], v[2]}, 0.0, {0.0, 0.0, 0.0}, 0.0});
   narrow_phase_.aim(particles_);
@@ -160,7 +152,7 @@ void FixWall::post_force(int vflag) {
 
 void FixWall::touch(std::size_t first, std::size_t count, double dt) {
   const auto wall = static_cast<std::uint32_t>(particles_.size() + dem::kCellFaces);
-  const Vec3 &speed = cell_.planes[0].velocity;
+  const Vec3& speed = cell_.planes[0].velocity;
   std::array<dem::Pair, dem::kPairBlock> pairs{};
   double before = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -182,7 +174,7 @@ void FixWall::touch(std::size_t first, std::size_t count, double dt) {
     if (!block_.touches(k)) continue;
     int i = block_.atoms(k).a;
     const ContactRecord now = block_.record(k);
-    const Vec3 &on_wall = block_.force(k);
+    const Vec3& on_wall = block_.force(k);
     Vec3::Map(atom->f[i]) -= on_wall;
     Vec3::Map(atom->torque[i]) += block_.moment_a(k);
     Vec3::Map(here_.data()) += on_wall;
@@ -222,25 +214,25 @@ void FixWall::copy_arrays(int from, int to, int) {
 
 void FixWall::set_arrays(int i) { std::fill_n(record_of(i), kRecordNumbers, 0.0); }
 
-int FixWall::pack_exchange(int i, double *buffer) {
+int FixWall::pack_exchange(int i, double* buffer) {
   std::copy_n(record_of(i), kRecordNumbers, buffer);
   return kRecordNumbers;
 }
 
-int FixWall::unpack_exchange(int i, double *buffer) {
+int FixWall::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, kRecordNumbers, record_of(i));
   return kRecordNumbers;
 }
 
 /// First comes the number of values, its own included.
-int FixWall::pack_restart(int i, double *buffer) {
+int FixWall::pack_restart(int i, double* buffer) {
   buffer[0] = size_restart(i);
   std::copy_n(record_of(i), kRecordNumbers, buffer + 1);
   return size_restart(i);
 }
 
 void FixWall::unpack_restart(int i, int nth) {
-  const double *values = atom->extra[i];
+  const double* values = atom->extra[i];
   for (int k = 0; k < nth; ++k) values += static_cast<int>(*values);
   std::copy_n(values + 1, kRecordNumbers, record_of(i));
 }
@@ -249,7 +241,7 @@ int FixWall::size_restart(int) { return kRecordNumbers + 1; }
 
 int FixWall::maxsize_restart() { return kRecordNumbers + 1; }
 
-void FixWall::write_restart(FILE *file) {
+void FixWall::write_restart(FILE* file) {
   std::array<double, kNumbers + 1> saved{};
   MPI_Allreduce(here_.data(), saved.data(), static_cast<int>(kNumbers), MPI_DOUBLE, MPI_SUM, world);
   saved.back() = cell_.planes[0].offset;
@@ -259,7 +251,7 @@ void FixWall::write_restart(FILE *file) {
   std::fwrite(saved.data(), sizeof saved, 1, file);
 }
 
-void FixWall::restart(char *bytes) {
+void FixWall::restart(char* bytes) {
   std::array<double, kNumbers + 1> saved;
   std::memcpy(saved.data(), bytes, sizeof saved);
   cell_.planes[0].offset = saved.back();

@@ -49,10 +49,10 @@ class FixWall : public LAMMPS_NS::Fix {
  public:
   /// Reads the command. Ends LAMMPS with a line that says what is wrong with
   /// it.
-  FixWall(LAMMPS_NS::LAMMPS *lammps, int count, char **words);
+  FixWall(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
   ~FixWall() override;
-  FixWall(const FixWall &) = delete;
-  FixWall &operator=(const FixWall &) = delete;
+  FixWall(const FixWall&) = delete;
+  FixWall& operator=(const FixWall&) = delete;
 
   int setmask() override;
   void init() override;
@@ -67,21 +67,21 @@ class FixWall : public LAMMPS_NS::Fix {
   void grow_arrays(int atoms) override;
   void copy_arrays(int from, int to, int) override;
   void set_arrays(int atom) override;
-  int pack_exchange(int atom, double *buffer) override;
-  int unpack_exchange(int atom, double *buffer) override;
-  int pack_restart(int atom, double *buffer) override;
+  int pack_exchange(int atom, double* buffer) override;
+  int unpack_exchange(int atom, double* buffer) override;
+  int pack_restart(int atom, double* buffer) override;
   void unpack_restart(int atom, int nth) override;
   int size_restart(int atom) override;
   int maxsize_restart() override;
-  void write_restart(FILE *file) override;
-  void restart(char *saved) override;
+  void write_restart(FILE* file) override;
+  void restart(char* saved) override;
 
  private:
   static constexpr std::size_t kNumbers = 8;  ///< of compute_vector()
-  void read_plane(Words &words);
+  void read_plane(Words& words);
   void collect();
   void touch(std::size_t first, std::size_t count, double dt);
-  double *record_of(int i) { return &records_[static_cast<std::size_t>(i) * kRecordNumbers]; }
+  double* record_of(int i) { return &records_[static_cast<std::size_t>(i) * kRecordNumbers]; }
 
   dem::Cell cell_;                       ///< of which only the one plane counts
   dem::ContactLaws laws_;                ///< the one law

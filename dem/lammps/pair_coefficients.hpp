@@ -11,21 +11,16 @@
 #pragma once
 
 #include <array>
-#include <span>
-#include <stdexcept>
 
 #include <tangency/dem/contact_law.hpp>
 
 namespace tangency::inline v0::lammps {
 
-/// Words that say no contact law; what() says what is allowed.
-class InvalidCoefficients : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
+class Words;
 
-/// The law that the words after the two types say. @throws InvalidCoefficients
-dem::ContactLaw law_of(std::span<const char* const> words);
+/// The law that the words to the end of the command say. Ends LAMMPS with a line that says what is
+/// wrong with them.
+dem::ContactLaw law_of(Words& words);
 
 /// A law as a restart file has it, to the bit.
 using StoredLaw = std::array<double, 8>;

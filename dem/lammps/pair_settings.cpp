@@ -15,13 +15,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include <tangency/dem/lammps/fix_contact_history.hpp>
 #include <tangency/dem/lammps/pair_coefficients.hpp>
 #include <tangency/dem/lammps/pair_tangency.hpp>
+#include <tangency/dem/lammps/words.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -45,19 +45,14 @@ void PairTangency::settings(int count, char** words) {
   }
 }
 
-void PairTangency::coeff(int count, char** words) {
-  if (count < 3)
-    error->all(FLERR, "Pair_coeff of pair style tangency: two types and a law are needed");
+void PairTangency::coeff(int count, char** arguments) {
+  Words words(lmp, "Pair_coeff of pair style tangency", count, arguments, 0);
+  const std::string of_i = words.next("two types"), of_j = words.next("two types");
+  const dem::ContactLaw law = law_of(words);
   if (!allocated) allocate();
-  dem::ContactLaw law;
-  try {
-    law = law_of(std::span(words + 2, static_cast<std::size_t>(count - 2)));
-  } catch (const InvalidCoefficients& refused) {
-    error->all(FLERR, std::string("Pair_coeff of pair style tangency: ") + refused.what());
-  }
   int first_i = 0, last_i = 0, first_j = 0, last_j = 0;
-  LAMMPS_NS::utils::bounds(FLERR, words[0], 1, atom->ntypes, first_i, last_i, error);
-  LAMMPS_NS::utils::bounds(FLERR, words[1], 1, atom->ntypes, first_j, last_j, error);
+  LAMMPS_NS::utils::bounds(FLERR, of_i, 1, atom->ntypes, first_i, last_i, error);
+  LAMMPS_NS::utils::bounds(FLERR, of_j, 1, atom->ntypes, first_j, last_j, error);
   bool any = false;
   for (int i = first_i; i <= last_i; ++i)
     for (int j = std::max(first_j, i); j <= last_j; ++j) {
@@ -81,20 +76,34 @@ void PairTangency::require_host() {
     error->all(FLERR, "Pair style tangency needs the velocities of ghosts: comm_modify vel yes");
   if (std::string_view(update->integrate_style) == "respa")
     error->all(FLERR, "Pair style tangency does not work with run_style respa: verlet is allowed");
-  // A library or plugin that was linked with -ffast-math changes it for the whole process.
+  // A library that was linked with -ffast-math changes it for the whole process.
   if (!environment_is_default())
     error->all(FLERR,
                "Pair style tangency needs arithmetic that rounds to nearest and keeps subnormal "
                "numbers: something in this program, as what -ffast-math links, changes that");
 }
 
+void PairTangency::require_one_law() {
+  const dem::ContactLaw* first = nullptr;
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      if (setflag[i][j] == 0) continue;
+      if (first == nullptr) first = &law_between(i, j);
+      if (law_between(i, j).hertz.has_value() != first->hertz.has_value())
+        error->all(FLERR,
+                   "Pair style tangency: all pairs of types need the law hooke, or all "
+                   "hertz/material");
+    }
+  // Where one is missing init_one() says so; with pair_style hybrid it is of another style, and
+  // nobody asks for its law.
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j)
+      if (setflag[i][j] == 0 && first != nullptr) law_between(i, j) = law_between(j, i) = *first;
+}
+
 void PairTangency::init_style() {
   require_host();
-  for (const dem::ContactLaw& law : laws_.law)
-    if (law.hertz.has_value() != laws_.are_hertz())
-      error->all(FLERR,
-                 "Pair style tangency: all pairs of types need the law hooke, or all "
-                 "hertz/material");
+  require_one_law();
   reach_ = AtomBodies::reach_by_type(lmp);
   neighbor->request(this, instance_me);
   make_history();

@@ -61,7 +61,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   /// The words of pair_style.
   void settings(int count, char** words) override;
   /// The words of pair_coeff.
-  void coeff(int count, char** words) override;
+  void coeff(int count, char** arguments) override;
   /// Refuses what it cannot do, asks for a half list and for the history.
   void init_style() override;
   /// The distance within which two types can touch.
@@ -95,6 +95,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   dem::ContactLaw& law_between(int i, int j);
   void make_history();
   void require_host();
+  void require_one_law();
   void require_room();
   Step step();
   void collect(const Step& step);

@@ -18,7 +18,8 @@
 namespace tangency::inline v0::lammps {
 
 /// Times in seconds, sizes in bytes. Defaults: measured on 64,000 spheroids, b/a = 0.7, on one core
-/// of the machine that docs/lammps-fixes.md describes, or assumed, as each line says.
+/// by an earlier trial, whose bodies were dearer than those of this program, or assumed, as each
+/// line says.
 struct ScalingModel {
   double own = 1.05e-6;    ///< an own particle and step; measured: pair 0.85, move 0.18, lists 0.02
   double ghost = 0.25e-6;  ///< the body of a ghost; measured; some 0.05 where bodies are columns

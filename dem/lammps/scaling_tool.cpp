@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kHelp = R"(
 Prints how long a step is expected to take, and how much of it is work on particles, by a model whose
-constants are options: what was measured on one machine, or assumed of a cluster. A CSV table, a row
-each number of particles and of ranks:
+constants are options: what an earlier trial measured on one machine, or assumed of a cluster. A CSV
+table, a row each number of particles and of ranks:
   particles, ranks
   own             particles a rank
   ghosts_per_own  copies of other ranks' particles, relative to them

@@ -42,6 +42,13 @@ double Words::positive(const std::string& key) {
   return value;
 }
 
+double Words::within(const std::string& key, double least, double most,
+                     const std::string& allowed) {
+  const double value = number(key);
+  if (!(value >= least && value <= most)) refuse(key, words_[at_ - 1], allowed);
+  return value;
+}
+
 bool Words::yes(const std::string& key) {
   const std::string word = next(key);
   if (word != "yes" && word != "no") refuse(key, word, "yes or no");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// @file
-/// The words of a fix or compute, read one after the other, and how wrong ones are refused.
+/// The words of a command, read one after the other, and how wrong ones are refused.
 #pragma once
 
 #include <pointers.h>
@@ -10,7 +10,8 @@
 
 namespace tangency::inline v0::lammps {
 
-/// What follows the style in a command. What is refused ends LAMMPS on all ranks with one line,
+/// What a command says after its first words. What is refused ends LAMMPS on all ranks with one
+/// line,
 ///     fix tangency/move: damping = -1: a number >= 0
 /// so every rank has to read the same words.
 class Words : protected LAMMPS_NS::Pointers {
@@ -25,8 +26,6 @@ class Words : protected LAMMPS_NS::Pointers {
 
   /// Are there words left?
   bool any() const { return at_ < count_; }
-  /// Where the next word is.
-  int place() const { return at_; }
   /// The next word. @param what  it should be, in the message where there is none
   std::string next(const std::string& what);
   /// Passes the next word where it is this one.
@@ -37,6 +36,8 @@ class Words : protected LAMMPS_NS::Pointers {
   double not_negative(const std::string& key);
   /// The same, > 0.
   double positive(const std::string& key);
+  /// The same, in [least, most]. @param allowed  that range, in the message
+  double within(const std::string& key, double least, double most, const std::string& allowed);
   /// The next word, yes or no.
   bool yes(const std::string& key);
 

@@ -47,6 +47,11 @@ and with --contacts the columns of `tangency contact` for body i as a and that i
 Listed are without --reach the pairs that share a point, exactly: touching counts; with it
 those whose gap, less its gap_error, is at most R.
 
+A body that is larger than the cell meets images of itself, and many: a row with more than
+--max-images of them is refused, before anything is searched. Counted are those whose bounding
+boxes come within the reach: floor((2 r + R) / L) to either side along each axis that is periodic,
+r the largest semi-axis.
+
 The command does not take --keep-going: a list without a body that was refused would look whole.
 
 Exit status: 0 the list is whole; 1 some contact is not_applicable, for a number beyond the
@@ -71,8 +76,13 @@ Example, three balls in a cell, of which the first meets an image of the last:
   1,2,0,0,0
 )";
 
+/// Images of one body that are searched. Chosen: the list of a body that is 22 cells long has some
+/// megabytes.
+constexpr std::uint64_t kMaxImages = 100'000, kMostMaxImages = 1'000'000'000'000;
+
 struct Options : QuadricOptions {
   std::string reach, periodic;
+  std::uint64_t max_images = kMaxImages;
   bool contacts = false;
 };
 
@@ -108,6 +118,18 @@ Lattice lattice_of(const std::string& periodic) {
   return lattice;
 }
 
+/// Images of a body whose bounding boxes come within the reach of its own, itself included. It
+/// meets no more images of a body that is not larger.
+double images_near(const Ellipsoid& body, const Lattice& lattice, double reach) {
+  const double width = 2.0 * body.largest_semi_axis() + reach;
+  double images = 1.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    if (lattice.periodic[static_cast<std::size_t>(k)])
+      images *= 2.0 * std::floor(width / lattice.edges(k, k)) + 1.0;
+  }
+  return images;
+}
+
 /// The table, and what is asked of it.
 struct Bodies {
   std::vector<Ellipsoid> round;        ///< MatrixEllipsoid::ellipsoid() of each
@@ -122,7 +144,16 @@ struct Bodies {
   }
 };
 
-Bodies read_bodies(const Options& options) {
+/// The question of the command line, but for its answers.
+NeighbourQuestion question_of(const Options& options) {
+  NeighbourQuestion question;
+  question.lattice = lattice_of(options.periodic);
+  question.threads = static_cast<int>(options.threads);
+  if (!options.reach.empty()) tables::parse_number(options.reach, question.reach);
+  return question;
+}
+
+Bodies read_bodies(const Options& options, const NeighbourQuestion& question) {
   tables::Reader reader(options.input);
   const BodyColumns columns(reader.header(), "", mixed_terms_named(options.mixed_terms));
   Bodies bodies;
@@ -131,6 +162,14 @@ Bodies read_bodies(const Options& options) {
   tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     MatrixEllipsoid body = columns.read(row);
     bodies.round.push_back(body.ellipsoid());
+    const double images = images_near(bodies.round.back(), question.lattice, question.reach);
+    if (images > static_cast<double>(options.max_images))
+      throw tables::Error({.file = bodies.file,
+                           .line = row.line(),
+                           .column = "images",
+                           .value = tables::to_text(images),
+                           .rule = "a body may meet at most " + std::to_string(options.max_images) +
+                                   " of its images (--max-images)"});
     if (!bodies.exact) bodies.given.push_back(std::move(body));
   });
   return bodies;
@@ -144,12 +183,8 @@ struct Contact {
 
 class Answers {
  public:
-  Answers(const Bodies& bodies, const Options& options)
-      : bodies_(bodies), contacts_(options.contacts) {
-    question_.lattice = lattice_of(options.periodic);
-    question_.threads = static_cast<int>(options.threads);
-    if (!options.reach.empty()) tables::parse_number(options.reach, question_.reach);
-  }
+  Answers(const Bodies& bodies, NeighbourQuestion question, bool contacts)
+      : bodies_(bodies), contacts_(contacts), question_(std::move(question)) {}
 
   tables::ExitStatus write(tables::OutputFile& out) {
     tables::RowText text;
@@ -253,14 +288,21 @@ void add_neighbours(tables::Program& program) {
         return parse_lengths(text, lengths);
       })
       .type_name("LX,LY,LZ");
+  command
+      .option("--max-images", options->max_images,
+              "The most images of one body that it may meet, itself included")
+      .between(std::uint64_t{1}, kMostMaxImages)
+      .shows_default()
+      .type_name("N");
   command.flag("--contacts", options->contacts, "Add the columns of `tangency contact`");
   add_mixed_terms_option(command, *options);
   add_table_options(command, *options);
   command.footer(kHelp);
   command.runs([options] {
     tables::OutputFile out(options->output);
-    const Bodies bodies = read_bodies(*options);
-    const tables::ExitStatus status = Answers(bodies, *options).write(out);
+    const NeighbourQuestion question = question_of(*options);
+    const Bodies bodies = read_bodies(*options, question);
+    const tables::ExitStatus status = Answers(bodies, question, options->contacts).write(out);
     out.commit();
     return status;
   });

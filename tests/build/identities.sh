@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: identities.sh SOURCE
 # Every numbered identity of a header, `/// (3) A common scaling ...`, is named above a test that
-# asserts it, `// geometry/gap.hpp (3)`, and what is named above a test is an identity.
+# asserts it, `// geometry/gap.hpp (3)`, or above a function of a check in Python, `# dem/...`, and
+# what is named so is an identity.
 set -euo pipefail
 cd "$1"
 status=0
@@ -16,15 +17,15 @@ while read -r twice; do
 done < <(uniq -d <<< "$stated")
 
 # FILE HEADER (NUMBER) of each name that stands above a test; a name elsewhere has the file `?`.
-named=$(find tests -name '*.cpp' -exec awk '
+named=$(find tests \( -name '*.cpp' -o -name '*.py' \) -exec awk '
   FNR == 1 { count = 0 }
-  /^\/\/ (geometry|dem)\/[a-z0-9_\/]+\.hpp( \([0-9]+\))+$/ {
+  /^(\/\/| *#) (geometry|dem)\/[a-z0-9_\/]+\.hpp( \([0-9]+\))+$/ {
     for (i = 3; i <= NF; ++i) names[count++] = $2 " " $i
     next
   }
-  /^\/\// { next }
+  /^(\/\/| *#)/ { next }
   {
-    for (i = 0; i < count; ++i) print (/^(TEST|RC_GTEST)/ ? FILENAME : "?"), names[i]
+    for (i = 0; i < count; ++i) print (/^(TEST|RC_GTEST| *def )/ ? FILENAME : "?"), names[i]
     count = 0
   }' {} +)
 while read -r file name; do

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <ios>
 #include <numbers>
 #include <vector>
 
@@ -85,7 +86,8 @@ double passing(const std::vector<Shape>& shapes, double opening, int dimensions)
   return through / all;
 }
 
-// dem/body_sizes.hpp (1): one particle of the opening more or less, of the mass of all
+// dem/body_sizes.hpp (1)
+// One particle of the opening more or less, of the mass of all.
 TEST(BodySizes, OfASieveCurvePassTheSievesByItsMasses) {
   BodySizes sizes;
   sizes.rule = Rule::sieve;
@@ -110,6 +112,60 @@ TEST(BodySizes, OfASieveCurvePassTheSievesByItsMasses) {
     EXPECT_NEAR(passing(shapes, 0.001 * std::numbers::sqrt2, dimensions), 0.15,
                 2.0 * largest / all);
   }
+}
+
+// dem/body_sizes.hpp (2)
+TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
+  const double tails = 0.05, z = dem::normal_quantile(1.0 - tails);
+  BodySizes sieve;
+  sieve.rule = Rule::sieve;
+  sieve.openings = {0.5, 1.0, 4.0};
+  sieve.passing = {0.0, 0.25, 1.0};
+  BodyRatios ratios;
+  ratios.elongation = {1.25, 2.0};
+  ratios.flatness = {1.0, 1.5};
+  const auto hold = [&](const BodySizes& sizes, double least, double most) {
+    for (const std::size_t count : {1u, 2u, 777u}) {
+      for (const Shape& shape : dem::shapes_of(sizes, ratios, count, 3)) {
+        const bool sieved = sizes.rule == Rule::sieve;
+        const double size = sieved ? dem::sieve_opening(shape, 3) : shape.mean_radius;
+        ASSERT_GE(size, least * (1.0 - 1e-14));
+        ASSERT_LE(size, most * (1.0 + 1e-14));
+        ASSERT_TRUE(shape.elongation >= 1.25 && shape.elongation <= 2.0) << shape.elongation;
+        ASSERT_TRUE(shape.flatness >= 1.0 && shape.flatness <= 1.5) << shape.flatness;
+      }
+    }
+  };
+  hold({Rule::equal, 3.0}, 3.0, 3.0);
+  hold({Rule::uniform, 2.0, 0.25}, 1.5, 2.5);
+  hold({Rule::normal, 2.0, 0.5, tails}, 2.0 - z, 2.0 + z);
+  hold({Rule::lognormal, 2.0, 0.5, tails}, 2.0 * std::exp(-0.5 * z), 2.0 * std::exp(0.5 * z));
+  hold(sieve, 0.5, 4.0);
+  // The smallest of as many as there are is above 0 up to this deviation.
+  for (const double size : radii_of({Rule::normal, 1.0, 0.999 / z, tails}, 100000))
+    ASSERT_GT(size, 0.0);
+}
+
+// dem/body_sizes.hpp (3)
+TEST(BodySizes, AreTheSameBitsOnEveryMachine) {
+  BodySizes sieve;
+  sieve.rule = Rule::sieve;
+  sieve.openings = {0.5, 1.0, 4.0};
+  sieve.passing = {0.0, 0.25, 1.0};
+  BodyRatios ratios;
+  ratios.elongation = {1.25, 2.0};
+  ratios.flatness = {1.0, 1.5};
+  const auto hold = [&](const BodySizes& sizes, const Shape& wanted) {
+    const Shape shape = dem::shapes_of(sizes, ratios, 1000, 3)[777];
+    EXPECT_EQ(shape.mean_radius, wanted.mean_radius) << std::hexfloat << shape.mean_radius;
+    EXPECT_EQ(shape.elongation, wanted.elongation) << std::hexfloat << shape.elongation;
+    EXPECT_EQ(shape.flatness, wanted.flatness) << std::hexfloat << shape.flatness;
+  };
+  const double e = 0x1.f023551a28dp+0, f = 0x1.0681797ee1e8p+0;
+  hold({Rule::uniform, 2.0, 0.25}, {0x1.23851eb851eb8p+1, e, f});
+  hold({Rule::normal, 2.0, 0.5}, {0x1.5d0fb973220e6p+1, e, f});
+  hold({Rule::lognormal, 2.0, 0.5}, {0x1.703a055d3cbf4p+1, e, f});
+  hold(sieve, {0x1.1dd17c3ef459cp-1, e, f});
 }
 
 // The shadow of an ellipsoid along its longest axis, turned by an eighth, is as wide as it is high.

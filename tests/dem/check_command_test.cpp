@@ -68,7 +68,7 @@ struct Case {
   const char* key;  ///< the first that the advice names
 };
 
-// (1) and (2) of dem/tool/check.hpp.
+// dem/tool/check.hpp (1) (2)
 TEST(Check, AdvisesKeysAndValuesWithWhichTheAdviceIsGone) {
   const std::string soft = with(small_scene(), "1.5e10", "1e9");
   const std::string hertz =

@@ -98,7 +98,8 @@ TEST(Insertion, KeepsBodiesWithinWallsByTheirExtentAndNotByTheirLargestAxis) {
   EXPECT_EQ(pairs_that_meet(particles, cell), 0u);
 }
 
-// dem/insertion.hpp (2): the sample of a seed, and another one of another seed.
+// dem/insertion.hpp (2)
+// And another seed has another sample.
 TEST(Insertion, OfOneSeedIsOneSample) {
   Cell cell;
   const auto of_seed = [&](std::uint64_t seed) {

@@ -127,7 +127,8 @@ TEST_P(SceneOfMotion, RunsWithoutAWarningAndIsReported) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneOfMotion, ::testing::Values("impact", "slope"));
 
-/// A page without what its scripts hold: the code of the view of the sample, and frames as they are.
+/// A page without what its scripts hold: the code of the view of the sample, and frames as they
+/// are.
 std::string without_scripts(std::string page) {
   for (std::size_t at = 0; (at = page.find("<script", at)) != page.npos;) {
     const std::size_t begin = page.find('>', at) + 1, end = page.find("</script>", begin);

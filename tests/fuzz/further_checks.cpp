@@ -72,8 +72,13 @@ class FurtherChecks {
   void primitives() const {
     const Plane wall{b_.semi_axes(), b_.centre()[0]};
     const WallGap to_wall = signed_gap(a_, wall);
-    hold(has_sign(to_wall.gap, relation(MatrixEllipsoid(a_), wall).relation),
-         "relation and the gap's sign, of a wall");
+    // Of a body by axes the sign is promised where the error leaves no doubt, of one in any form
+    // always.
+    const MatrixEllipsoid body(a_);
+    const Relation exact = relation(body, wall).relation;
+    hold(has_sign(signed_gap(body, wall).gap, exact), "relation and the gap's sign, of a wall");
+    hold(std::abs(to_wall.gap) <= to_wall.gap_error || has_sign(to_wall.gap, exact),
+         "relation and a gap beyond its error, of a wall");
     const Sphere ball{b_.centre(), b_.semi_axes()[0]};
     const Gap to_ball = signed_gap(a_, ball), from_ball = signed_gap(ball, a_);
     hold(meet(enclosure_of(to_ball), enclosure_of(from_ball)), "a ball and exchange");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -71,7 +72,7 @@ std::uint64_t hash_of(Bytes input) {
 }
 
 std::string source_file(const std::string& path, std::size_t lines) {
-  std::ifstream file(std::string(TANGENCY_SOURCE) + "/" + path, std::ios::binary);
+  std::ifstream file(std::filesystem::path(TANGENCY_SOURCE) / path, std::ios::binary);
   if (!file) broken("seeds", path + " cannot be read");
   if (lines == 0) return {std::istreambuf_iterator<char>(file), {}};
   std::string text;

@@ -104,10 +104,11 @@ class Check:
         require(done.returncode == 0, f"{' '.join(words)}: {done.stderr}")
         return done.stdout
 
-    def engine(self, script, ranks=1, status=0):
+    def engine(self, script, ranks=1, status=0, variables=()):
         """Runs a script; returns what LAMMPS printed."""
         mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)]
-        done = subprocess.run([*(mpirun if ranks > 1 else []), self.lammps, "-in", script, "-log", "none"],
+        done = subprocess.run([*(mpirun if ranks > 1 else []), self.lammps, "-in", script, "-log", "none",
+                               *variables],
                               cwd=self.folder, capture_output=True, text=True, check=False)
         require((done.returncode == 0) == (status == 0),
                 f"{script} on {ranks} ranks: {(done.stdout + done.stderr)[-800:]}")

@@ -77,18 +77,28 @@ REFUSED = (
     ("pair_style tangency ", "pair_style tangency accuracy best", "certified or standard is allowed"),
     ("pair_style tangency ", "pair_style tangency branch", "follow or global is allowed"),
     ("pair_style tangency ", "pair_style tangency skin 1", "branch or accuracy is allowed"),
-    ("hooke 1.5e10", "hooke -1", "kn = -1: a number > 0 is allowed"),
-    ("hooke 1.5e10", "hooke 1.5e1O", "kn = 1.5e1O: a number > 0 is allowed"),
-    ("tangential linear 1.5e10 0.5", "tangential mindlin 0.5", "tangential linear is allowed"),
+    ("hooke 1.5e10", "hooke -1", "kn = -1: a number > 0"),
+    ("hooke 1.5e10", "hooke 1.5e1O", "kn = 1.5e1O: a finite number"),
+    ("tangential linear 1.5e10 0.5", "tangential mindlin 0.5", "tangential = mindlin: linear, with hooke"),
     ("hooke 1.5e10 tangential linear 1.5e10", "hertz/material 1e9 0.7 tangential mindlin",
-     "nu = 0.7: 0 to 0.5 is allowed"),
-    ("tangential linear 1.5e10 0.5", "restitution 0", "restitution = 0: 0.05 to 1 is allowed"),
-    ("tangential linear 1.5e10 0.5", "tangential linear 1.5e10", "a word is missing at the end: mu"),
-    ("tangential linear 1.5e10 0.5", "adhesion 1", "word = adhesion"),
+     "nu = 0.7: a number from 0 to 0.5"),
+    ("tangential linear 1.5e10 0.5", "restitution 0", "restitution = 0: a number from 0.05 to 1"),
+    ("tangential linear 1.5e10 0.5", "tangential linear 1.5e10", "mu: missing at the end of the command"),
+    ("tangential linear 1.5e10 0.5", "adhesion 1", "keyword = adhesion: tangential, cohesion or restitution"),
+    ("pair_coeff * * hooke 1.5e10 tangential linear 1.5e10 0.5", "pair_coeff * * ",
+     "hooke or hertz/material: missing at the end of the command"),
     ("neighbor 2.0 bin", "neighbor 90.0 bin", "lest a pair meet twice"),
+    ("read_data sample.data\npair_style tangency \npair_coeff * *",
+     "read_data sample.data extra/atom/types 1\npair_style tangency\npair_coeff 2 2 hooke 1e9\npair_coeff 1 1",
+     "pair_coeff 1 2 is missing: laws are not mixed"),
+    ("read_data sample.data\npair_style tangency \npair_coeff * *",
+     "read_data sample.data extra/atom/types 1\npair_style tangency\npair_coeff * 2 hertz/material 1e9 0.2\n"
+     "pair_coeff 1 1", "need the law hooke, or all hertz/material"),
     ("run 10", "run_style respa 2 2\nrun 10", "run_style respa"),
     ("run 10", "create_atoms 1 single 5.0 5.0 5.0\nunfix move\nrun 10", "atom 1001 is no ellipsoid"),
     ("timestep 0.002", "timestep 1e305", "that is no finite number"),
+    ("run 10", "variable inf atom 1e300*1e300\nset atom 7 angmom v_inf 0.0 0.0\nrun 10", "atom 7 has a place, a turn or a motion"),
+    ("run 10", "variable inf atom 1e300*1e300\nset atom 7 mass v_inf\nrun 10", "atom 7 has a mass that is not > 0 and finite"),
 )
 STRAIN = """fix strain all deform 1 x trate -0.01 y trate -0.01 z trate -0.01 remap x
 fix move all nve/asphere
@@ -192,7 +202,7 @@ class Check:
         self.tell("run", f"{name}.toml", "--out", name, "--quiet", "--replace")
         return os.path.join(name, "final.state")
 
-    def start(self, name, script, ranks):
+    def start(self, name, script, ranks, **variables):
         with open(os.path.join(self.folder, f"in.{name}"), "w", encoding="ascii") as file:
             file.write(script)
         for old in (f"{name}.dump", f"{name}.log"):
@@ -200,7 +210,7 @@ class Check:
                 os.remove(os.path.join(self.folder, old))
         start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
         environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                           OMP_NUM_THREADS="1")
+                           OMP_NUM_THREADS="1", **variables)
         return subprocess.run(start + [self.program, "-in", f"in.{name}", "-log", f"{name}.log"],
                               cwd=self.folder, capture_output=True, text=True, check=False,
                               env=environment)
@@ -215,6 +225,7 @@ class Check:
 
     # Checks, in the order in which they are run.
 
+    # dem/lammps/pair_tangency.hpp (4)
     def check_configuration(self):
         """Forces of one configuration whose shear memory is empty are those of the simulator."""
         c = self.contacts
@@ -267,6 +278,7 @@ class Check:
         all_of_it = np.einsum("k,ki,kj->ij", mass, v, v) / volume
         return all_of_it[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
 
+    # dem/lammps/pair_tangency.hpp (2)
     def check_trajectories(self):
         """2000 strained steps by each law end where those of the simulator end."""
         for law in LAWS:
@@ -300,6 +312,7 @@ class Check:
             within(f"{what}: stress", off(run.stress(), stress), 1e-9)
             within(f"{what}: forces", off(run.forces(), force), 1e-7)
 
+    # dem/lammps/pair_tangency.hpp (1)
     def check_ranks(self):
         """A strained sample does the same on any number of ranks, with newton on and off."""
         first = None
@@ -382,7 +395,21 @@ class Check:
             require(done.returncode != 0 and len(lines) == 1 and words in lines[0],
                     f"{there}: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
             print(lines[0])
+        self.refuses_a_host_that_flushes(whole)
 
+    def refuses_a_host_that_flushes(self, script):
+        """As what is linked with -ffast-math, from the start of the program."""
+        with open(os.path.join(self.folder, "flush.c"), "w", encoding="ascii") as file:
+            file.write("#include <xmmintrin.h>\n__attribute__((constructor)) static void flush(void) "
+                       "{ _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON); }\n")
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", "flush.so", "flush.c"], cwd=self.folder, check=True)
+        done = self.start("flush", script, 1, LD_PRELOAD=os.path.abspath(f"{self.folder}/flush.so"))
+        lines = [line for line in done.stdout.splitlines() if line.startswith("ERROR")]
+        require(done.returncode != 0 and len(lines) == 1 and "subnormal numbers" in lines[0],
+                f"flush to zero: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
+        print(lines[0])
+
+    # dem/lammps/pair_tangency.hpp (3)
     def check_restart(self):
         """A run that goes on from a restart file, on other ranks, is the run that was not stopped."""
         # Strained first, so that contacts remember shear. Forces are computed anew at a restart:

@@ -12,13 +12,16 @@ on from there in both programs, with friction; LAMMPS by the script of `export -
 - ring:     a simple shear with a plane mean and a direction held, through the pair's own stiffness
 - relax:    velocities run downhill to rest, and the script ends the stage where tangency-dem does
 - fabric:   tensors and balance of one state, on one rank and on two, newton on and off
+- rubbed:   tensors of contacts with friction, after 500 steps
 - wall:     spheroids that slide and tumble down a slope into a corner, walls and all
 - energy:   the account of energies closes as that of tangency-dem does
+- examples: the scripts of dem/lammps/examples run one after the other, as their heads say
 - restart:  an axial compression, stopped half way and resumed on another number of ranks
 Exit status: 0, or 1 with the first difference. Packages: .ci/setup lammps
 """
 import csv
 import json
+import os
 import re
 import sys
 
@@ -204,18 +207,40 @@ class Study(Check):
                  [PRESS] * 3, 0.2)
             self.compare("relax", ranks, {"x y z": 1e-6, "qw qx qy qz": 1e-5})
 
-    def fabric(self):
-        self.both("fabric", 'kind = "servo"\nduration = 1\n')
-        head = self.read("fabric/in.fabric").split("# Stage")[0]
-        seen = json.loads(self.tool("micro", "sample/final.state", "--json", "-"))
+    def fabric_of(self, state):
+        """The columns of compute tangency/fabric, by tangency-dem."""
+        seen = json.loads(self.tool("micro", state, "--json", "-"))
 
         def of(tensor):
             return [tensor[i][j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
 
-        there = of(seen["fabric"]["second"])
+        numbers = of(seen["fabric"]["second"])
         for key in ("normal_force", "tangential_force", "branch_normal", "branch_tangential"):
-            there += of(seen[key]["second"])
-        there += [seen["f0"], seen["z0"], seen["contact_density"], seen["contacts"]]
+            numbers += of(seen[key]["second"])
+        return numbers + [seen["f0"], seen["z0"], seen["contact_density"], seen["contacts"]]
+
+    def rubbed(self):
+        """The fabric of contacts with friction: its tensor of tangential forces is none of rounding."""
+        self.both("rubbed", 'kind = "servo"\nduration = 500\ndamping = 0.1\n'
+                            "strain_rate = [0.01, 0.0, 0.02]\n")
+        there = np.array(self.fabric_of("rubbed.run/final.state"))
+        require(np.abs(there[12:18]).max() > 1e-3, "rubbed: no friction")
+        names = " ".join(f"c_fabric[{k}]" for k in range(1, 35))
+        script = re.sub("(?m)^thermo_style.*", "compute fabric all tangency/fabric\n"
+                        "thermo_style custom step " + names, self.read("rubbed/in.rubbed"))
+        self.write("rubbed/in.look", script)
+        for ranks in (1, 2):
+            row = self.thermo(self.in_folder("rubbed", "in.look", ranks))[-1]
+            here = np.array([row[f"c_fabric[{k}]"] for k in range(1, 35)])
+            for what, columns_of in (("normals", slice(0, 6)), ("normal forces", slice(6, 12)),
+                                     ("tangential forces", slice(12, 18)), ("branches", slice(18, 30)),
+                                     ("numbers", slice(30, 34))):
+                near(f"rubbed on {ranks} ranks, {what}", here[columns_of], there[columns_of], 1e-9)
+
+    def fabric(self):
+        self.both("fabric", 'kind = "servo"\nduration = 1\n')
+        head = self.read("fabric/in.fabric").split("# Stage")[0]
+        there = self.fabric_of("sample/final.state")
         last = list(csv.DictReader(self.read("sample/history.csv").splitlines()))[-1]
         for ranks, newton in ((1, "on"), (2, "on"), (2, "off")):
             names = " ".join(f"c_fabric[{k}]" for k in range(1, 35))
@@ -263,6 +288,7 @@ class Study(Check):
         self.in_folder("wall", "in.second", 1)
         self.compare("wall", "resumed", {"x y z": 1e-9, "vx vy vz": 1e-7}, ".resumed")
 
+    # dem/lammps/pair_tangency.hpp (4)
     def energy(self):
         self.both("energy", 'kind = "servo"\nduration = 2000\ndamping = 0.1\n'
                             "strain_rate = [0.01, 0.0, 0.02]\n")
@@ -306,8 +332,26 @@ class Study(Check):
         for column in ("PotEng", "c_push[1]", "c_push[2]", "c_push[3]", "Lx"):
             near(f"restart: {column}", [resumed[column]], [whole[column]], 1e-8)
 
+    def examples(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "dem")
+        for script in ("compress", "triaxial", "replicate", "large"):
+            with open(os.path.join(root, "lammps", "examples", "in." + script), encoding="ascii") as file:
+                self.write("in." + script, file.read())
+        self.tool("export", "--lammps", "start", "--scene", os.path.join(root, "scenes", "assembly-1000.toml"))
+        for script, ranks, values in (("compress", 2, {}), ("triaxial", 1, {"strain": 0.01}),
+                                      ("replicate", 2, {"n": 2, "steps": 20}),
+                                      ("large", 2, {"n": 1, "steps": 300, "every": 200}),
+                                      ("large", 1, {"n": 1, "steps": 400, "from": 200})):
+            words = [str(word) for pair in values.items() for word in ("-var", *pair)]
+            last = self.thermo(self.engine("in." + script, ranks, variables=words))[-1]
+            print(f"in.{script} on {ranks} ranks {values}: step {last['Step']:.0f}, "
+                  f"mean stress {np.mean([last[f'c_push[{k}]'] for k in (1, 2, 3)]):.4g}")
+            require(abs(last["c_push[1]"] / PRESS - 1.0) < 0.01, f"in.{script}: lateral stress is not held")
+        require(last["Step"] == 400.0, "in.large: does not go on from its restart")
 
-CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "wall", "energy", "restart")
+
+CHECKS = ("move", "hold", "triaxial", "ring", "relax", "fabric", "rubbed", "wall", "energy", "restart",
+          "examples")
 
 if __name__ == "__main__":
     require(len(sys.argv) > 3, __doc__)

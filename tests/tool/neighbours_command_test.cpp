@@ -143,7 +143,7 @@ TEST(NeighboursCommand, RefusesWithOneLine) {
         refusal({"--periodic", bad}, head).find(std::string(bad) + ": three lengths LX,LY,LZ"),
         std::string::npos)
         << bad;
-  EXPECT_EQ(refusal({"--periodic", "1e-7,0,0"}, head + body),
+  EXPECT_EQ(refusal({"--periodic", "1e-7,0,0", "--max-images", "1000000000"}, head + body),
             "<stdin>: edges: the cell is 1e-07 high, and a ball 2: at most 2^20 images\n");
   EXPECT_EQ(refusal({"--periodic", "1,0,0"}, head + body + "1e18,0,0,1,1,1\n"),
             "<stdin>: centres[1]: 1e+18 edges away: at most 2^29\n");
@@ -156,6 +156,31 @@ TEST(NeighboursCommand, RefusesWithOneLine) {
   refusal({"--out", file}, head + body + "0,0,0,1,1,x\n");
   EXPECT_EQ(read_file(file), "as it was\n");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"out.csv"});
+}
+
+// Without a limit the first table has 10^12 pairs with images, and no memory ever holds them.
+TEST(NeighboursCommand, RefusesABodyWithMoreImagesThanAreAllowedBeforeItSearches) {
+  const std::string head = "x,y,z,r1,r2,r3\n", small = "0,0,0,1,1,1\n";
+  const Finished huge =
+      run_tool({"neighbours", "--periodic", "10,10,10"}, head + small + "1,1,1,1e5,1,1\n" + small);
+  EXPECT_EQ(huge.status, 2);
+  EXPECT_EQ(huge.err,
+            "<stdin>:3: images = 64004800120001: a body may meet at most 100000 of its images "
+            "(--max-images)\n");
+  EXPECT_EQ(huge.out, "");
+  // A ball of radius 1 in a cell of 2 x 1: 3 by 5 images have boxes that meet its own.
+  const auto run = [&](const char* most, const char* reach, const char* cell = "2,1,0") {
+    return run_tool({"neighbours", "--periodic", cell, "--max-images", most, "--reach", reach},
+                    head + small);
+  };
+  EXPECT_EQ(run("15", "0").status, 0);
+  EXPECT_EQ(run("14", "0").err,
+            "<stdin>:2: images = 15: a body may meet at most 14 of its images (--max-images)\n");
+  EXPECT_EQ(run("20", "0.5").status, 0);
+  EXPECT_EQ(run("20", "1").err,
+            "<stdin>:2: images = 21: a body may meet at most 20 of its images (--max-images)\n");
+  EXPECT_EQ(run("1", "1e300", "0,0,0").status, 0) << "without a cell there is one image";
+  for (const char* bad : {"0", "-1", "x"}) EXPECT_EQ(run(bad, "0").status, 2) << bad;
 }
 
 TEST(NeighboursCommand, OfNoBodiesIsAHeader) {
