@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 /// Chosen: more runs than anyone waits for.
 constexpr std::size_t kMostCombinations = 10000;
 
+/// Chosen: more files than anyone keeps; two that each name the next twice would be 2^n.
+constexpr std::size_t kMostIncluded = 1000;
+
 toml::table parsed(const std::string& text, const std::string& name) {
   try {
     return toml::parse(text, std::string_view(name));
@@ -98,6 +101,8 @@ class Including {
       const fs::path path = fs::path(name).parent_path() / file;
       if (std::find(open_.begin(), open_.end(), fs::weakly_canonical(path)) != open_.end())
         refuse("a file that does not lead back to this one");
+      if (++included_ > kMostIncluded)
+        refuse("at most " + std::to_string(kMostIncluded) + " files in all");
       toml::table next = tree_from(path, refuse);
       change_files(next, [&](const fs::path& named) {
         return named.is_absolute() ? named : fs::path(file).parent_path() / named;
@@ -124,6 +129,7 @@ class Including {
   }
 
   std::vector<fs::path> open_;  ///< those that are being read
+  std::size_t included_ = 0;    ///< times that a file was
 };
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -222,14 +228,16 @@ toml::table value_at(const std::string& value, const std::string& file, std::siz
   return toml::parse(std::string(line - 1, '\n') + "value = " + value, std::string_view(file));
 }
 
-/// A value from the command line: what is no TOML is a text.
-std::string toml_of(const std::string& word) {
-  const bool is_line = word.find_first_of("\n\r") == word.npos;
+/// A value from the command line: what is no TOML is a text; nothing for what is neither.
+std::optional<std::string> toml_of(const std::string& word) {
   try {
-    if (is_line && toml::parse("value = " + word).size() == 1) return word;
+    if (word.find_first_of("\n\r") == word.npos && toml::parse("value = " + word).size() == 1)
+      return word;
   } catch (const toml::parse_error&) {
   }
-  return is_line && word.find('\'') == word.npos ? "'" + word + "'" : "''";
+  const std::string text = text_of(toml::value<std::string>(word));
+  const toml::table back = toml::parse("value = " + text);
+  return back["value"].value_or(std::string()) == word ? std::optional(text) : std::nullopt;
 }
 
 void add_axes(const toml::table& table, const std::string& path, const Source& source,
@@ -314,7 +322,9 @@ Setting SceneFile::set(const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == assignment.npos || equals == 0)
     throw SceneError(where + ": KEY=VALUE, or KEY,KEY=VALUE");
-  const Setting setting{assignment.substr(0, equals), toml_of(assignment.substr(equals + 1))};
+  const auto value = toml_of(assignment.substr(equals + 1));
+  if (!value) throw SceneError(where + ": a value as TOML writes it, or a line of UTF-8");
+  const Setting setting{assignment.substr(0, equals), *value};
   set(setting, where, 1);
   return setting;
 }
@@ -399,12 +409,11 @@ Scene SceneFile::scene(const BodyShapes& shapes) const {
 std::string SceneFile::text(const fs::path& folder) const {
   toml::table all = tree_->root;
   all.erase("sweep");
-  const fs::path from = fs::absolute(fs::path(tree_->name)).parent_path();
+  // A folder may be another by a link, and `..` then leads elsewhere.
+  const fs::path from = fs::weakly_canonical(fs::absolute(tree_->name).parent_path());
+  const fs::path to = fs::weakly_canonical(fs::absolute(folder));
   change_files(all, [&](const fs::path& file) {
-    if (file.is_absolute()) return file;
-    return (from / file)
-        .lexically_normal()
-        .lexically_relative(fs::absolute(folder).lexically_normal());
+    return file.is_absolute() ? file : fs::weakly_canonical(from / file).lexically_relative(to);
   });
   std::ostringstream out;
   write(out, all, "");

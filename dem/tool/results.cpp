@@ -85,18 +85,6 @@ micromechanics::Classes classes_of(const OutputIntervals& output) {
   return {output.polar ? Kind::polar : Kind::near_uniform, output.classes};
 }
 
-/// The first result of a run in a directory.
-std::optional<std::string> result_in(const fs::path& directory) {
-  for (const char* name :
-       {"history.csv", "summary.json", "final.state", "checkpoint.state", "fault.state",
-        "frames.pvd", "frames.xyz", "frames.xyz.part", "micro.csv"})
-    if (fs::exists(directory / name)) return name;
-  for (const auto& file : {first_file(directory / "contacts", cycle_of_contact_table),
-                           first_file(directory / "states", cycle_of_kept_state)})
-    if (file) return file->lexically_relative(directory).string();
-  return std::nullopt;
-}
-
 /// Is a row of the state's cycle one of its run? It has the numbers that the state keeps too, of
 /// which two runs share hardly one.
 bool is_of(const std::string& row, const Simulation& simulation) {
@@ -131,7 +119,7 @@ bool is_history_of(const fs::path& directory, const fs::path& state, const Simul
 /// @throws OutputError  where what is there is of another run
 bool carries_on(const fs::path& directory, const RunOptions& options,
                 const Simulation& simulation) {
-  const auto found = result_in(directory);
+  const auto found = first_result_in(directory);
   if (!found) return false;
   if (options.resume && is_history_of(directory, *options.resume, simulation)) {
     // Read before anything is taken away: it may be of another version.
@@ -148,6 +136,17 @@ bool carries_on(const fs::path& directory, const RunOptions& options,
 }
 
 }  // namespace
+
+std::optional<std::string> first_result_in(const fs::path& directory) {
+  for (const char* name :
+       {"history.csv", "summary.json", "final.state", "checkpoint.state", "fault.state",
+        "frames.pvd", "frames.xyz", "frames.xyz.part", "micro.csv"})
+    if (fs::exists(directory / name)) return name;
+  for (const auto& file : {first_file(directory / "contacts", cycle_of_contact_table),
+                           first_file(directory / "states", cycle_of_kept_state)})
+    if (file) return file->lexically_relative(directory).string();
+  return std::nullopt;
+}
 
 Results::Results(const RunOptions& options, const Simulation& simulation)
     : directory_(usable(options.out)),

@@ -26,6 +26,9 @@
 
 namespace tangency::inline v0::dem {
 
+/// A result of a run in a directory, by its path there; nothing where it has none.
+std::optional<std::string> first_result_in(const std::filesystem::path& directory);
+
 class Results {
  public:
   /// Makes the directory. Where a run is resumed in its own directory, history and frames up to its

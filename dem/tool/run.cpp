@@ -243,6 +243,9 @@ class Run {
 
   /// False where a signal came while the stage's points were kept: the stage is at its end still.
   bool end_stage() {
+    // Without a cycle of this process in it the laws may be others than those of its contacts.
+    if (verification_ != nullptr)
+      verification_->recount(simulation_, cost_.cycles > 0 && simulation_.state().stage_cycle > 0);
     results_.add_last_row_of_stage(simulation_);
     results_.add_frame(simulation_);
     results_.add_contacts(simulation_);

@@ -71,7 +71,9 @@ std::vector<std::pair<std::string, std::string>> values_of(const fs::path& folde
   const auto summary = nlohmann::ordered_json::parse(*text, nullptr, false);
   for (const auto& [name, value] : summary.items())
     if (value.is_primitive())
-      values.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+      values.emplace_back(name, value.is_null()     ? ""
+                                : value.is_string() ? value.get<std::string>()
+                                                    : value.dump());
   return values;
 }
 
@@ -96,6 +98,8 @@ class Study {
     for (const Combination& one : combinations_) require_own(one);
     if (base_) {
       require_own(*base_);
+      if (is_another(*base_))  // from whose end all have gone on
+        for (const Combination& one : combinations_) forget(one);
       const int status = run_in(*base_, std::nullopt, *sweep_.after);
       if (status != success) return status;
     }
@@ -160,36 +164,52 @@ class Study {
     return {{}, *sweep_.after, file.text(options_.out / *sweep_.after)};
   }
 
-  /// @throws OutputError  where a folder has another scene
+  fs::path folder_of(const Combination& one) const { return options_.out / one.folder; }
+  std::optional<std::string> scene_in(const Combination& one) const {
+    return read_whole(folder_of(one) / "scene.toml");
+  }
+  bool is_another(const Combination& one) const {
+    return scene_in(one).value_or(one.scene) != one.scene;
+  }
+
+  /// @throws OutputError  where a folder has another scene, or results without one
   void require_own(const Combination& one) const {
-    const fs::path scene = options_.out / one.folder / "scene.toml";
-    const auto there = read_whole(scene);
-    if (!there || *there == one.scene || options_.replace) return;
-    throw OutputError("--out " + options_.out.string() + ": " + scene.string() +
+    if (options_.replace || scene_in(one) == one.scene) return;
+    const auto found = is_another(one) ? std::optional<std::string>("scene.toml")
+                                       : first_result_in(folder_of(one));
+    if (!found) return;
+    throw OutputError("--out " + options_.out.string() + ": " + (folder_of(one) / *found).string() +
                       " is of another scene: --replace takes its results away; or another --out");
+  }
+
+  /// What a run is known by to be complete, or to go on from.
+  void forget(const Combination& one) const {
+    for (const char* file : {"summary.json", "final.state", "checkpoint.state"})
+      fs::remove(folder_of(one) / file);
   }
 
   int run_in(const Combination& one, const std::optional<fs::path>& start,
              const std::string& which) const {
-    const fs::path folder = options_.out / one.folder, scene = folder / "scene.toml";
-    const bool is_same = read_whole(scene) == one.scene;
+    const fs::path folder = folder_of(one);
+    const bool is_same = scene_in(one) == one.scene;
     if (is_same && fs::exists(folder / "summary.json") && fs::exists(folder / "final.state")) {
       say(one.folder + " (" + which + ") is complete");
       return success;
     }
     say(one.folder + " (" + which + ")");
     RunOptions options = options_;
-    options.scene = scene;
+    options.scene = folder / "scene.toml";
     options.out = folder;
-    options.replace = options_.replace && !is_same;
     options.resume = start;
-    if (is_same && fs::exists(folder / "checkpoint.state"))
-      options.resume = folder / "checkpoint.state";
+    const bool goes_on = is_same && fs::exists(folder / "checkpoint.state");
+    if (goes_on) options.resume = folder / "checkpoint.state";
+    options.replace = !goes_on;  // the folder is this run's: what a kill left there is of no use
     for (const auto& [keys, value] : one.settings) options.settings.push_back(keys + "=" + value);
+    if (!is_same) forget(one);  // before it would pass for the new scene's
     fs::create_directories(folder);
-    write_whole(scene, one.scene);
+    write_whole(options.scene, one.scene);
     try {
-      return dem::run(options, scene_file_of(options));
+      return dem::run(options, SceneFile(options.scene));
     } catch (const SceneError& error) {  // as of places drawn at random: others go on
       std::cerr << error.what() << std::endl;
       return tables::kRefused;

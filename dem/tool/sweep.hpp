@@ -4,8 +4,9 @@
 ///
 /// A folder is called by what its combination sets, and has `scene.toml`, the whole scene of the
 /// combination. What is complete there is not run again, what was stopped goes on from its last
-/// checkpoint; a folder whose scene is another one is refused. With `after` the stages up to that
-/// one run once, in a folder of the stage's name, and each combination goes on from their end.
+/// checkpoint, or anew without one; a folder whose scene is another one, or that has results
+/// without a scene, is refused. With `after` the stages up to that one run once, in a folder of the
+/// stage's name, and each combination goes on from their end.
 #pragma once
 
 #include <tangency/dem/scene_file.hpp>

@@ -216,6 +216,19 @@ TEST(PlaneWall, OfAStateIsThatOfTheSceneOrTheDifferenceIsSaid) {
             "a state with wall[0].normal = [ 0, 0, 1 ]; the scene has [ 0.479426, 0, 0.877583 ]");
 }
 
+TEST(PlaneWall, OfAStateTakesOverTheScenesVelocityAndStress) {
+  const std::string still = ball(Vec3::UnitZ(), "", "", kDown);
+  const std::string moving = ball(Vec3::UnitZ(), "velocity = [0.0, 0.0, -1.0]\n", "", kDown);
+  const Simulation moves(parse_scene(moving, "scene.toml"), after(still, 0.01).state());
+  EXPECT_EQ(moves.state().cell.planes[0].velocity, Vec3(0.0, 0.0, -1.0));
+  const Simulation pressing(parse_scene(pressed(), "scene.toml"));
+  const Simulation less(
+      parse_scene(with(pressed(), "stress = 50e3", "stress = 40e3"), "scene.toml"),
+      pressing.state());
+  ASSERT_TRUE(less.state().cell.planes[0].held);
+  EXPECT_EQ(less.state().cell.planes[0].held->stress, 40e3);
+}
+
 const std::string kDamped = "restitution = 0.5\n";
 
 TEST(PlaneWall, ThatTouchesABallAndBearsNothingLeavesNoInfinityInTheHistory) {

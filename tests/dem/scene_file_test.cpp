@@ -98,6 +98,15 @@ TEST(Setting, OfWhatIsNotThereIsRefusedWithWhatIs) {
             "stage[N].KEY, N from 0");
 }
 
+TEST(Setting, OfATextWithQuotesIsTheTextAndOfNoTextIsRefused) {
+  EXPECT_EQ(refused_setting("cell.walls=it's"),
+            "--set cell.walls=it's: cell.walls = \"it's\": one of none, x, y, z, xy, xz, yz, xyz");
+  EXPECT_EQ(refused_setting("cell.walls=\xff"),
+            "--set cell.walls=\xff: a value as TOML writes it, or a line of UTF-8");
+  EXPECT_EQ(refused_setting("cell.walls=a\x01").find("--set cell.walls=a?: cell.walls = "), 0u)
+      << refused_setting("cell.walls=a\x01");
+}
+
 // A text may hold no second line that would be another key.
 TEST(Setting, CannotBringMoreThanOneKey) {
   EXPECT_NE(refused_setting("particles.grain.count=3\nmean_radius = 4.0"), "");
@@ -141,6 +150,19 @@ TEST(Include, RefusesACircleAndAMissingFile) {
   EXPECT_EQ(refused([&] { SceneFile file(lost); }),
             lost + ":2: include = 'none.toml': a file that can be read; " +
                 folder.path("none.toml") + ": cannot be read: No such file or directory");
+}
+
+// Each of thirty files names the next twice.
+TEST(Include, OfMoreFilesThanAnyoneKeepsIsRefused) {
+  const TemporaryFolder folder;
+  for (int k = 0; k < 30; ++k) {
+    const std::string next = "\"f" + std::to_string(k + 1) + ".toml\"";
+    folder.write("f" + std::to_string(k) + ".toml", "include = [" + next + ", " + next + "]\n");
+  }
+  folder.write("f30.toml", "schema = 1\n");
+  EXPECT_NE(
+      refused([&] { SceneFile file(folder.path("f0.toml")); }).find(": at most 1000 files in all"),
+      std::string::npos);
 }
 
 std::string sweeping(const std::string& table) { return small_scene() + "[sweep]\n" + table; }

@@ -122,6 +122,67 @@ TEST(Sweep, RefusesAFolderOfAnotherSceneBeforeAnythingRuns) {
   EXPECT_EQ(summary_in(folder, "seed=2").at("particles"), 20);
 }
 
+// Results without the scene that they are of would pass for those of the sweep's when it is started
+// once more.
+TEST(Sweep, RefusesAFolderThatHasResultsWithoutAScene) {
+  const TemporaryFolder folder;
+  const std::string other = folder.write("other.toml", with(small_scene(), "= 0.5\n", "= 0.25\n"));
+  ASSERT_EQ(run_tool({"run", other, "--out", folder.path("out/seed=1"), "--quiet"}).status, 0);
+  const json before = summary_in(folder, "seed=1");
+  for (int times = 0; times < 2; ++times) {
+    const Finished refused = run_of(folder, sweeping(kSeeds), {"--quiet"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_EQ(refused.err, "--out " + folder.path("out") + ": " +
+                               folder.path("out/seed=1/history.csv") +
+                               " is of another scene: --replace takes its results away; or another "
+                               "--out\n");
+  }
+  EXPECT_EQ(summary_in(folder, "seed=1"), before);
+  EXPECT_EQ(run_of(folder, sweeping(kSeeds), {"--quiet", "--replace"}).status, 0);
+  EXPECT_NE(summary_in(folder, "seed=1").at("state_hash"), before.at("state_hash"));
+}
+
+TEST(Sweep, BeginsAnewWhereAKillLeftNoCheckpoint) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_of(folder, sweeping(kSeeds), {"--quiet"}).status, 0);
+  const json first = summary_in(folder, "seed=1");
+  for (const char* file : {"summary.json", "final.state", "checkpoint.state"})
+    fs::remove(folder.path(std::string("out/seed=1/") + file));
+  const Finished again = run_of(folder, sweeping(kSeeds), {"--quiet"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(summary_in(folder, "seed=1").at("state_hash"), first.at("state_hash"));
+}
+
+/// Three ellipsoids, each of a shape of its own, from a table.
+std::string tabled(const std::string& sweep) {
+  return "schema = 1\n[cell]\nsize = [80.0, 80.0, 80.0]\n[particles.grain]\ncount = 3\n"
+         "mean_radius = 10.0\n[contact]\nnormal_stiffness = 1.5e10\n[[stage]]\nkind = \"place\"\n"
+         "arrangement = \"explicit\"\nfile = \"one.csv\"\n[[stage]]\nkind = \"servo\"\n"
+         "duration = 20\n[sweep]\n" +
+         sweep;
+}
+
+TEST(Sweep, FindsTablesOfBodiesFromTheScenesFolder) {
+  const TemporaryFolder folder, alone;
+  const std::string rows = ",10,10,9,8,7\ngrain,30,10,10,9,8,7\ngrain,50,10,10,9,8,8\n";
+  for (const TemporaryFolder* each : {&folder, &alone}) {
+    each->write("one.csv", "type,x,y,z,r1,r2,r3\ngrain,10" + rows);
+    each->write("two.csv", "type,x,y,z,r1,r2,r3\ngrain,12" + rows);
+  }
+  // An --out that is a link: `..` leads from where it points to.
+  fs::create_directories(folder.path("a/b/c"));
+  fs::create_directory_symlink(folder.path("a/b/c"), folder.path("out"));
+  const Finished over =
+      run_of(folder, tabled("\"stage.place.file\" = [\"one.csv\", \"two.csv\"]\n"), {"--quiet"});
+  EXPECT_EQ(over.status, 0) << over.err;
+  const Finished set = run_of(alone, tabled("\"stage.servo.duration\" = [20, 30]\n"),
+                              {"--quiet", "--set", "stage.place.file=two.csv"});
+  EXPECT_EQ(set.status, 0) << set.err;
+  const json two = summary_in(folder, "file=two.csv");
+  EXPECT_EQ(two.at("state_hash"), summary_in(alone, "duration=20").at("state_hash"));
+  EXPECT_NE(two.at("state_hash"), summary_in(folder, "file=one.csv").at("state_hash"));
+}
+
 TEST(Sweep, RefusesABadValueBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const Finished run = run_of(folder, sweeping("\"particles.grain.count\" = [8, 0]\n"));
@@ -163,6 +224,19 @@ TEST(SweepAfterAStage, RunsWhatIsCommonOnceAndEachThenAsByItself) {
   }
   const Finished again = run_of(branched, sweeping("after = \"compress\"\n" + pressures));
   EXPECT_NE(again.err.find("run compress (compress) is complete"), again.err.npos) << again.err;
+}
+
+// The runs have the same scenes still, but another start.
+TEST(SweepAfterAStage, RunsAllAnewWhereWhatIsCommonIsReplaced) {
+  const TemporaryFolder folder, fresh;
+  const std::string table = "after = \"compress\"\ncontact.friction_coefficient = [0.25, 0.5]\n";
+  ASSERT_EQ(run_of(folder, sweeping(table), {"--quiet"}).status, 0);
+  const std::string changed = with(sweeping(table), "coefficient = 0.5\n", "coefficient = 0.125\n");
+  ASSERT_EQ(run_of(folder, changed, {"--quiet", "--replace"}).status, 0);
+  ASSERT_EQ(run_of(fresh, changed, {"--quiet"}).status, 0);
+  for (const char* one : {"compress", "friction_coefficient=0.25", "friction_coefficient=0.5"})
+    EXPECT_EQ(summary_in(folder, one).at("state_hash"), summary_in(fresh, one).at("state_hash"))
+        << one;
 }
 
 TEST(SweepAfterAStage, RefusesKeysThatChangeWhatIsCommonAndAStageThatIsNotThere) {

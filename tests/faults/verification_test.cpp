@@ -272,6 +272,17 @@ TEST(VerifiedRun, SaysWhatItChecked) {
   expect_within("\"wrong\": 0,\n    \"missed\": 0,", summary);
 }
 
+TEST(VerifiedRun, CountsAgainAtEachRowAlsoAtTheEndOfAStage) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("scene.toml", small_scene() + "history_interval = 1000000\n");
+  const std::string out = folder.path("out");
+  const Finished run = run_tool({"run", scene, "--out", out, "--quiet", "--verify"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  // The start, and the ends of two stages.
+  expect_within("\"recounts\": 3,", read_file(out + "/summary.json"));
+}
+
 TEST(VerifiedRun, EndsAtAFaultWithTheStatus3AndLeavesWhatWasSaved) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.toml", small_scene() + "checkpoint_interval = 1\n");
