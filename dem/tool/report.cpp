@@ -30,6 +30,7 @@ constexpr const char* kPageHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1"><title>tangency-dem report</title><style>
 body { font: 15px/1.45 sans-serif; margin: 1.5em auto; max-width: 112em; padding: 0 1em; color: #222; }
+h1 { overflow-wrap: anywhere; }
 h2 { margin: 1.2em 0 .3em; }
 table { border-collapse: collapse; font-size: 13px; }
 th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }

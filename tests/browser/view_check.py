@@ -292,7 +292,7 @@ def beside_meshes(browser, pid, full):
 def main():
     if len(sys.argv) != 3:
         sys.exit("usage: view_check.py TANGENCY_DEM FOLDER")
-    tool, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    tool, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     page, out = report_of(tool, folder, "pressed", SPHEROIDS.format(count=125) + PRESSED)
     slope, _ = report_of(tool, folder, "slope", (HERE.parents[1] / "dem" / "scenes" / "slope.toml").read_text(encoding="utf-8"))
