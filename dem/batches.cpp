@@ -2,6 +2,10 @@
 #include <tangency/dem/batches.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <tangency/dem/elementary.hpp>
 
 namespace tangency::inline v0::dem {
 
@@ -30,6 +34,22 @@ std::vector<Coming> coming_particles(const std::vector<Batch>& batches, int dime
 void sort_largest_first(std::vector<Coming>& all) {
   std::stable_sort(all.begin(), all.end(),
                    [](const Coming& a, const Coming& b) { return a.radius() > b.radius(); });
+}
+
+Vec3 edges_around(const Placement& how, double volume, double fraction) {
+  if (how.cell_size) return *how.cell_size;
+  Vec3 edges = Vec3::Ones();
+  edges.head(how.dimensions)
+      .setConstant(how.dimensions == 2 ? std::sqrt(volume / fraction)
+                                       : cube_root(volume / fraction));
+  return edges;
+}
+
+void require_longer_edges(const Vec3& edges, double largest, double clearance, int dimensions) {
+  if (edges.head(dimensions).minCoeff() > 2.0 * largest * (1.0 + clearance)) return;
+  std::ostringstream room;
+  room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
+  throw DoesNotFit(room.str());
 }
 
 std::vector<double> bounding_radii(const std::vector<Coming>& all, double clearance) {

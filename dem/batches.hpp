@@ -99,6 +99,14 @@ std::vector<Coming> coming_particles(const std::vector<Batch>& batches, int dime
 /// The one with the largest bounding sphere first; equal ones stay as they are.
 void sort_largest_first(std::vector<Coming>& all);
 
+/// The edges of a cell for all of them: those that `how` says, or of the cube (square) of which
+/// `volume` is the share `fraction`.
+Vec3 edges_around(const Placement& how, double volume, double fraction);
+
+/// @throws DoesNotFit  where an edge is no longer than a particle of this bounding radius, made
+/// larger by a share of it
+void require_longer_edges(const Vec3& edges, double largest, double clearance, int dimensions);
+
 /// Radii of their bounding spheres, made larger by a share of each.
 std::vector<double> bounding_radii(const std::vector<Coming>& all, double clearance);
 

@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include <tangency/dem/elementary.hpp>
 #include <tangency/dem/placed_balls.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/relation.hpp>
@@ -247,23 +246,14 @@ Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how) {
     volume += volume_of(one.axes, how.dimensions);
     largest = std::max(largest, one.radius());
   }
-  Vec3 edges = Vec3::Ones();
-  if (how.cell_size)
-    edges = *how.cell_size;
-  else
-    edges.head(how.dimensions)
-        .setConstant(how.dimensions == 2 ? std::sqrt(volume / how.volume_fraction)
-                                         : cube_root(volume / how.volume_fraction));
+  const Vec3 edges = edges_around(how, volume, how.volume_fraction);
   std::ostringstream room;
   const double filled = volume / edges.prod();
   if (!(filled <= kMostInserted * (1.0 + kInsertionClearance))) {
     room << "the particles would fill " << filled << " of it, more than " << kMostInserted;
     throw DoesNotFit(room.str());
   }
-  if (!(edges.head(how.dimensions).minCoeff() > 2.0 * largest * (1.0 + kInsertionClearance))) {
-    room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
-    throw DoesNotFit(room.str());
-  }
+  require_longer_edges(edges, largest, kInsertionClearance, how.dimensions);
   for (const Batch& batch : batches) check_layer(batch, how, edges);
   return edges;
 }

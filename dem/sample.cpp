@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include <tangency/dem/elementary.hpp>
 #include <tangency/dem/insertion.hpp>
 #include <tangency/dem/placed_balls.hpp>
 #include <tangency/dem/thin_cell.hpp>
@@ -86,13 +85,7 @@ Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
     volume += bounding_volume(one.radius(), how.dimensions);
     largest = std::max(largest, one.radius());
   }
-  Vec3 edges = Vec3::Ones();
-  if (how.cell_size)
-    edges = *how.cell_size;
-  else
-    edges.head(how.dimensions)
-        .setConstant(how.dimensions == 2 ? std::sqrt(volume / how.bounding_fraction)
-                                         : cube_root(volume / how.bounding_fraction));
+  const Vec3 edges = edges_around(how, volume, how.bounding_fraction);
   std::ostringstream room;
   const char* spheres = how.dimensions == 2 ? "bounding circles" : "bounding spheres";
   const double filled = volume / edges.prod();
@@ -101,10 +94,7 @@ Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
     room << spheres << " would fill " << filled << " of it, more than " << most;
     throw DoesNotFit(room.str());
   }
-  if (!(edges.head(how.dimensions).minCoeff() > 2.0 * largest * (1.0 + kClearance))) {
-    room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
-    throw DoesNotFit(room.str());
-  }
+  require_longer_edges(edges, largest, kClearance, how.dimensions);
   return edges;
 }
 

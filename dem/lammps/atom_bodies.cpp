@@ -96,6 +96,7 @@ void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from)
            "has a place, a turn or a motion that is no finite number: is the time step too long?");
   if (!(atom->rmass[i] > 0.0) || !std::isfinite(atom->rmass[i]))
     refuse(i, "has a mass that is not > 0 and finite");
+  // LAMMPS keeps it at length 1, to rounding: one that is much shorter was never set. Chosen.
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 0x1p-40)
     refuse(i, "has the quaternion 0, which is no orientation");
   for (const double axis : bonus.shape)

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstring>
 #include <numbers>
+#include <utility>
 
 #include <tangency/dem/cell.hpp>
 #include <tangency/dem/lammps/words.hpp>
@@ -76,13 +77,16 @@ FixServo::~FixServo() { modify->delete_compute(pressure_id_); }
 void FixServo::read(Words& words) {
   std::vector<dem::Target>& targets = loading_.targets;
   const std::string axes = "xyz";
+  std::array<bool, kPlaces.size()> has_rate{};
   while (words.any()) {
     const std::string key = words.next("a keyword");
     if (key == "rate") {
       const std::string name = words.next("rate");
       const auto found = std::find(kNames.begin(), kNames.end(), name);
       if (found == kNames.end()) words.refuse("rate", name, "xx, yy, zz, xy, xz or yz");
-      const auto [i, j] = kPlaces[static_cast<std::size_t>(found - kNames.begin())];
+      const auto place = static_cast<std::size_t>(found - kNames.begin());
+      if (std::exchange(has_rate[place], true)) words.refuse("rate", name, "each component once");
+      const auto [i, j] = kPlaces[place];
       loading_.strain_rate(i, j) = words.number("rate " + name);
     } else if (key == "mean") {
       targets.push_back(dem::Target::mean_stress(words.number(key), 3));

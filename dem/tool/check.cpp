@@ -26,8 +26,8 @@ constexpr double kQuasiStatic = 1e-3;
 /// servo has by default the stress is that of impacts. Chosen.
 constexpr double kFastCompression = 0.1;
 
-/// In mean radii: what a run warns of (run.cpp), and what is advised in its place.
-constexpr double kSoundOverlap = 0.1, kAdvisedOverlap = 0.09;
+/// In mean radii: what is advised in place of more than kSoundOverlap. Chosen: a little below it.
+constexpr double kAdvisedOverlap = 0.09;
 
 /// Of a stage without damping, with a restitution: at its step a head-on impact is up to 0.016 off,
 /// and more beyond it; at the advised one 1e-3 (docs/derivations/restitution.md).

@@ -36,11 +36,6 @@ namespace {
 /// on shear tests of one sample at growing strain rates.
 constexpr double kSoundInertialFraction = 0.015;
 
-/// In mean radii. Particles stand for rigid ones. Chosen; the published parameters are softer: at
-/// 100e6 the dense sample has 0.107 and the end of its shear 0.155, of which scenes with them warn
-/// (docs/simulator.md).
-constexpr double kSoundOverlap = 0.1;
-
 /// Of the cycles of a stage, those in which a held stress may be off by more than kHeldWithin; and
 /// how far it may be off in any. Chosen: a servo passes its stress once when it arrives there.
 constexpr double kSoundMissedShare = 0.01;

@@ -11,11 +11,15 @@ the first difference, or where the console has an error. Packages: .ci/setup bro
 """
 import csv
 import math
+import os
 import pathlib
 import subprocess
 import sys
 
 from browser import Browser
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import require  # noqa: E402
 
 CORPORA = ("classes", "deep", "extreme", "float32", "near", "nested", "profiles", "symmetric", "touching")
 DEFINITIONS = ("common-normal", "perram-wertheim", "midpoint-potential", "trace")
@@ -25,11 +29,6 @@ FURTHER = ("curvature_min", "curvature_max", "F", "F_error", "mu")
 TRACE_ROUNDING = 2e6 * 2.0**-53
 # That of curvature.hpp, 512 u beta and its term for a small one, for the aspect ratios here; F is known to F_error.
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def require(condition, what):
-    if not condition:
-        sys.exit(f"playground_check: {what}")
 
 
 def number(text):

@@ -19,6 +19,9 @@ import sys
 
 from browser import Browser
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import require  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 SEED, RAYS, MARKED = 20261201, 1500, 125
 DOUBT = 0.05  # of a body: nearer to its outline a ray proves nothing, since a pixel is not a point
@@ -47,11 +50,6 @@ max_strain_rate = 0.02
 frame_interval = 1000
 contact_frames = true
 """
-
-
-def require(condition, what):
-    if not condition:
-        sys.exit(f"view_check: {what}")
 
 
 def report_of(tool, folder, name, scene):

@@ -114,16 +114,26 @@ TEST(BodySizes, OfASieveCurvePassTheSievesByItsMasses) {
   }
 }
 
-// dem/body_sizes.hpp (2)
-TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
-  const double tails = 0.05, z = dem::normal_quantile(1.0 - tails);
+BodySizes three_sieves() {
   BodySizes sieve;
   sieve.rule = Rule::sieve;
   sieve.openings = {0.5, 1.0, 4.0};
   sieve.passing = {0.0, 0.25, 1.0};
+  return sieve;
+}
+
+BodyRatios some_ratios() {
   BodyRatios ratios;
   ratios.elongation = {1.25, 2.0};
   ratios.flatness = {1.0, 1.5};
+  return ratios;
+}
+
+// dem/body_sizes.hpp (2)
+TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
+  const double tails = 0.05, z = dem::normal_quantile(1.0 - tails);
+  const BodySizes sieve = three_sieves();
+  const BodyRatios ratios = some_ratios();
   const auto hold = [&](const BodySizes& sizes, double least, double most) {
     for (const std::size_t count : {1u, 2u, 777u}) {
       for (const Shape& shape : dem::shapes_of(sizes, ratios, count, 3)) {
@@ -148,13 +158,8 @@ TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
 
 // dem/body_sizes.hpp (3)
 TEST(BodySizes, AreTheSameBitsOnEveryMachine) {
-  BodySizes sieve;
-  sieve.rule = Rule::sieve;
-  sieve.openings = {0.5, 1.0, 4.0};
-  sieve.passing = {0.0, 0.25, 1.0};
-  BodyRatios ratios;
-  ratios.elongation = {1.25, 2.0};
-  ratios.flatness = {1.0, 1.5};
+  const BodySizes sieve = three_sieves();
+  const BodyRatios ratios = some_ratios();
   const auto hold = [&](const BodySizes& sizes, const Shape& wanted) {
     const Shape shape = dem::shapes_of(sizes, ratios, 1000, 3)[777];
     EXPECT_EQ(shape.mean_radius, wanted.mean_radius) << std::hexfloat << shape.mean_radius;

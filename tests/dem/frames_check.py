@@ -21,6 +21,9 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import require  # noqa: E402
+
 
 def rotation(q):
     """R of a quaternion x, y, z, w."""
@@ -28,11 +31,6 @@ def rotation(q):
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def require(condition, what):
-    if not condition:
-        sys.exit(f"frames_check: {what}")
 
 
 def read_frame(path):

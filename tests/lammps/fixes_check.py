@@ -21,6 +21,9 @@ import sys
 
 import numpy as np
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import near, require  # noqa: E402
+
 SEED = 24
 HEAD = """schema = 1
 [cell]
@@ -48,19 +51,6 @@ frame_interval = 0
 NO_CONTACTS = "pair_style zero 4.5\npair_coeff * *\n"
 
 
-def require(condition, what):
-    if not condition:
-        sys.exit(f"fixes_check: {what}")
-
-
-def near(what, here, there, bound):
-    here, there = np.asarray(here, float), np.asarray(there, float)
-    require(here.shape == there.shape, f"{what}: {here.shape} numbers, not {there.shape}")
-    error = np.abs(here - there).max() / max(np.abs(there).max(), 1e-300)
-    require(error <= bound, f"{what}: off by {error:.3g} of the largest, more than {bound:.3g}")
-    print(f"{what}: {error:.2g}")
-
-
 def columns(text, names):
     rows = list(csv.DictReader(text.splitlines()))
     return np.array([[float(row[name]) for name in names.split()] for row in rows])
@@ -82,7 +72,7 @@ def lattice_of_bodies(draw):
 
 class Check:
     def __init__(self, dem, lammps, folder):
-        self.dem, self.lammps, self.folder = dem, lammps, folder
+        self.dem, self.lammps, self.folder = map(os.path.abspath, (dem, lammps, folder))
         os.makedirs(folder, exist_ok=True)
         self.bodies = lattice_of_bodies(random.Random(SEED))
         print(f"seed {SEED}")
@@ -251,6 +241,7 @@ class Check:
             "fix load all tangency/servo mean 1e6 max 0.1": "give a modulus",
             "fix load all tangency/servo mean 1e6 x 1e6 y 1e6 z 1e6 max 0.1": "combination",
             "fix load all tangency/servo lode 2 max 0.1": "lode = 2",
+            "fix load all tangency/servo rate xx 0.1 rate xx 0.2": "rate = xx: each component once",
             "fix load all deform 1 x trate 0.1 remap x": "remap none",
         }.items():
             self.refuse("refused", script.replace(servo, line), message)

@@ -18,6 +18,9 @@ import sys
 
 import numpy as np
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import require  # noqa: E402
+
 STIFFNESS = 1.5e10  # of the scene's contacts, normal and shear
 DENSITY = 1000.0
 
@@ -105,11 +108,6 @@ fix move all nve/asphere
 fix damp all langevin 0.0 0.0 0.5 1 angmom 1.0
 timestep 0.002
 """
-
-
-def require(condition, what):
-    if not condition:
-        sys.exit(f"lammps_check: {what}")
 
 
 def within(what, value, bound):

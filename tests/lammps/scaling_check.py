@@ -7,13 +7,12 @@ Exit status: 0, or 1 with the first difference.
 """
 import csv
 import math
+import os
 import subprocess
 import sys
 
-
-def require(condition, what):
-    if not condition:
-        sys.exit(f"scaling_check: {what}")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from checks import require  # noqa: E402
 
 
 def run(*words):
