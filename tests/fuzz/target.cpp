@@ -16,7 +16,7 @@ const std::vector<Target>& targets() {
   static const std::vector<Target> all = [] {
     std::vector<Target> list;
     for (auto&& part :
-         {pair_targets(), table_targets(), simulator_targets(), grader_targets(), c_targets()})
+         {pair_targets(), batch_targets(), table_targets(), simulator_targets(), grader_targets(), c_targets()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();
