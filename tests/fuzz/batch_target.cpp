@@ -17,6 +17,7 @@
 #include <tangency/tests/fuzz/pair_input.hpp>
 #include <tangency/tests/support/instruction_sets.hpp>
 #include <tangency/verify/families/conversions.hpp>
+#include <tangency/verify/oracles/gap.hpp>
 
 namespace tangency::testing::fuzz {
 namespace {
@@ -187,6 +188,12 @@ class PackChecks {
     const Bodies bodies{verify::to_ellipsoid(raw.a), verify::to_ellipsoid(raw.b)};
     check_by_oracle("batch", raw, bodies);
     hold(overlaps(bodies.a, bodies.b) == static_cast<bool>(overlapping_[i]), "oracle and batch", i);
+    if (pack_.known.empty() || std::isinf(pack_.known[i].high)) return;
+    const auto gap = static_cast<long double>(verify::signed_gap(raw.a, raw.b).gap);
+    const Enclosure truth{gap, gap};
+    hold(meet(truth, pack_.known[i]), "oracle and the gap as the pair was made", i);
+    hold(meet(truth, enclosure_of(gaps_[i])), "oracle and gap", i);
+    count("gaps by the oracle");
   }
 
   const Pack& pack_;

@@ -48,8 +48,8 @@ class PlacedPairs {
 
   struct Size {
     double largest, radius;  ///< semi-axis; least radius of curvature
-    double unsure;           ///< greatest radius of curvature: how far a turned normal moves a point
-    bool is_slow;            ///< the kernel is, of pairs with it
+    double unsure;  ///< greatest radius of curvature: how far a turned normal moves a point
+    bool is_slow;   ///< the kernel is, of pairs with it
   };
   struct Depth {
     double gap;
