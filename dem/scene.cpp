@@ -14,12 +14,12 @@
 #include <optional>
 #include <utility>
 
-#include <tangency/dem/scene_file.hpp>
-#include <tangency/dem/scene_growth.hpp>
-#include <tangency/dem/scene_loading.hpp>
-#include <tangency/dem/scene_particles.hpp>
-#include <tangency/dem/scene_reader.hpp>
-#include <tangency/dem/scene_section.hpp>
+#include <tangency/dem/scene/scene_file.hpp>
+#include <tangency/dem/scene/scene_growth.hpp>
+#include <tangency/dem/scene/scene_loading.hpp>
+#include <tangency/dem/scene/scene_particles.hpp>
+#include <tangency/dem/scene/scene_reader.hpp>
+#include <tangency/dem/scene/scene_section.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

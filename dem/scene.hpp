@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/scene_error.hpp>
-#include <tangency/dem/scene_model.hpp>
+#include <tangency/dem/scene/scene_error.hpp>
+#include <tangency/dem/scene/scene_model.hpp>
 
 namespace tangency::inline v0::dem {
 
