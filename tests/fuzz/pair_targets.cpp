@@ -48,7 +48,7 @@ void check_placed_pairs(const std::string& target, verify::EllipsoidPair raw, st
   }
   if (some.empty()) return;
   PlacedPairs placed(some, seed);
-  std::uint64_t state = seed;
+  std::uint64_t state = ~seed;  // not the sequence of the pairs
   for (std::size_t k = 0; k < kPlacedPairs; ++k) {
     const PlacedPair pair = placed.draw();
     if (std::isinf(pair.gap.high) && below(state, kDeepOneIn) != 0) continue;
