@@ -102,11 +102,11 @@ void sort_largest_first(std::vector<Coming>& all);
 /// What is counted as filled in a cell, and how far it may be.
 struct Filling {
   const char* what;  ///< in messages: "the particles"
-  double (*volume)(const Coming&,
-                   int dimensions);  ///< of one of them; length^3, in the plane length^2
-  double fraction;                   ///< of the cell that is filled where `how` has no edges
-  double most;                       ///< of a cell with edges
-  double clearance;                  ///< share of their axes by which particles are made larger
+  /// Of one of them; length^3, in the plane length^2.
+  double (*volume)(const Coming&, int dimensions);
+  double fraction;   ///< of the cell that is filled where `how` has no edges
+  double most;       ///< of a cell with edges
+  double clearance;  ///< share of their axes by which particles are made larger
 };
 
 /// The edges of a cell for all particles: those that `how` says, or of a cube (square).
