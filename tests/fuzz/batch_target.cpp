@@ -25,7 +25,7 @@ namespace {
 // Of packs one in so many is moved, not placed: they take forty times as long. Of pairs one in
 // some is asked of single calls, and of packs one in so many has a pair asked of the oracle.
 constexpr std::uint64_t kMovedOneIn = 64, kExchangedOneIn = 8, kOtherSetsOneIn = 64,
-                        kFloatsOneIn = 16, kOracleOneIn = 64;
+                        kFloatsOneIn = 16, kMovingOneIn = 16, kOracleOneIn = 64;
 constexpr std::size_t kSinglesOneIn = 2048, kNumberBytes = sizeof(std::uint64_t);
 
 class PackChecks {
@@ -46,6 +46,7 @@ class PackChecks {
     follow(array_);
     if (drawn(kExchangedOneIn) == 0) exchanged();
     if (drawn(kFloatsOneIn) == 0) floats();
+    if (drawn(kMovingOneIn) == 0 && !pack_.known.empty()) moving();
     if (drawn(kOtherSetsOneIn) == 0) other_sets();
     for (std::size_t i = drawn(kSinglesOneIn); i < pack_.pairs.size(); i += kSinglesOneIn)
       single(i);
@@ -157,6 +158,40 @@ class PackChecks {
            "gaps and float columns", i);
     }
     count("in float", gaps.size());
+  }
+
+  // The same bodies as a simulator has them, cold and followed; and enclosures alone.
+  void moving() const {
+    std::vector<Vec3> axes;
+    std::vector<Quaternion> turns;
+    for (const Ellipsoid& body : pack_.bodies) {
+      axes.push_back(body.semi_axes());
+      turns.push_back(body.orientation());
+    }
+    const MovingBodies bodies(axes, turns);
+    std::vector<double> gaps(gaps_.size()), errors(gaps_.size()), above(gaps_.size());
+    std::vector<GapStatus> status(gaps_.size());
+    GapColumns columns;
+    columns.gap = gaps;
+    columns.gap_error = errors;
+    columns.status = status;
+    const auto hold_columns = [&](const char* what) {
+      for (std::size_t i = 0; i < gaps.size(); ++i) {
+        const double high = status[i] == GapStatus::ok ? errors[i] : HUGE_VAL;
+        hold(meet(enclosure_of(gaps[i], errors[i], high), enclosure_of(gaps_[i])), what, i);
+      }
+    };
+    signed_gaps(bodies, pack_.list(), columns, accuracy_);
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      hold((gaps[i] < 0) == static_cast<bool>(overlapping_[i]), "overlaps and moving bodies", i);
+    hold_columns("gaps and moving bodies");
+    follow_gaps(bodies, pack_.list(), pack_.normals, columns);
+    hold_columns("gaps and followed moving bodies");
+    bounded_gaps(bodies, pack_.list(), {columns, above}, accuracy_);
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      hold(meet(enclosure_of(gaps[i], errors[i], above[i]), enclosure_of(gaps_[i])),
+           "gaps and bounded gaps of moving bodies", i);
+    count("of moving bodies", gaps.size());
   }
 
   void other_sets() const {
