@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/lammps/host.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -27,7 +28,7 @@ double largest_of(const double* shape) { return std::max({shape[0], shape[1], sh
 
 }  // namespace
 
-const LAMMPS_NS::AtomVecEllipsoid* AtomBodies::ellipsoids(LAMMPS_NS::LAMMPS* lammps) {
+LAMMPS_NS::AtomVecEllipsoid* AtomBodies::ellipsoids(LAMMPS_NS::LAMMPS* lammps) {
   return dynamic_cast<LAMMPS_NS::AtomVecEllipsoid*>(lammps->atom->style_match("ellipsoid"));
 }
 
@@ -44,7 +45,7 @@ std::vector<double> AtomBodies::reach_by_type(LAMMPS_NS::LAMMPS* lammps) {
   for (int i = 0; i < atoms.nlocal; ++i) {
     if (atoms.ellipsoid[i] < 0) continue;
     double& largest = here[static_cast<std::size_t>(atoms.type[i])];
-    largest = std::max(largest, largest_of(from.bonus[atoms.ellipsoid[i]].shape));
+    largest = std::max(largest, largest_of(body_at(from, atoms.ellipsoid[i]).shape));
   }
   MPI_Allreduce(here.data(), all.data(), static_cast<int>(here.size()), MPI_DOUBLE, MPI_MAX,
                 lammps->world);
@@ -88,7 +89,9 @@ void AtomBodies::place() {
 void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from) {
   const int i = atom_[body];
   if (atom->ellipsoid[i] < 0) refuse(i, "is no ellipsoid: give it three diameters, all > 0");
-  const LAMMPS_NS::AtomVecEllipsoid::Bonus& bonus = from.bonus[atom->ellipsoid[i]];
+  if (!is_ellipsoid(from, atom->ellipsoid[i]))
+    refuse(i, "is a superellipsoid that is no ellipsoid: the exponents 2 and 2 are allowed");
+  const Body& bonus = body_at(from, atom->ellipsoid[i]);
   const double* const q = bonus.quat;
   const double *const v = atom->v[i], *const l = atom->angmom[i];
   if (!are_finite(atom->x[i], 3) || !are_finite(v, 3) || !are_finite(l, 3) || !are_finite(q, 4))
