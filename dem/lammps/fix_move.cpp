@@ -169,23 +169,18 @@ int FixMove::setmask() {
 }
 
 void FixMove::init() {
-  int bare = 0, other = 0;
+  int bare = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     if (atom->ellipsoid[i] < 0)
       bare = 1;
     else if (!is_ellipsoid(*bodies_, atom->ellipsoid[i]))
-      other = 1;
+      error->one(FLERR, "fix tangency/move: atom " + std::to_string(atom->tag[i]) + kNoEllipsoid);
   }
-  const int here[] = {bare, other};
-  int any[2];
-  MPI_Allreduce(here, any, 2, MPI_INT, MPI_MAX, world);
-  if (any[0] != 0)
+  int any = 0;
+  MPI_Allreduce(&bare, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any != 0)
     error->all(FLERR, "fix tangency/move: atoms of the group are points: ellipsoids alone");
-  if (any[1] != 0)
-    error->all(FLERR,
-               "fix tangency/move: atoms of the group are superellipsoids that are no ellipsoids: "
-               "the exponents 2 and 2 are allowed");
   const double fastest =
       std::max(motion_.damping, motion_.rotational_damping.value_or(motion_.damping));
   if (fastest * update->dt > 2.0)

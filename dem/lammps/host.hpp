@@ -22,6 +22,10 @@ Body& body_at(const Ellipsoids& ellipsoids, int k) {
   return ellipsoids.bonus[k];
 }
 
+/// What is said of an atom that is another superellipsoid, behind its number.
+inline constexpr const char* kNoEllipsoid =
+    " is a superellipsoid that is no ellipsoid: the exponents 2 and 2 are allowed";
+
 /// Is the body an ellipsoid? A superellipsoid is one where both its exponents are 2.
 /// @param k  Atom::ellipsoid of the atom, >= 0
 template <class Ellipsoids>

@@ -44,14 +44,16 @@ def main():
         within(f"{what}: forces", off(run.forces(), plain.forces()), 1e-7)
     last = superellipsoids(check.folder, "2.0 3.0")
     script = (head + PAIR).format(newton="on", style="", law=LINEAR, skin=2.0)
-    for fix in ("nve/asphere", "tangency/move"):
-        pair = "" if fix == "nve/asphere" else script[script.index("pair_style"):]
-        with_fix = script.replace(pair, "pair_style zero 45.0\npair_coeff * *\n") if pair else script
-        done = check.start("refused", with_fix + f"fix move all {fix}\ntimestep 0.002\nrun 1\n", 1)
+    without = script[:script.index("pair_style")] + "pair_style zero 45.0\npair_coeff * *\n"
+    for name, fix in (("Pair style tangency", "nve/asphere"), ("fix tangency/move", "tangency/move"),
+                      ("fix wall/tangency", "wall/tangency plane 0 0 0 0 0 1 law hooke 1e9")):
+        own = without.replace("p p p", "p p f") if "wall" in fix else without
+        text = (script if fix == "nve/asphere" else own) + f"fix move all {fix}\ntimestep 0.002\nrun 1\n"
+        done = check.start("refused", text, 1)
         lines = [line for line in done.stdout.splitlines() if line.startswith("ERROR")]
         require(done.returncode != 0 and len(lines) == 1 and "the exponents 2 and 2 are allowed" in lines[0],
                 f"{fix}: status {done.returncode}, {done.stdout[-400:]}{done.stderr[-200:]}")
-        require(pair != "" or f"atom {last} " in lines[0], f"{lines[0]}: not atom {last}")
+        require(f"{name}: atom {last} " in lines[0], f"{lines[0]}: not {name} and atom {last}")
         print(lines[0])
     print("plugin_check: all as it should be")
 
