@@ -20,8 +20,8 @@
 #include <string_view>
 #include <utility>
 
-#include <tangency/dem/contact_blocks.hpp>
-#include <tangency/dem/contact_lanes.hpp>
+#include <tangency/dem/contact/contact_blocks.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 
 namespace tangency::inline v0::lammps {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 
