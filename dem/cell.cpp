@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include <tangency/dem/elementary.hpp>
+#include <tangency/dem/lanes/elementary.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

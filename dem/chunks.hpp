@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <tangency/dem/lanes/particle_lanes.hpp>
 #include <tangency/dem/parallel.hpp>
-#include <tangency/dem/particle_lanes.hpp>
 
 namespace tangency::inline v0::dem {
 

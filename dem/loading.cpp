@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tangency/dem/elementary.hpp>
+#include <tangency/dem/lanes/elementary.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <tangency/dem/bodies.hpp>
-#include <tangency/dem/gap_filter.hpp>
+#include <tangency/dem/contact/gap_filter.hpp>
 #include <tangency/dem/parallel.hpp>
 #include <tangency/geometry/lattice.hpp>
 #include <tangency/geometry/near_pairs.hpp>

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include <tangency/dem/chunks.hpp>
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/motion/motion.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

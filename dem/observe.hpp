@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
-#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/contact/contacts.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>

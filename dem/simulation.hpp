@@ -12,18 +12,18 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/contact_law.hpp>
-#include <tangency/dem/contacts.hpp>
-#include <tangency/dem/cycles_needed.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
+#include <tangency/dem/contact/contacts.hpp>
+#include <tangency/dem/contact/thin_cell.hpp>
 #include <tangency/dem/loading.hpp>
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/profile.hpp>
 #include <tangency/dem/scene.hpp>
-#include <tangency/dem/scene_model.hpp>
+#include <tangency/dem/scene/cycles_needed.hpp>
+#include <tangency/dem/scene/scene_model.hpp>
 #include <tangency/dem/state.hpp>
-#include <tangency/dem/thin_cell.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::dem {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
-#include <tangency/dem/contacts.hpp>
-#include <tangency/dem/fire.hpp>
+#include <tangency/dem/contact/contacts.hpp>
 #include <tangency/dem/loading.hpp>
+#include <tangency/dem/motion/fire.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/scene_model.hpp>
+#include <tangency/dem/scene/scene_model.hpp>
 
 namespace tangency::inline v0::dem {
 

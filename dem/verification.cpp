@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <tangency/dem/chunks.hpp>
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/recount.hpp>
+#include <tangency/dem/motion/motion.hpp>
+#include <tangency/dem/verification/recount.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {

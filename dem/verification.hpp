@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/contact_check.hpp>
 #include <tangency/dem/profile.hpp>
 #include <tangency/dem/simulation.hpp>
+#include <tangency/dem/verification/contact_check.hpp>
 #include <tangency/dem/work_done.hpp>
 
 namespace tangency::inline v0::dem {

@@ -30,8 +30,8 @@
 #include <tangency/bench/timing.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/geometry/tables/command_line.hpp>
 #include <tangency/geometry/vectors.hpp>

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include <tangency/dem/contact_lanes.hpp>
-#include <tangency/dem/narrow_phase.hpp>
+#include <tangency/dem/contact/narrow_phase.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/large_pages.hpp>
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstddef>
 
-#include <tangency/dem/contact_lanes.hpp>
-#include <tangency/dem/narrow_phase.hpp>
+#include <tangency/dem/contact/narrow_phase.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::lammps {

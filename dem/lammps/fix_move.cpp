@@ -62,7 +62,7 @@ dem::Rotation rotation_named(Words& words) {
 
 }  // namespace
 
-/// Some of the particles, in the columns of dem/particle_lanes.hpp.
+/// Some of the particles, in the columns of dem/lanes/particle_lanes.hpp.
 struct FixMove::Chunk {
   std::size_t count = 0;
   std::array<int, kChunk> atom;

@@ -9,7 +9,7 @@
 /// step before the positions and are fluctuations, what particles move in addition to the affine
 /// motion; turns are exact. D is the rate at which a free particle's velocity decays, 1/time, of
 /// translation, and of rotation where `rotational` does not say another; `fire` steers velocities
-/// downhill instead (dem/fire.hpp).
+/// downhill instead (dem/motion/fire.hpp).
 ///
 /// With `affine yes`, the default, particles follow the box, as it changed since the step before:
 /// then nothing else may move them with it, so fix deform needs `remap none`. It works beside fix
@@ -29,10 +29,10 @@
 #include <cstdio>
 #include <optional>
 
-#include <tangency/dem/fire.hpp>
 #include <tangency/dem/lammps/box_motion.hpp>
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/particle_lanes.hpp>
+#include <tangency/dem/lanes/particle_lanes.hpp>
+#include <tangency/dem/motion/fire.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::lammps {

@@ -15,7 +15,7 @@
 #include <span>
 #include <string>
 
-#include <tangency/dem/contact_blocks.hpp>
+#include <tangency/dem/contact/contact_blocks.hpp>
 #include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/host.hpp>
 #include <tangency/dem/lammps/pair_coefficients.hpp>

@@ -31,10 +31,10 @@
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
-#include <tangency/dem/contact_lanes.hpp>
-#include <tangency/dem/contact_laws.hpp>
+#include <tangency/dem/contact/contact_laws.hpp>
+#include <tangency/dem/contact/narrow_phase.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
-#include <tangency/dem/narrow_phase.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/plane_wall.hpp>

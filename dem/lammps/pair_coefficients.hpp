@@ -12,7 +12,7 @@
 
 #include <array>
 
-#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
 
 namespace tangency::inline v0::lammps {
 

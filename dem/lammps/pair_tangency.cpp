@@ -21,9 +21,9 @@
 #include <string_view>
 #include <utility>
 
-#include <tangency/dem/contact_blocks.hpp>
-#include <tangency/dem/contact_lanes.hpp>
-#include <tangency/dem/coulomb_limit.hpp>
+#include <tangency/dem/contact/contact_blocks.hpp>
+#include <tangency/dem/contact/coulomb_limit.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/geometry/curvature.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 

@@ -34,13 +34,13 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/contact_laws.hpp>
+#include <tangency/dem/contact/contact_laws.hpp>
+#include <tangency/dem/contact/narrow_phase.hpp>
 #include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/box_motion.hpp>
 #include <tangency/dem/lammps/contact_record.hpp>
 #include <tangency/dem/lammps/contact_source.hpp>
 #include <tangency/dem/lammps/fix_contact_history.hpp>
-#include <tangency/dem/narrow_phase.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 
 namespace tangency::inline v0::lammps {

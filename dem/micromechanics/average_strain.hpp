@@ -65,7 +65,7 @@ struct ContactMotion {
 ///
 ///     s (v . s + limit'/stiffness)   where -stiffness v . s > limit', else 0
 ///
-/// as a spring that is cut back to its limit does (dem/contact_law.hpp).
+/// as a spring that is cut back to its limit does (dem/contact/contact_law.hpp).
 /// @param shear_force  f, of the first on the second
 /// @param limit_rate  limit', force per time
 /// @param tangential  velocity of the second relative to the first at the contact, in its plane

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/sample.hpp>
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/samples/sample.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 #include <tangency/dem/tool/descending_axes.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/tables/csv.hpp>

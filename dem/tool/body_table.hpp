@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include <tangency/dem/scene.hpp>
-#include <tangency/dem/scene_file.hpp>
+#include <tangency/dem/scene/scene_file.hpp>
 
 namespace tangency::inline v0::dem {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <tangency/dem/thin_cell.hpp>
+#include <tangency/dem/contact/thin_cell.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include <tangency/dem/cycles_needed.hpp>
+#include <tangency/dem/scene/cycles_needed.hpp>
 #include <tangency/dem/simulation.hpp>
 
 namespace tangency::inline v0::dem {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/whole_file.hpp>
 
 namespace tangency::inline v0::dem {

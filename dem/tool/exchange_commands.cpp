@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/exchange_sample.hpp>
 #include <tangency/dem/tool/export_lammps.hpp>

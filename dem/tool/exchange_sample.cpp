@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/geometry/tables/csv.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 

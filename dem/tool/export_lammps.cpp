@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/scene_error.hpp>
+#include <tangency/dem/motion/motion.hpp>
+#include <tangency/dem/scene/scene_error.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 #include <tangency/geometry/vectors.hpp>
 

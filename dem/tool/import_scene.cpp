@@ -8,7 +8,7 @@
 #include <set>
 
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/scene_error.hpp>
+#include <tangency/dem/scene/scene_error.hpp>
 #include <tangency/dem/tool/csv_text.hpp>
 #include <tangency/dem/tool/descending_axes.hpp>
 #include <tangency/geometry/tables/number_text.hpp>

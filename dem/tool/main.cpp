@@ -13,8 +13,8 @@
 #include <utility>
 
 #include <tangency/dem/micromechanics/averages.hpp>
-#include <tangency/dem/scene_keys.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 #include <tangency/dem/tool/check_command.hpp>
 #include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/exchange_commands.hpp>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/histogram.hpp>
 #include <tangency/dem/tool/micro_json.hpp>
 #include <tangency/dem/tool/micro_summary.hpp>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include <tangency/dem/contact_law.hpp>
-#include <tangency/dem/coulomb_limit.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
+#include <tangency/dem/contact/coulomb_limit.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
-#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/contact/contacts.hpp>
 #include <tangency/dem/micromechanics/contact_arrays.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/geometry/vectors.hpp>

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/micro_fields.hpp>

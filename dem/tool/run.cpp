@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/instruction_set.hpp>
+#include <tangency/dem/lanes/instruction_set.hpp>
 #include <tangency/dem/parallel.hpp>
 #include <tangency/dem/profile.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/advice.hpp>
 #include <tangency/dem/tool/body_table.hpp>
 #include <tangency/dem/tool/check.hpp>

@@ -3,7 +3,7 @@
 /// tangency-dem run.
 #pragma once
 
-#include <tangency/dem/scene_file.hpp>
+#include <tangency/dem/scene/scene_file.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/run_options.hpp>
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {

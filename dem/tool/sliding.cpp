@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
 #include <tangency/dem/micromechanics/average_strain.hpp>
 
 namespace tangency::inline v0::dem {

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/contact/contacts.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/geometry/vectors.hpp>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/number_text.hpp>

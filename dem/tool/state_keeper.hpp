@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/shear_points.hpp>
+#include <tangency/dem/measures/shear_points.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/history.hpp>
 

@@ -9,7 +9,7 @@
 #include <functional>
 #include <utility>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/sliding.hpp>
 #include <tangency/dem/tool/text_columns.hpp>
 #include <tangency/geometry/tables/number_text.hpp>

@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include <tangency/dem/instruction_set.hpp>
+#include <tangency/dem/lanes/instruction_set.hpp>
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/tool/state_keeper.hpp>
 #include <tangency/dem/whole_file.hpp>

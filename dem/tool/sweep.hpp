@@ -9,7 +9,7 @@
 /// stage's name, and each combination goes on from their end.
 #pragma once
 
-#include <tangency/dem/scene_file.hpp>
+#include <tangency/dem/scene/scene_file.hpp>
 #include <tangency/dem/tool/run_options.hpp>
 
 namespace tangency::inline v0::dem {

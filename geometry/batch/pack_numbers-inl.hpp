@@ -277,7 +277,7 @@ HWY_INLINE FloatPack inverse_power(const FloatPack& x) {
 
 // The approximations of float on x86 are within 1.5 * 2^-12 of themselves, those of AVX-512 within
 // 2^-14. Sets without fused multiply-adds do without them, so that they have the same bits, on
-// every processor: what reproducible runs rely on (dem/instruction_set.hpp).
+// every processor: what reproducible runs rely on (dem/lanes/instruction_set.hpp).
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 #define TANGENCY_APPROXIMATE_FLOATS 1
 #else

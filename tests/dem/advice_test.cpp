@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 #include <tangency/tests/support/patterns.hpp>
 
 #include "../tool/process.hpp"

@@ -12,9 +12,9 @@
 #include <random>
 #include <vector>
 
-#include <tangency/dem/contacts.hpp>
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/contact/contacts.hpp>
+#include <tangency/dem/motion/motion.hpp>
+#include <tangency/dem/samples/sample.hpp>
 #include <tangency/geometry/gap.hpp>
 
 namespace tangency::testing {

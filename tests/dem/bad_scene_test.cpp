@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <tangency/dem/scene.hpp>
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 
 #include "scenes.hpp"
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include <tangency/dem/body_sizes.hpp>
-#include <tangency/dem/elementary.hpp>
+#include <tangency/dem/lanes/elementary.hpp>
 #include <tangency/dem/particles.hpp>
+#include <tangency/dem/samples/body_sizes.hpp>
 
 namespace tangency::testing {
 namespace {
@@ -86,7 +86,7 @@ double passing(const std::vector<Shape>& shapes, double opening, int dimensions)
   return through / all;
 }
 
-// dem/body_sizes.hpp (1)
+// dem/samples/body_sizes.hpp (1)
 // One particle of the opening more or less, of the mass of all.
 TEST(BodySizes, OfASieveCurvePassTheSievesByItsMasses) {
   BodySizes sizes;
@@ -129,7 +129,7 @@ BodyRatios some_ratios() {
   return ratios;
 }
 
-// dem/body_sizes.hpp (2)
+// dem/samples/body_sizes.hpp (2)
 TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
   const double tails = 0.05, z = dem::normal_quantile(1.0 - tails);
   const BodySizes sieve = three_sieves();
@@ -156,7 +156,7 @@ TEST(BodySizes, LieWithinTheEndsOfTheirDistribution) {
     ASSERT_GT(size, 0.0);
 }
 
-// dem/body_sizes.hpp (3)
+// dem/samples/body_sizes.hpp (3)
 TEST(BodySizes, AreTheSameBitsOnEveryMachine) {
   const BodySizes sieve = three_sieves();
   const BodyRatios ratios = some_ratios();

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/contact_lanes.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/geometry/floating_point.hpp>
 
 #include "golden_states.hpp"
@@ -279,7 +279,7 @@ TEST_P(ContactLanes, AreThePlainEquationsAtEveryInstructionSet) {
   });
 }
 
-// dem/contact_lanes.hpp (1)
+// dem/lanes/contact_lanes.hpp (1)
 TEST_P(ContactLanes, DoNotDependOnPlaceOrNeighboursToTheBit) {
   at_every_level([&](std::int64_t level) {
     Draw draw;
@@ -314,7 +314,7 @@ TEST_P(ContactLanes, DoNotDependOnPlaceOrNeighboursToTheBit) {
   });
 }
 
-// dem/contact_lanes.hpp (1): instruction sets of one arithmetic have unlike numbers of lanes
+// dem/lanes/contact_lanes.hpp (1): instruction sets of one arithmetic have unlike numbers of lanes
 TEST_P(ContactLanes, OfOneArithmeticHaveTheSameBitsWhateverTheNumberOfLanes) {
   std::map<std::string, std::vector<std::uint64_t>> known;
   std::map<std::string, int> levels;
@@ -348,7 +348,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, ContactLanes,
                                            Law{true, true}),
                          name_of);
 
-// dem/contact_lanes.hpp (2)
+// dem/lanes/contact_lanes.hpp (2)
 TEST(ContactLanesApart, APairKeepsItsNormalAndHasNoForce) {
   ContactArrays one;
   one.set_law(0, {100.0, 50.0, 0.5, 0.0});

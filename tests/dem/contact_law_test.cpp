@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
 #include <tangency/tests/support/generators.hpp>
 
 #include "one_contact.hpp"
@@ -44,7 +44,7 @@ TEST(ContactLaw, NormalForceIsLinearInOverlapAndItsEnergyThatOfASpring) {
   EXPECT_EQ(one.normal_energy[0], 0.5 * 100.0 * 0.25 * 0.25);
 }
 
-// dem/contact_law.hpp (4)
+// dem/contact/contact_law.hpp (4)
 TEST(ContactLaw, WorkOnTheShearSpringIsStoredOrSlidAway) {
   // Out along the tangent until it slides, back until it slides the other way.
   ShearState state;
@@ -112,7 +112,7 @@ Step any_step(const ContactLaw& law) {
   return {shear, from, to, displacement, shear.norm() + law.shear_stiffness * displacement.norm()};
 }
 
-// dem/contact_law.hpp (1) (2)
+// dem/contact/contact_law.hpp (1) (2)
 RC_GTEST_PROP(ContactLawProperty, ShearForceIsTangentialAndWithinTheCoulombLimit, ()) {
   const double cohesion = *rc::gen::element(0.0, 1e-3, 10.0);
   const ContactLaw law{100.0, 50.0, *tangency::testing::uniform(0, 2), cohesion};
@@ -125,7 +125,7 @@ RC_GTEST_PROP(ContactLawProperty, ShearForceIsTangentialAndWithinTheCoulombLimit
   RC_CLASSIFY(shear.norm() < 0.99 * limit, "within the limit");
 }
 
-// dem/contact_law.hpp (3)
+// dem/contact/contact_law.hpp (3)
 RC_GTEST_PROP(ContactLawProperty, ShearForceKeepsItsLengthAsTheNormalTurns, ()) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Step s = any_step(kLaw);

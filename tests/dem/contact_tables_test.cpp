@@ -18,7 +18,7 @@
 #include <vector>
 
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 #include <tangency/geometry/gap.hpp>
 #include <tangency/geometry/vectors.hpp>

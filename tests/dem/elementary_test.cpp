@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include <tangency/dem/elementary.hpp>
-#include <tangency/dem/particle_lanes.hpp>
+#include <tangency/dem/lanes/elementary.hpp>
+#include <tangency/dem/lanes/particle_lanes.hpp>
 
 namespace tangency::testing {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
 

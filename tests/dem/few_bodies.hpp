@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include <tangency/dem/contacts.hpp>
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/contact/contacts.hpp>
+#include <tangency/dem/motion/motion.hpp>
 
 namespace tangency::testing {
 

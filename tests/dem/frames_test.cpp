@@ -16,9 +16,9 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/dem/tool/vtk_file.hpp>
 #include <tangency/geometry/ellipsoid.hpp>
 

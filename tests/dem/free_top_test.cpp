@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/verify/oracles/elliptic.hpp>
 
 #include "few_bodies.hpp"

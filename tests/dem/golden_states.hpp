@@ -21,7 +21,7 @@
 
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 
 namespace tangency::testing {
 

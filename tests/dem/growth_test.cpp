@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <tangency/dem/growth.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"

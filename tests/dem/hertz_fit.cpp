@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Makes the numbers of dem/hertz_fit.hpp again, prints them, and says with its exit status whether
-// they are those that stand there. docs/derivations/hertz-lanes.md has the formulas.
+// Makes the numbers of dem/lanes/hertz_fit.hpp again, prints them, and says with its exit status
+// whether they are those that stand there. docs/derivations/hertz-lanes.md has the formulas.
 #include <boost/multiprecision/mpfr.hpp>
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/hertz_fit.hpp>
-#include <tangency/dem/hertz_lanes.hpp>
+#include <tangency/dem/lanes/hertz_fit.hpp>
+#include <tangency/dem/lanes/hertz_lanes.hpp>
 
 namespace {
 
@@ -130,6 +130,6 @@ int main() {
   const Real x = tanh(-log(Real(kLeastCurvatureRatio)) / kHalvings), last = x * x;
   const bool force_is = makes("Force", force, last, kForceCentre, kForceOver, kForceUnder);
   const bool share_is = makes("Share", share, last, 0.0, kShareOver, kShareUnder);
-  if (!force_is || !share_is) std::fputs("dem/hertz_fit.hpp has other numbers\n", stderr);
+  if (!force_is || !share_is) std::fputs("dem/lanes/hertz_fit.hpp has other numbers\n", stderr);
   return force_is && share_is ? 0 : 1;
 }

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/hertz.hpp>
-#include <tangency/dem/hertz_lanes.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/contact/hertz.hpp>
+#include <tangency/dem/lanes/hertz_lanes.hpp>
+#include <tangency/dem/samples/sample.hpp>
 #include <tangency/geometry/curvature.hpp>
 
 #include "golden_states.hpp"
@@ -167,7 +167,7 @@ Block random_block(std::mt19937_64& random, double aspect) {
 }
 
 // On a flat body, at the end of the axis c of an ellipsoid: the curvatures are c/a^2 and c/b^2.
-// dem/hertz_lanes.hpp (2)
+// dem/lanes/hertz_lanes.hpp (2)
 TEST(HertzLanes, OfGivenCurvaturesAnswerAsOneByOne) {
   at_every_level([](std::int64_t level) {
     std::mt19937_64 random(kSeed);
@@ -196,7 +196,7 @@ TEST(HertzLanes, OfGivenCurvaturesAnswerAsOneByOne) {
   });
 }
 
-// dem/hertz_lanes.hpp (3)
+// dem/lanes/hertz_lanes.hpp (3)
 TEST(HertzLanes, OfTwoBodiesHaveTheirRelativeCurvaturesAndDirection) {
   at_every_level([](std::int64_t level) {
     std::mt19937_64 random(kSeed + 1);
@@ -259,7 +259,7 @@ TEST(HertzLanes, KeepWhatTwoThinBodiesThatAreNearlyParallelHave) {
   });
 }
 
-// dem/hertz_lanes.hpp (1)
+// dem/lanes/hertz_lanes.hpp (1)
 TEST(HertzLanes, OfPairsThatDoNotTouchAreZero) {
   at_every_level([](std::int64_t level) {
     std::mt19937_64 random(kSeed + 2);
@@ -318,7 +318,7 @@ TEST(HertzLanes, LeaveToOthersWhatTheyHaveNoAnswerFor) {
   });
 }
 
-// dem/hertz_lanes.hpp (4)
+// dem/lanes/hertz_lanes.hpp (4)
 TEST(HertzLanes, OfSpheresAreHertzsWithAnyTangent) {
   at_every_level([](std::int64_t level) {
     std::mt19937_64 random(kSeed + 3);
@@ -350,7 +350,7 @@ bool same_bits(const Answer& one, const Answer& other) {
   return std::memcmp(&one, &other, sizeof(Answer)) == 0;
 }
 
-// dem/hertz_lanes.hpp (5)
+// dem/lanes/hertz_lanes.hpp (5)
 TEST(HertzLanes, AnswerAPairAlikeInEveryCompany) {
   at_every_level([](std::int64_t level) {
     std::mt19937_64 random(kSeed + 4);

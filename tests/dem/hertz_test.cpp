@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include <tangency/dem/hertz.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/contact/hertz.hpp>
+#include <tangency/dem/samples/sample.hpp>
 #include <tangency/verify/oracles/elliptic.hpp>
 
 #include "few_bodies.hpp"
@@ -33,7 +33,7 @@ constexpr Material kGlass{70e9, 0.24};
 
 double relative(double value, double truth) { return std::abs(value / truth - 1.0); }
 
-// dem/hertz.hpp (1)
+// dem/contact/hertz.hpp (1)
 TEST(Hertz, OfEqualCurvaturesIsASpheres) {  // (1), (3)
   for (const double radius : {0.003, 1.0, 47.0}) {
     const double curvature[2] = {1.0 / radius, 1.0 / radius}, overlap = 0.01 * radius;
@@ -50,7 +50,7 @@ TEST(Hertz, OfEqualCurvaturesIsASpheres) {  // (1), (3)
   }
 }
 
-// dem/hertz.hpp (2)
+// dem/contact/hertz.hpp (2)
 TEST(Hertz, ForceGoesWithOverlapToThreeHalves) {  // (2)
   const double curvature[2] = {3.7, 0.41};
   const HertzContact one = hertz_contact(curvature, 1e-3, kGlass);
@@ -214,7 +214,7 @@ double give_way(double a, double b, double nu, double c, double s, double x, dou
   return integral(along_ray, 0.0, 2.0 * pi) / (2.0 * pi * a * b) / (2.0 * pi);
 }
 
-// dem/hertz.hpp (3)
+// dem/contact/hertz.hpp (3)
 TEST(Mindlin, ShearStiffnessIsThatOfTheStampsTractionByQuadrature) {
   for (const double nu : {0.0, 0.24, 0.5})
     for (const double k : {1.0, 0.6, 0.1}) {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <tangency/dem/cell.hpp>
-#include <tangency/dem/insertion.hpp>
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/sample.hpp>
-#include <tangency/dem/start_axes.hpp>
+#include <tangency/dem/samples/insertion.hpp>
+#include <tangency/dem/samples/sample.hpp>
+#include <tangency/dem/samples/start_axes.hpp>
 #include <tangency/geometry/relation.hpp>
 #include <tangency/geometry/vectors.hpp>
 
@@ -58,7 +58,7 @@ double filled(const Particles& particles, const Cell& cell) {
   return volume / cell.volume();
 }
 
-// dem/insertion.hpp (1)
+// dem/samples/insertion.hpp (1)
 TEST(Insertion, LeavesNoTwoBodiesSharingAPointNearTheDensityWhereItEnds) {
   for (const Shape& shape : {Shape{1.0, 1.0, 1.0}, Shape{1.0, 1.5, 1.0}, Shape{1.0, 3.0, 1.0},
                              Shape{1.0, 1.0, 3.0}, Shape{0.01, 1.3, 1.4}}) {
@@ -77,7 +77,7 @@ TEST(Insertion, LooksAtTheBodiesAndNotAtTheirBoundingSpheres) {
   EXPECT_GT(meeting_pairs(particles, cell, 1).size(), 250u);
 }
 
-// dem/insertion.hpp (1), of walls
+// dem/samples/insertion.hpp (1), of walls
 TEST(Insertion, KeepsBodiesWithinWallsByTheirExtentAndNotByTheirLargestAxis) {
   Placement how = filling(0.25, 2);
   how.walled = {true, false, true};
@@ -98,7 +98,7 @@ TEST(Insertion, KeepsBodiesWithinWallsByTheirExtentAndNotByTheirLargestAxis) {
   EXPECT_EQ(pairs_that_meet(particles, cell), 0u);
 }
 
-// dem/insertion.hpp (2)
+// dem/samples/insertion.hpp (2)
 // And another seed has another sample.
 TEST(Insertion, OfOneSeedIsOneSample) {
   Cell cell;
@@ -110,7 +110,7 @@ TEST(Insertion, OfOneSeedIsOneSample) {
   EXPECT_NE(first.position, other.position);
 }
 
-// dem/insertion.hpp (3)
+// dem/samples/insertion.hpp (3)
 TEST(Insertion, KeepsCentresOfLayersWithinThem) {
   std::vector<Batch> batches{batch_of({1.0, 1.5, 1.0}, 120), batch_of({0.8, 1.0, 1.0}, 150)};
   batches[0].layer = {0.0, 0.5};

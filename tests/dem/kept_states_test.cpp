@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/measures/shear_points.hpp>
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/shear_points.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "csv_columns.hpp"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 #include "../tool/process.hpp"

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/fire.hpp>
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/lanes/particle_lanes.hpp>
+#include <tangency/dem/motion/fire.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/dem/parallel.hpp>
-#include <tangency/dem/particle_lanes.hpp>
 
 #include "golden_states.hpp"
 
@@ -70,7 +70,7 @@ struct Crowd {
   }
 };
 
-/// One particle by the scheme of dem/motion.hpp.
+/// One particle by the scheme of dem/motion/motion.hpp.
 struct LongParticle {
   LongVec3 position, velocity, spin, axes;
   LongQuaternion orientation;
@@ -218,7 +218,7 @@ bool blows_up(Rotation rotation, int axis, double turn) {
   return false;
 }
 
-// dem/motion.hpp: Euler's equations turn about x and y twice in a step, about z once.
+// dem/motion/motion.hpp: Euler's equations turn about x and y twice in a step, about z once.
 TEST(MotionLanes, ATurnOfMoreThanTwoMillionIsReported) {
   constexpr double below = 1.0 - 1e-12, above = 1.0 + 1e-12;
   for (int axis = 0; axis < 3; ++axis) {
@@ -294,8 +294,8 @@ std::vector<double> numbers_after_steps(Crowd crowd, int dimensions) {
   return all;
 }
 
-// dem/motion.hpp (4)
-// dem/particle_lanes.hpp (1)
+// dem/motion/motion.hpp (4)
+// dem/lanes/particle_lanes.hpp (1)
 TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
   for (const int dimensions : {2, 3}) {
     const Crowd crowd(1003, 8.0, dimensions);
@@ -312,7 +312,7 @@ TEST(MotionLanes, HaveTheSameBitsAtEveryInstructionSetAndThreadCount) {
 }
 
 // Of a shape alone, beside others, and in lanes that are padded.
-// dem/particle_lanes.hpp (2)
+// dem/lanes/particle_lanes.hpp (2)
 TEST(MotionLanes, WhatHappensToAParticleDoesNotDependOnThoseBesideIt) {
   const Motion motion{Rotation::full, {0.0, 0.0, -9.81}, 3.0};
   const Crowd crowd(803, 300.0);  // half angles on both sides of where the long series begins

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include <tangency/dem/motion.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/motion/motion.hpp>
+#include <tangency/dem/samples/sample.hpp>
 
 namespace {
 
@@ -42,7 +42,7 @@ struct One {
   }
 };
 
-// dem/motion.hpp (1)
+// dem/motion/motion.hpp (1)
 TEST(Motion, WithoutForceIsUniform) {
   One one;
   one.particles.velocity[0] = {0.1, -0.2, 0.3};
@@ -55,7 +55,7 @@ TEST(Motion, WithoutForceIsUniform) {
   EXPECT_NEAR(one.particles.orientation[0].norm(), 1.0, 4e-16);
 }
 
-// dem/motion.hpp (2)
+// dem/motion/motion.hpp (2)
 TEST(Motion, HasAnErrorOfSecondOrderInTheStep) {
   const double exact = std::cos(2.0);
   const double coarse = std::abs(One().oscillate(50) - exact);
@@ -63,7 +63,7 @@ TEST(Motion, HasAnErrorOfSecondOrderInTheStep) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.05);
 }
 
-// dem/motion.hpp (2)
+// dem/motion/motion.hpp (2)
 TEST(Motion, WithoutDampingIsReversible) {
   One one;
   const Vec3 start = one.particles.position[0];
@@ -135,7 +135,7 @@ TEST(Motion, AMomentAboutABodyAxisTurnsAboutItByItsMomentOfInertia) {
   EXPECT_NEAR(kinetic_energy(one.particles), 0.5 * inertia * std::pow(0.2 / inertia, 2), 1e-15);
 }
 
-// dem/motion.hpp (3)
+// dem/motion/motion.hpp (3)
 TEST(Motion, OrientationsStayUnitAndExactForWholeTurns) {
   One one;
   const tangency::Quaternion start = one.particles.orientation[0];

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstddef>
 
-#include <tangency/dem/contact_lanes.hpp>
-#include <tangency/dem/contact_law.hpp>
+#include <tangency/dem/contact/contact_law.hpp>
+#include <tangency/dem/lanes/contact_lanes.hpp>
 #include <tangency/geometry/indexed_pair.hpp>
 #include <tangency/geometry/vectors.hpp>
 

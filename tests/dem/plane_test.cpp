@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 
 #include "assembly.hpp"
 #include "scenes.hpp"
@@ -109,7 +109,7 @@ TEST(Plane, ConservesMomentumAndAngularMomentum) {
   EXPECT_NEAR(angular_momentum(plane.particles), angular, 1e-11 * 60.0);
 }
 
-// dem/motion.hpp (5)
+// dem/motion/motion.hpp (5)
 TEST(Plane, LeavesNothingOutOfIt) {
   Plane plane(80, plane_cell(9.0, 8.0), 4);
   plane.update(kFrictional, 0.0);
@@ -232,7 +232,7 @@ void expect_no_overlap(const Particles& particles, const Cell& cell) {
   EXPECT_TRUE(meeting.empty());
 }
 
-// dem/sample.hpp (1)
+// dem/samples/sample.hpp (1)
 TEST(PlaceAtRandom, LeavesNoTwoBoundingSpheresMeeting) {
   for (const int dimensions : {2, 3}) {
     const double fraction = largest_bounding_fraction(dimensions);
@@ -262,7 +262,7 @@ TEST(PlaceAtRandom, ServesACellHardlyWiderThanAParticle) {
                DoesNotFit);
 }
 
-// dem/sample.hpp (2)
+// dem/samples/sample.hpp (2)
 TEST(PlaceAtRandom, OfOneSeedIsOneSample) {
   Cell cell;
   const auto positions = [&](std::uint64_t seed) {

@@ -15,8 +15,8 @@
 
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/plane_wall.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "scenes.hpp"
 #include "stages.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 
 #include <tangency/dem/profile.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"

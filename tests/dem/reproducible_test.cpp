@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/instruction_set.hpp>
+#include <tangency/dem/lanes/instruction_set.hpp>
 
 #include "../tool/process.hpp"
 #include "golden_states.hpp"
@@ -24,7 +24,7 @@ std::string hash_of(const GoldenRun& run) {
   return state_hash(simulation.state());
 }
 
-// dem/instruction_set.hpp
+// dem/lanes/instruction_set.hpp
 TEST(Reproducible, ArithmeticIsThatOfEveryInstructionSetWithoutFusedMultiplyAdds) {
   const GoldenRun& run = kGoldenRuns[0];
   std::map<std::string, std::string> hashes;  // by instruction set

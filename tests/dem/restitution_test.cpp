@@ -13,9 +13,9 @@
 #include <string>
 #include <utility>
 
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/geometry/gap.hpp>
 
 #include "few_bodies.hpp"
@@ -28,7 +28,7 @@ using tangency::Mat3;
 using tangency::Vec3;
 using namespace tangency::testing;
 
-/// What scenes promise (dem/scene_keys.cpp), and the largest factor that they promise it for.
+/// What scenes promise (dem/scene/scene_keys.cpp), and the largest factor that they promise it for.
 constexpr double kPromised = 1e-3, kFactor = 0.04;
 
 constexpr std::array kGiven{0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0};
@@ -92,7 +92,7 @@ double shown(const std::string& law, double given, int dimensions = 3, bool wall
   return farthest;
 }
 
-// dem/contact_law.hpp (5)
+// dem/contact/contact_law.hpp (5)
 TEST(Restitution, OfAHeadOnImpactIsTheGivenOne) {
   std::printf("given   linear   hertz    wall, linear  wall, hertz  disks\n");
   for (const double given : kGiven) {

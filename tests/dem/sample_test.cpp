@@ -24,7 +24,7 @@ TEST(Shape, KeepsItsVolumeAndRatios) {
   EXPECT_NEAR(axes[1] / axes[2], 3.0, 1e-15);
 }
 
-// dem/sample.hpp (1)
+// dem/samples/sample.hpp (1)
 TEST(PlaceOnLattice, LeavesNoTwoParticlesOverlappingWhateverTheJitter) {
   for (const double jitter : {0.0, 0.01, 10.0}) {
     Cell cell;
@@ -50,7 +50,7 @@ TEST(PlaceOnLattice, SpreadsOverAGivenCellAndRefusesOneTooSmall) {
   EXPECT_THROW(check_room(kProlate, {Vec3::Constant(1e6), 0.0, 1}), DoesNotFit);
 }
 
-// dem/sample.hpp (2)
+// dem/samples/sample.hpp (2)
 TEST(PlaceOnLattice, OfOneSeedIsOneSample) {
   Cell cell;
   const Particles first = place_on_lattice(kProlate, {{}, 0.1, 3}, cell);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/scene_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/scene/scene_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"
@@ -65,7 +65,7 @@ TEST(Setting, GivesSeveralKeysOneValue) {
     EXPECT_EQ(scene.stages[k].drive->loading.targets[0].wanted, 3e6) << k;
 }
 
-// dem/scene_file.hpp (1)
+// dem/scene/scene_file.hpp (1)
 TEST(Setting, IsCheckedByTheTableOfKeysAndNamedAsItWasGiven) {
   EXPECT_EQ(refused_setting("particles.grain.count=-1"),
             "--set particles.grain.count=-1: particles.grain.count = -1: an integer from 1 to "
@@ -197,7 +197,7 @@ TEST(Sweep, RefusesWhatIsNoListAndAKeyTwice) {
             "scene.toml:23: sweep.after = 3: a name of letters, digits and underscores");
 }
 
-// dem/scene_file.hpp (2)
+// dem/scene/scene_file.hpp (2)
 TEST(SceneText, ReadsBackToTheSameSample) {
   SceneFile file(sweeping("\"stage.place.seed\" = [1, 2]\n"), "scene.toml");
   file.set("stage.place.jitter=0.1");

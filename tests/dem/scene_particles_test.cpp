@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <tangency/dem/particles.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/samples/sample.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <tangency/dem/scene.hpp>
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 #include <tangency/tests/support/patterns.hpp>
 
 #include "scenes.hpp"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-#include <tangency/dem/scene_keys.hpp>
+#include <tangency/dem/scene/scene_keys.hpp>
 
 #include "../tool/process.hpp"
 

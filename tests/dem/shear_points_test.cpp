@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
+#include <tangency/dem/measures/shear_points.hpp>
 #include <tangency/dem/micromechanics/plane.hpp>
 #include <tangency/dem/micromechanics/stress_force_fabric.hpp>
-#include <tangency/dem/shear_points.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace {
@@ -106,7 +106,7 @@ TEST(ShearPoints, OfRowsFarApartTakeThreeNeighbours) {
   EXPECT_EQ(points.d, 15u);  // the rate of rows 14 to 16 is 0, of those before 0.033
 }
 
-// dem/shear_points.hpp (2)
+// dem/measures/shear_points.hpp (2)
 TEST(ShearPoints, StandInTheirOrder) {
   std::mt19937_64 draw(20261130);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -125,7 +125,7 @@ TEST(ShearPoints, StandInTheirOrder) {
   }
 }
 
-// dem/shear_points.hpp (1)
+// dem/measures/shear_points.hpp (1)
 TEST(StressRatio, DependsOnNeitherAxesNorUnits) {
   Mat3 stress = tangency::Vec3(1.0, 2.0, 5.0).asDiagonal();
   const double ratio = stress_ratio_of(stress);

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "scenes.hpp"
 #include "stages.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/spatial_order.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "assembly.hpp"
@@ -184,7 +184,7 @@ const Simulation& relaxing() {
   return simulation;
 }
 
-// dem/fire.hpp (1) (2)
+// dem/motion/fire.hpp (1) (2)
 TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
   const Motion motion{Rotation::full, Vec3(0.0, 0.0, -0.5)};
   const Particles start = crowd(20, Cell::box(Vec3::Constant(4.0)), 3);
@@ -222,7 +222,7 @@ TEST(Fire, TurnsWhatRunsDownhillStopsWhatDoesNotAndAccountsForIt) {
   for (const double uphill : {-1.0, 0.0}) EXPECT_EQ(kinetic_energy(steered(uphill, 0.0)), 0.0);
 }
 
-// dem/fire.hpp (3)
+// dem/motion/fire.hpp (3)
 // dem/simulation.hpp (1)
 // The cell shears by a half in the first stage: places in it change, and their order.
 TEST(Simulation, KeepsManyParticlesInAnOrderOfSpaceFromStageToStage) {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/samples/start_axes.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/start_axes.hpp>
 
 #include "scenes.hpp"
 
@@ -69,7 +69,7 @@ std::string text_of(const StartAxes& axes) {
          " " + std::to_string(axes.direction[1]) + " " + std::to_string(axes.direction[2]);
 }
 
-// dem/start_axes.hpp (1)
+// dem/samples/start_axes.hpp (1)
 TEST(StartAxes, HaveTheMeanSquareOfTheirRuleAlongTheDirection) {
   std::mt19937_64 random(3);
   for (const int dimensions : {2, 3})
@@ -94,7 +94,7 @@ TEST(StartAxes, HaveTheMeanSquareOfTheirRuleAlongTheDirection) {
       }
 }
 
-// dem/start_axes.hpp (2)
+// dem/samples/start_axes.hpp (2)
 TEST(StartAxes, PreferNoDirectionAcross) {
   std::mt19937_64 random(4);
   for (const int axis : {0, 2})
@@ -117,7 +117,7 @@ TEST(StartAxes, PreferNoDirectionAcross) {
     }
 }
 
-// dem/start_axes.hpp (3)
+// dem/samples/start_axes.hpp (3)
 TEST(StartAxes, OfRuleRandomAreUniformRotationsBitForBit) {
   for (const int dimensions : {2, 3}) {
     std::mt19937_64 one(5), other(5);

@@ -14,8 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
-#include <tangency/dem/stream_hash.hpp>
+#include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/saved/stream_hash.hpp>
 #include <tangency/dem/whole_file.hpp>
 
 #include "../tool/process.hpp"

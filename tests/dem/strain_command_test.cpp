@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/contacts.hpp>
+#include <tangency/dem/contact/contacts.hpp>
 #include <tangency/dem/micromechanics/average_strain.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/samples/sample.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "scenes.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
-#include <tangency/dem/thin_cell.hpp>
+#include <tangency/dem/contact/thin_cell.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 
 #include "../tool/process.hpp"
 #include "assembly.hpp"
@@ -126,7 +126,7 @@ Cell scaled_to(Cell cell, double period) {
   return cell;
 }
 
-// dem/thin_cell.hpp (1)
+// dem/contact/thin_cell.hpp (1)
 TEST(ThinCell, DoublesNoContactFromTheFreePeriodOnAndDoesSoonBelow) {
   std::mt19937_64 random(72);
   std::size_t doubled = 0;
@@ -167,7 +167,7 @@ TEST(ThinCell, DoublesNoContactFromTheFreePeriodOnAndDoesSoonBelow) {
   EXPECT_GT(doubled, 150u) << "the bound is sharp: bodies along the period touch it at once";
 }
 
-// dem/thin_cell.hpp (2)
+// dem/contact/thin_cell.hpp (2)
 TEST(ThinCell, BelowThePeriodHasPlacesWhereAContactIsDoubled) {
   std::mt19937_64 random(73);
   int its_own = 0, of_two = 0;
@@ -205,7 +205,7 @@ TEST(ThinCell, BelowThePeriodHasPlacesWhereAContactIsDoubled) {
   EXPECT_GT(of_two, 50);
 }
 
-// dem/thin_cell.hpp (3)
+// dem/contact/thin_cell.hpp (3)
 TEST(ThinCell, NearerWallsLeaveNoPlaceHoweverABodyIsTurned) {
   std::mt19937_64 random(74);
   for (int k = 0; k < 100; ++k) {

@@ -14,7 +14,7 @@
 
 #include <tangency/dem/parallel.hpp>
 #include <tangency/dem/profile.hpp>
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/geometry/trace_contact.hpp>
 
 #include "../tool/process.hpp"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <tangency/dem/parallel.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
 #include <tangency/dem/verification.hpp>
 
 #include "../dem/scenes.hpp"

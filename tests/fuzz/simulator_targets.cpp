@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/motion.hpp>
+#include <tangency/dem/contact/thin_cell.hpp>
+#include <tangency/dem/motion/motion.hpp>
 #include <tangency/dem/observe.hpp>
-#include <tangency/dem/sample.hpp>
+#include <tangency/dem/samples/sample.hpp>
+#include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/saved/stream_hash.hpp>
 #include <tangency/dem/scene.hpp>
 #include <tangency/dem/simulation.hpp>
-#include <tangency/dem/state_file.hpp>
-#include <tangency/dem/stream_hash.hpp>
-#include <tangency/dem/thin_cell.hpp>
 #include <tangency/dem/tool/history.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/csv.hpp>

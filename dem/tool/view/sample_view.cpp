@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include <tangency/dem/state_file.hpp>
+#include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/tool/contact_frames.hpp>
 #include <tangency/dem/tool/packing.hpp>
 #include <tangency/dem/tool/vtk_file.hpp>
