@@ -101,7 +101,7 @@ bool Loading::is_met(const Stress& measured, double tolerance) const {
 
 void Loading::watch(const Stress& measured, bool on_arrival,
                     std::vector<ServoMemory>& memory) const {
-  const double largest = largest_wanted(targets);
+  const double largest = std::max(largest_wanted(targets), least_scale);
   const double scale = largest > 0.0 ? largest : measured.mean();
   if (!(scale > 0.0)) return;
   for (std::size_t k = 0; k < targets.size(); ++k) {

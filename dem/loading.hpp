@@ -83,6 +83,8 @@ struct Loading {
   Mat3 strain_rate = Mat3::Zero();  ///< given, extension positive, 1/time
   std::vector<Target> targets;      ///< what is held at a stress
   Servo servo;                      ///< how it is held
+  /// What is off is seen against this stress at least: that of a ramp's larger end, > 0 or 0.
+  double least_scale = 0.0;
 
   /// The cell's rate for the coming step.
   /// @param measured  the stress as it is
@@ -93,8 +95,8 @@ struct Loading {
   /// Are all targets met, each within `tolerance` of the largest wanted stress?
   bool is_met(const Stress& measured, double tolerance) const;
 
-  /// Notes how far each target is off, relative to the largest wanted stress, or to the mean stress
-  /// where only directions are held.
+  /// Notes how far each target is off, relative to the largest wanted stress and least_scale, or to
+  /// the mean stress where only directions are held.
   /// @param measured  the stress as it is
   /// @param memory  of the servo, one entry a target
   /// @param on_arrival  a target counts only from when it is first within kHeldWithin

@@ -36,6 +36,10 @@ void require_thickness(const Cell& cell, const LeastCell& least) {
   if (auto thin = thin_place(cell, least, kMostSqueeze)) throw CellTooThin(std::move(*thin));
 }
 
+/// Relative error that products of decimal fractions bring in, generously: a ramp over 0.01 is over
+/// at a strain of 0.01.
+constexpr double kRounding = 1e-12;
+
 /// Axial strain from which a shear is held to its stress: what is before it is start. Chosen: a
 /// peak of friction comes at several times that.
 constexpr double kSettlingStrain = 0.01;
@@ -71,9 +75,13 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
     plane.held = scene_.planes[k].held;
     if (!plane.held) plane.velocity = scene_.planes[k].velocity;
   }
-  prepare_stage();
   const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
-  if (state_.stage_cycle == 0) state_.servos.assign(servos, {});  // a stage added after the last
+  if (state_.stage_cycle == 0) begin_servos();  // a stage added after the last
+  if (!finished() && state_.ramp_start.size() != (stage().drive->ramp ? servos : 0))
+    throw std::invalid_argument(stage().drive->ramp
+                                    ? "a state on no ramp; the scene's stage has one"
+                                    : "a state on a ramp; the scene's stage has none");
+  prepare_stage();
   if (!finished() && state_.servos.size() != servos)
     throw std::invalid_argument("a state of a stage that holds " +
                                 std::to_string(state_.servos.size()) +
@@ -87,9 +95,8 @@ const Stage& Simulation::stage() const {
 void Simulation::prepare_stage() {
   laws_ = scene_.laws;
   laws_.bodies_turn = scene_.rotation != Rotation::none;
-  if (!finished() && stage().drive->friction_coefficient)
-    for (ContactLaw& law : laws_.law)
-      law.friction_coefficient = *stage().drive->friction_coefficient;
+  characteristic_time_ = characteristic_time(state_.particles, laws_.largest_stiffness());
+  renew_friction();
   // Velocities that are turned and taken away once forces are known feed a damper, which goes by
   // them, instead of being braked by it: 1,000 needles never came to rest.
   if (!finished() && !stage().drive->damping)
@@ -97,16 +104,66 @@ void Simulation::prepare_stage() {
   renew_loading();
   turns_ = anything_turns();
   least_ = least_cell_of(state_.particles);
-  characteristic_time_ = characteristic_time(state_.particles, laws_.largest_stiffness());
 }
 
 void Simulation::renew_loading() {
   if (finished()) return;
   loading_ = stage().drive->loading;
+  for (std::size_t k = 0; k < state_.ramp_start.size(); ++k) {
+    double& wanted = loading_.targets[k].wanted;
+    loading_.least_scale =
+        std::max({loading_.least_scale, std::abs(wanted), std::abs(state_.ramp_start[k])});
+    wanted = std::lerp(state_.ramp_start[k], wanted, ramp_share());
+  }
   const auto& growth = stage().growth;
   if (!growth || !growth->ramp) return;
   double& wanted = loading_.targets.front().wanted;
   wanted = growth->stress_after(scene_.shape_in(0, state_.stage, 0), state_.increments, wanted);
+}
+
+/// On a ramp from that of the stage before, so that no state has to keep it.
+void Simulation::renew_friction() {
+  if (finished() || !stage().drive->friction_coefficient) return;
+  const auto& before = scene_.stages[state_.stage - 1].drive;
+  const double share = ramp_share(), wanted = *stage().drive->friction_coefficient;
+  for (std::size_t k = 0; k < laws_.law.size(); ++k) {
+    const double own = scene_.laws.law[k].friction_coefficient;
+    const double first = before ? before->friction_coefficient.value_or(own) : own;
+    laws_.law[k].friction_coefficient = std::lerp(first, wanted, share);
+  }
+}
+
+/// How much of the current stage's ramp is done, in [0, 1]; 1 without one.
+double Simulation::ramp_share() const {
+  const auto& ramp = stage().drive->ramp;
+  if (!ramp) return 1.0;
+  const auto cycles = static_cast<double>(state_.stage_cycle);
+  const double done = ramp->over == Ramp::Over::cycles ? cycles
+                      : ramp->over == Ramp::Over::time ? cycles * time_step()
+                                                       : strain();
+  return done < ramp->length * (1.0 - kRounding) ? std::max(0.0, done / ramp->length) : 1.0;
+}
+
+double Simulation::strain() const {
+  const Drive& drive = *stage().drive;
+  if (state_.stage_cycle == 0) return 0.0;
+  const int axial = state_.cell.dimensions - 1;
+  if (drive.axial_strain) return -state_.cell.logarithmic_strain()(axial, axial);
+  return drive.loading.strain_rate.cwiseAbs().maxCoeff() *
+         (static_cast<double>(state_.stage_cycle) * time_step());
+}
+
+bool Simulation::has_passed(double strain) const {
+  if (state_.stage_cycle == 0) return false;
+  const double rate = stage().drive->loading.strain_rate.cwiseAbs().maxCoeff();
+  double before = rate * (static_cast<double>(state_.stage_cycle - 1) * time_step());
+  if (stage().drive->axial_strain) {
+    Cell cell = state_.cell;
+    cell.edges = (Mat3::Identity() + cell.rate * time_step()).inverse() * cell.edges;
+    before = -cell.logarithmic_strain()(cell.dimensions - 1, cell.dimensions - 1);
+  }
+  return std::floor(this->strain() / strain * (1.0 + kRounding)) >
+         std::floor(std::max(before, 0.0) / strain * (1.0 + kRounding));
 }
 
 /// Smooth spheres at rest never turn. (In the plane a turn costs next to nothing.)
@@ -114,7 +171,10 @@ bool Simulation::anything_turns() const {
   if (scene_.dimensions == 2) return true;
   const auto& laws = laws_.law;
   const Particles& particles = state_.particles;
-  return std::any_of(laws.begin(), laws.end(),
+  // On a ramp also what bears shear at one of its ends alone: a resumed run turns what this one
+  // does.
+  return (!finished() && stage().drive->ramp) ||
+         std::any_of(laws.begin(), laws.end(),
                      [](const ContactLaw& law) { return law.bears_shear(); }) ||
          !are_round(particles) ||
          std::any_of(particles.angular_velocity.begin(), particles.angular_velocity.end(),
@@ -125,11 +185,24 @@ void Simulation::next_stage() {
   assert(!finished());
   ++state_.stage;
   state_.stage_cycle = 0;
-  state_.servos.assign(finished() ? 0 : stage().drive->loading.targets.size(), {});
+  begin_servos();
   state_.fire = {};
   state_.increments = 0;
   prepare_stage();
   sort_in_space();
+}
+
+/// At the start of a stage: what its servos remember, and where its ramp begins.
+void Simulation::begin_servos() {
+  state_.servos.clear();
+  state_.ramp_start.clear();
+  if (finished()) return;
+  const Drive& drive = *stage().drive;
+  state_.servos.assign(drive.loading.targets.size(), {});
+  if (!drive.ramp) return;
+  const Stress now = stress_of(state_.contacts, state_.cell);
+  for (const Target& target : drive.loading.targets)
+    state_.ramp_start.push_back(target.measured(now));
 }
 
 /// Puts particles that have mixed back into an order of space, contacts and all.
@@ -177,11 +250,14 @@ void Simulation::step() {
 
   move_particles(dt);
   keep_list_current(dt);
-  update_contacts(dt);
-
   ++state_.cycle;
   ++state_.stage_cycle;
   state_.time += dt;
+  if (stage().drive->ramp) {
+    renew_loading();
+    renew_friction();
+  }
+  update_contacts(dt);
   if (profile_ == nullptr) return;
   ++profile_->cycles;
   profile_->listed_pairs += static_cast<std::int64_t>(state_.list.pairs().size());
@@ -310,6 +386,7 @@ void Simulation::watch(const Stress& stress) {
 /// Are the stresses the wanted ones and, where the stage asks for it, the assembly in balance?
 bool Simulation::is_relaxed() const {
   const Drive& stage = *this->stage().drive;
+  if (ramp_share() < 1.0) return false;
   if (stage.stress_tolerance &&
       !loading_.is_met(stress_of(state_.contacts, state_.cell), *stage.stress_tolerance))
     return false;

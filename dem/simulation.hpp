@@ -54,15 +54,14 @@ class Simulation {
   const State& state() const { return state_; }
   /// As given.
   const Scene& scene() const { return scene_; }
-  /// The scene's, with the current stage's friction, and without restitution where the stage has
-  /// no rate of damping (fire.hpp).
+  /// The scene's, with the current stage's friction as far as its ramp has come, and without
+  /// restitution where the stage has no rate of damping (fire.hpp).
   const ContactLaws& laws() const { return laws_; }
   /// Have all stages ended?
   bool finished() const { return state_.stage == scene_.stages.size(); }
   /// The current stage, or the last one when finished.
   const Stage& stage() const;
-  /// Of the current stage, with the mean stress to which a growth's ramp has come. Requires
-  /// !finished().
+  /// Of the current stage, with the stresses to which a ramp has come. Requires !finished().
   const Loading& loading() const { return loading_; }
 
   /// One cycle of the current stage. Requires !finished().
@@ -76,6 +75,12 @@ class Simulation {
 
   /// Goes on to the next stage, whose first cycle starts the strains anew. Requires !finished().
   void next_stage();
+
+  /// Strain of the current stage since it began: of a shear its axial strain, of another the time
+  /// in it times its largest given rate, 0 without one. Requires !finished().
+  double strain() const;
+  /// Has the last cycle passed a multiple of this strain? Never in a stage without a given rate.
+  bool has_passed(double strain) const;
 
   /// Time step of the current stage.
   double time_step() const;
@@ -112,6 +117,9 @@ class Simulation {
  private:
   void prepare_stage();
   void renew_loading();
+  void renew_friction();
+  double ramp_share() const;
+  void begin_servos();
   void sort_in_space();
   void describe_cell_anew();
   bool anything_turns() const;
@@ -137,7 +145,7 @@ class Simulation {
   Scene scene_;
   State state_;
   ContactLaws laws_;  ///< laws()
-  Loading loading_;   ///< the current stage's, with its growth's stress
+  Loading loading_;   ///< the current stage's, with the stresses of its ramp
   std::string changed_laws_;
   std::string changed_walls_;
   bool turns_ = true;                 ///< is there anything that could turn, or seem to?

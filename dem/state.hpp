@@ -30,6 +30,7 @@ struct State {
   std::size_t stage = 0;            ///< the current one; the number of stages when all are done
   std::int64_t stage_cycle = 0;     ///< steps since the stage began
   std::vector<ServoMemory> servos;  ///< of the current stage's targets
+  std::vector<double> ramp_start;   ///< stresses of these as the stage began; none without a ramp
   Fire fire;                        ///< of the current stage, where no damping is given
   ContactLaws laws;                 ///< the scene's, with which the contacts were made
   std::int64_t increments = 0;      ///< of growth, made in the current stage

@@ -98,6 +98,11 @@ struct Room {
   }
 };
 
+/// Of the cell, that the bodies of a layer may reach: beyond it by their longest axis at most.
+double share_of_layer(const Batch& batch, double longest, double height) {
+  return std::min(1.0, batch.layer[1] - batch.layer[0] + 2.0 * longest / height);
+}
+
 class Insertion {
  public:
   Insertion(const std::vector<Batch>& batches, const Placement& how, const Vec3& edges)
@@ -188,15 +193,23 @@ class Insertion {
                      static_cast<std::int32_t>(one.batch));
       return;
     }
-    refuse();
+    refuse(one);
   }
 
-  [[noreturn]] void refuse() const {
+  /// Says how full the layer of the body is: it may be full where the cell is not.
+  [[noreturn]] void refuse(const Coming& one) const {
+    const Batch& batch = batches_[one.batch];
+    const int across = how_.dimensions - 1;
+    const double low = batch.layer[0] * edges_[across], high = batch.layer[1] * edges_[across];
     double volume = 0.0;
-    for (const Vec3& axes : particles_.semi_axes) volume += volume_of(axes, how_.dimensions);
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      if (particles_.position[i][across] >= low && particles_.position[i][across] <= high)
+        volume += volume_of(particles_.semi_axes[i], how_.dimensions);
+    const double share = share_of_layer(batch, one.radius(), edges_[across]);
     std::ostringstream text;
     text << "insertion found no room for particle " << particles_.size() + 1 << " of "
-         << coming_.size() << ", the volume fraction being " << volume / edges_.prod()
+         << coming_.size() << ", the volume fraction " << (share < 1.0 ? "of its layer " : "")
+         << "being " << volume / (share * edges_.prod())
          << "; a lower one, or another seed, may do";
     throw DoesNotFit(text.str());
   }
@@ -224,8 +237,7 @@ void check_layer(const Batch& batch, const Placement& how, const Vec3& edges) {
   }
   std::ostringstream text;
   text << "the layer from " << batch.layer[0] << " to " << batch.layer[1];
-  // Its bodies reach beyond it by their longest axis at most.
-  const double share = std::min(1.0, (high - low + 2.0 * longest) / edges[across]);
+  const double share = share_of_layer(batch, longest, edges[across]);
   const double filled = volume / (share * edges.prod());
   if (!(filled <= kMostInserted * (1.0 + kInsertionClearance))) {
     text << " would be filled to " << filled << ", more than " << kMostInserted;

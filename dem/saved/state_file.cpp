@@ -20,9 +20,9 @@ namespace tangency::inline v0::dem {
 namespace {
 
 constexpr std::string_view kMagic = "TANGSTAT";
-/// Of a state with all that a scene may ask for, and of one that has none of what came last
-/// (pass_latest()): scenes that do not use it have files and hashes as before.
-constexpr std::uint32_t kFormatVersion = 7, kPlainVersion = 5;
+/// Of a state on a ramp, of one with all else that a scene may ask for (pass_latest()), and of one
+/// that has none of this: scenes that do not use it have files and hashes as before.
+constexpr std::uint32_t kRampVersion = 8, kLatestVersion = 7, kPlainVersion = 5;
 
 // One description of the format for both ways: each function passes every number of its argument
 // to the archive, a StateWriter or a StateReader.
@@ -203,7 +203,12 @@ bool has_latest(const State& state) {
          !state.description.is_none();
 }
 
-/// What the format of kFormatVersion has behind that of kPlainVersion.
+std::uint32_t version_of(const State& state) {
+  if (!state.ramp_start.empty()) return kRampVersion;
+  return has_latest(state) ? kLatestVersion : kPlainVersion;
+}
+
+/// What the format of kLatestVersion has behind that of kPlainVersion.
 template <class Archive, class S, class R>
 void pass_latest(Archive& archive, S& state, R& reference) {
   for (auto& law : state.laws.law) archive(law.damping_ratio);
@@ -236,7 +241,9 @@ void write(StateWriter& archive, const State& state) {
   pass_reference(archive, state.list.reference());
   pass(archive, state.list.pairs());
   pass_contacts(archive, state.contacts);
-  if (has_latest(state)) pass_latest(archive, state, state.list.reference());
+  const std::uint32_t version = version_of(state);
+  if (version >= kLatestVersion) pass_latest(archive, state, state.list.reference());
+  if (version >= kRampVersion) pass(archive, state.ramp_start);
 }
 
 void pass_contacts(StateReader& archive, ContactColumns& columns, std::size_t pairs) {
@@ -257,7 +264,8 @@ void read(StateReader& archive, Read& found, std::uint32_t version) {
   pass_reference(archive, found.reference);
   pass(archive, found.pairs);
   pass_contacts(archive, found.contacts, found.pairs.size());
-  if (version == kFormatVersion) pass_latest(archive, found.state, found.reference);
+  if (version >= kLatestVersion) pass_latest(archive, found.state, found.reference);
+  if (version >= kRampVersion) pass(archive, found.state.ramp_start);
 }
 
 /// Do all arrays belong together? A file with the right hash that fails is another program's.
@@ -336,7 +344,7 @@ State state_in(StateReader& file, std::uint32_t version) {
 
 /// Of the format, from the head of a file; nothing where it is no state.
 std::optional<std::uint32_t> version_in(StateReader& file) {
-  std::array<char, kMagic.size() + sizeof kFormatVersion> head;
+  std::array<char, kMagic.size() + sizeof kRampVersion> head;
   const std::size_t size = file.head(head.data(), head.size());
   if (size < head.size() || !std::string_view(head.data(), size).starts_with(kMagic))
     return std::nullopt;
@@ -346,7 +354,7 @@ std::optional<std::uint32_t> version_in(StateReader& file) {
 }
 
 bool is_readable(std::uint32_t version) {
-  return version == kPlainVersion || version == kFormatVersion;
+  return version == kPlainVersion || version == kLatestVersion || version == kRampVersion;
 }
 
 std::string_view view_of(const auto& number) {
@@ -368,7 +376,7 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   WholeFile out(file);
   out.write(kMagic);
-  out.write(view_of(has_latest(state) ? kFormatVersion : kPlainVersion));
+  out.write(view_of(version_of(state)));
   StateWriter archive(&out);
   write(archive, state);
   const std::uint64_t hash = archive.finish();
@@ -398,7 +406,8 @@ State load_state(const std::filesystem::path& file) {
     if (!version) fail("no state of tangency-dem: final.state or checkpoint.state of a run");
     if (!is_readable(*version))
       fail("state of version " + std::to_string(*version) + ": this program reads version " +
-           std::to_string(kPlainVersion) + " or " + std::to_string(kFormatVersion));
+           std::to_string(kPlainVersion) + ", " + std::to_string(kLatestVersion) + " or " +
+           std::to_string(kRampVersion));
     return state_in(in, *version);
   } catch (const ReadError& error) {
     throw StateError(error.what());

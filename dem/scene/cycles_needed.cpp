@@ -34,6 +34,11 @@ CyclesNeeded cycles_needed(const Stage& stage, double time_step, int dimensions,
     const double a_cycle = -std::log1p(drive.loading.strain_rate(axial, axial) * time_step);
     needs((*drive.axial_strain - done.axial_strain) / a_cycle, "axial_strain");
   }
+  if (drive.ramp && drive.ramp->over != Ramp::Over::strain) {
+    const bool is_time = drive.ramp->over == Ramp::Over::time;
+    needs(drive.ramp->length / (is_time ? time_step : 1.0) - static_cast<double>(done.cycles),
+          is_time ? "ramp_time" : "ramp_cycles");
+  }
   if (drive.stress_tolerance) {  // straining as fast as allowed
     const double a_cycle =
         -std::log1p(-drive.loading.servo.max_strain_rate * time_step) * dimensions;

@@ -47,6 +47,7 @@ constexpr double kLargestTimeStepFactor = 0.3;
 constexpr std::string_view kStageKinds = "place compress grow relax unload shear servo";
 constexpr std::string_view kMovingKinds = "compress grow relax unload shear servo";
 constexpr std::string_view kIsotropicKinds = "compress grow relax unload";
+constexpr std::string_view kRampedKinds = "compress relax unload shear servo";
 /// Those that have to hold one; relax may also leave the cell as it is.
 constexpr std::string_view kPressedKinds = "compress grow unload";
 
@@ -54,8 +55,9 @@ constexpr std::array kKeys{
     Key{"", "schema", integer, "-", "", between(1, 1), "", "", "Version of this table"},
     Key{"", "include", paths, "-", "(none)", kNoRange, "", "",
         "Files beside this one whose keys hold where this one, or a later one of them, does not "
-        "say "
-        "otherwise; lists of tables are joined, theirs first"},
+        "say otherwise; lists of tables are joined, theirs first. A file that is included again, "
+        "by "
+        "another way too, counts once, where it is first"},
 
     Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
@@ -197,7 +199,12 @@ constexpr std::array kKeys{
         "shear servo",
         "b to hold in s_yy - s_xx = b (s_zz - s_xx), in space: true triaxial; in a shear beside "
         "mean_stress"},
-    Key{"stage", "axial_strain_rate", real, "1/s", "", kPositive, "", "shear",
+    Key{"stage", "inertial_number", real, "-", "(by the rates)", above_to(0.0, 1.0), "",
+        "shear servo",
+        "I: the largest given rate is I sqrt(p / density) / diameter, p the largest stress that "
+        "this stage, or else the last before it, holds; instead of an axial_strain_rate, and the "
+        "rates of a servo then say proportions alone"},
+    Key{"stage", "axial_strain_rate", real, "1/s", "(by inertial_number)", kPositive, "", "shear",
         "Compression along z (in the plane y); the lateral axes extend at constant volume, with an "
         "intermediate_ratio in the proportions of its deviator, but for what is held"},
     Key{"stage", "axial_strain", real, "-", "", above_to(0.0, 3.0), "", "shear",
@@ -276,6 +283,16 @@ constexpr std::array kKeys{
         "compress relax shear servo", "Used for all contacts during this stage"},
     Key{"stage", "friction_coefficient", real, "-", "0.0", kNotNegative, "", "grow unload",
         "Used for all contacts during this stage"},
+    Key{"stage", "ramp_cycles", integer, "cycles", "(at once)", between(1, kMostCycles), "",
+        kRampedKinds,
+        "Held stresses, and friction_coefficient where the stage says one, go to their values "
+        "linearly over so many cycles, from what they are where it begins; friction from that of "
+        "the stage before. The stage does not end on the way"},
+    Key{"stage", "ramp_time", real, "s", "(at once)", kPositive, "", kRampedKinds,
+        "The same over a time"},
+    Key{"stage", "ramp_strain", real, "-", "(at once)", above_to(0.0, 30.0), "", "shear servo",
+        "The same over a strain: of a shear the axial one, of a servo the time in it times the "
+        "largest of its given rates, which in a simple shear is the shear strain"},
     Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", kIsotropicKinds,
         "The stage ends with the mean stress this close to the wanted, relatively"},
     Key{"stage", "max_unbalanced_ratio", real, "-", "0.005", above_to(0.0, 0.1), "", "relax unload",
@@ -289,6 +306,12 @@ constexpr std::array kKeys{
     Key{"output", "frame_interval", integer, "cycles", "1000", between(0, kMostCycles), "", "",
         "Between two frames; the start and a stage's end have one too. With 0 there are none at "
         "all"},
+    Key{"output", "history_strain", real, "-", "(by cycles)", above_to(0.0, 3.0), "", "",
+        "Strain between two rows of history.csv instead, in stages with a given rate: of a shear "
+        "the axial strain, of a servo the time in it times the largest of its given rates, which "
+        "in a simple shear is the shear strain"},
+    Key{"output", "frame_strain", real, "-", "(by cycles)", above_to(0.0, 3.0), "", "",
+        "The same between two frames"},
     Key{"output", "contact_frames", boolean, "-", "false", kNoRange, "", "",
         "With each frame its contacts: contacts.pvd (points) and chains.pvd (lines between "
         "centres) for ParaView, frames/CYCLE.bonds for OVITO"},

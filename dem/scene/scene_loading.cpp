@@ -15,6 +15,9 @@ namespace {
 /// Chosen: a cell that shrinks by more in a step has left every contact of the step before.
 constexpr double kMostStrainOfAStep = 0.1;
 
+/// Relative error that products of decimal fractions bring in, generously.
+constexpr double kRounding = 1e-9;
+
 constexpr const char* kStressKeys[] = {"stress_xx", "stress_yy", "stress_zz"};
 
 /// b of s_yy - s_xx = b (s_zz - s_xx), where it is to be held.
@@ -28,7 +31,11 @@ std::optional<double> read_intermediate_ratio(const Section& section, const Scen
 /// Axial compression, sideways as much extension as keeps the volume, and what is held.
 void read_shear(const Section& section, const Scene& scene, Drive& drive) {
   const int lateral = scene.dimensions - 1;  // axes before the axial one
-  const double rate = section.real("axial_strain_rate");
+  if (section.has("inertial_number"))
+    section.forbid("axial_strain_rate", "not together with inertial_number");
+  else if (!section.has("axial_strain_rate"))
+    section.fail_missing("axial_strain_rate");
+  const double rate = section.optional_real("axial_strain_rate").value_or(1.0);
   const auto ratio = read_intermediate_ratio(section, scene);
   if (ratio && !section.has("mean_stress"))
     section.fail("intermediate_ratio", "with mean_stress alone");
@@ -98,6 +105,21 @@ void read_servo(const Section& section, const Scene& scene, Drive& drive) {
     section.fail("intermediate_ratio", "not together with stresses that it follows from");
 }
 
+/// Scales the given rates to an inertial number, where the scene gives one.
+void read_inertial_number(const Section& section, const Scene& scene, Drive& drive) {
+  drive.inertial_number = section.optional_real("inertial_number");
+  if (!drive.inertial_number) return;
+  const double most = drive.loading.strain_rate.cwiseAbs().maxCoeff();
+  if (most == 0.0) section.fail("inertial_number", "with a rate that is not 0");
+  double stress = scene.held_stress(Stage{"", {}, drive, {}});
+  for (auto before = scene.stages.rbegin(); before != scene.stages.rend() && stress == 0.0;
+       ++before)
+    if (before->drive) stress = scene.held_stress(*before);
+  if (stress == 0.0)
+    section.fail("inertial_number", "with a stress that this stage or one before it holds");
+  drive.loading.strain_rate *= *drive.inertial_number / (most * scene.inertial_time(stress));
+}
+
 /// One stress to come to: its mean, or each normal component. Of a relax without it: none.
 void read_pressed(const Section& section, const std::string& kind, const Scene& scene,
                   Drive& drive) {
@@ -126,6 +148,34 @@ double shear_servo_rate(const Scene& scene, const Loading& loading) {
   return std::max(shear, scene.servo_strain_rate(loading.targets.front().wanted));
 }
 
+/// The ramp of one of three keys, where there is something to change on it. With a duration, or an
+/// axial strain that it goes by, the ramp ends within.
+void read_ramp(const Section& section, const Scene& scene, Drive& drive) {
+  const double dt = drive.time_step_factor * scene.characteristic_time();
+  const double rate = drive.loading.strain_rate.cwiseAbs().maxCoeff();
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  const double cycles = drive.duration ? static_cast<double>(*drive.duration) : kNoEnd;
+  const struct {
+    const char* key;
+    Ramp::Over over;
+    double most;
+  } ways[] = {{"ramp_cycles", Ramp::Over::cycles, cycles},
+              {"ramp_time", Ramp::Over::time, cycles * dt},
+              {"ramp_strain", Ramp::Over::strain, drive.axial_strain.value_or(cycles * dt * rate)}};
+  for (const auto& [key, over, most] : ways) {
+    if (!section.has(key)) continue;
+    if (drive.ramp) section.fail(key, "one of ramp_cycles, ramp_time and ramp_strain");
+    if (drive.loading.targets.empty() && !section.has("friction_coefficient"))
+      section.fail(key, "with a stress to hold or a friction_coefficient alone");
+    if (over == Ramp::Over::strain && rate == 0.0) section.fail(key, "with a rate of strain alone");
+    const double length =
+        over == Ramp::Over::cycles ? static_cast<double>(section.integer(key)) : section.real(key);
+    if (length > most * (1.0 + kRounding))
+      section.fail(key, "at most " + short_text(most) + ", where the stage ends");
+    drive.ramp = {over, length};
+  }
+}
+
 /// @throws SceneError  where a step damps so much that it turns velocities round
 void check_damping(const Section& section, const Drive& stage) {
   const auto check = [&](const char* key, const std::optional<double>& damping) {
@@ -145,15 +195,20 @@ void check_step(const Section& section, const Drive& stage, const Scene& scene) 
   const auto refuse = [&](const char* key) {
     // With an intermediate_ratio a lateral axis may strain faster than the axial one.
     const bool axial = std::string_view(key) == "axial_strain_rate";
-    const double most = axial ? largest * section.real(key) / fastest : largest;
-    section.fail(key, "a finite number < " + short_text(most) + " (1/s), a strain of " +
+    const bool scaled = std::string_view(key) == "inertial_number";
+    const double most = axial || scaled ? largest * section.real(key) / fastest : largest;
+    section.fail(key, "a finite number < " + short_text(most) +
+                          (scaled ? ", a strain of " : " (1/s), a strain of ") +
                           short_text(kMostStrainOfAStep) + " a time step");
   };
   const Servo& servo = stage.loading.servo;
   if (!(servo.max_strain_rate < largest))
-    refuse(section.has("max_strain_rate") ? "max_strain_rate" : "axial_strain_rate");
+    refuse(section.has("max_strain_rate")   ? "max_strain_rate"
+           : section.has("inertial_number") ? "inertial_number"
+                                            : "axial_strain_rate");
   if (!(fastest < largest))
-    for (const char* key : {"axial_strain_rate", "strain_rate", "shear_rate", "simple_shear_rate"})
+    for (const char* key :
+         {"inertial_number", "axial_strain_rate", "strain_rate", "shear_rate", "simple_shear_rate"})
       if (section.has(key)) refuse(key);
 }
 
@@ -168,6 +223,7 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
     read_shear(section, scene, drive);
   else
     read_pressed(section, kind, scene, drive);
+  if (kind == "servo" || kind == "shear") read_inertial_number(section, scene, drive);
   if (section.has("max_strain_rate"))
     loading.servo.max_strain_rate = section.real("max_strain_rate");
   else if (kind == "shear")
@@ -189,6 +245,7 @@ Drive read_drive(const Section& section, const std::string& kind, const Scene& s
   drive.friction_coefficient = kind == "grow" || kind == "unload"
                                    ? std::optional(section.real("friction_coefficient"))
                                    : section.optional_real("friction_coefficient");
+  if (kind != "grow") read_ramp(section, scene, drive);
   if (comes_to_rest) drive.max_unbalanced_ratio = section.real("max_unbalanced_ratio");
   drive.max_cycles = section.integer("max_cycles");
   check_damping(section, drive);

@@ -49,6 +49,21 @@ double Scene::servo_strain_rate(double stress) const {
   return inertial_number * least;
 }
 
+double Scene::inertial_time(double stress) const {
+  double most = 0.0;
+  for (const auto& [name, batch] : particle_types)
+    most = std::max(most, 2.0 * batch.shape.mean_radius * std::sqrt(batch.density));
+  return most / std::sqrt(stress);
+}
+
+double Scene::held_stress(const Stage& stage) const {
+  double most = stage.growth && stage.growth->ramp ? stage.growth->ramp->start : 0.0;
+  for (const Target& target : stage.drive->loading.targets) most = std::max(most, target.wanted);
+  for (const PlaneWall& plane : planes)
+    if (plane.held) most = std::max(most, plane.held->stress);
+  return most;
+}
+
 Placement Scene::placement() const {
   const Place& place = stages.front().place.value();
   return {cell_size,

@@ -41,6 +41,14 @@ struct Place {
   double volume_fraction = 0.0;  ///< of an insertion without a cell size
 };
 
+/// The way on which held stresses, and a friction of the stage, go from what they are at its start
+/// to what it says: linearly in what is named, and no more from there on.
+struct Ramp {
+  /// strain: that of Simulation::strain().
+  enum class Over { cycles, time, strain } over;
+  double length;  ///< > 0
+};
+
 /// How a stage moves, and when it ends: as soon as all that is set holds.
 struct Drive {
   Loading loading;                ///< how the cell is strained
@@ -50,6 +58,9 @@ struct Drive {
   double time_step_factor;  ///< in characteristic_time()
   /// of all contacts from this stage on; without: as before
   std::optional<double> friction_coefficient;
+  /// Of the largest given rate, where the scene gives it so; the loading has the rate.
+  std::optional<double> inertial_number;
+  std::optional<Ramp> ramp;                    ///< a stage does not end on it; without: at once
   std::optional<double> stress_tolerance;      ///< of the loading's targets, relative
   std::optional<double> max_unbalanced_ratio;  ///< of every particle
   std::optional<double> axial_strain;          ///< compression reached, logarithmic
@@ -87,6 +98,8 @@ struct OutputIntervals {
   bool polar = false;           ///< micro.csv's partition of directions; else near-uniform
   int classes = 0;              ///< its number N
   bool contact_frames = false;  ///< contacts in each frame too
+  /// Strain between two rows, or frames, of a stage with a given rate; 0: by cycles there too.
+  double history_strain = 0.0, frame_strain = 0.0;
 };
 
 /// Shapes of the bodies of each particle type, in the order of the scene; none of a type whose
@@ -121,6 +134,11 @@ struct Scene {
   /// The strain rate that a servo may use by default to hold a stress, linear: that of an inertial
   /// number of 0.05 of the slowest type, fifty times what a quasi-static test has.
   double servo_strain_rate(double stress) const;
+  /// Diameter times sqrt(density / stress), of the type where it is largest: a rate times it is
+  /// the inertial number.
+  double inertial_time(double stress) const;
+  /// The largest stress that a stage holds, at its walls too; 0 where it holds none.
+  double held_stress(const Stage& stage) const;
   /// What the first stage places.
   Placement placement() const;
   /// The shape of a type in stage number `stage` after so many increments of it; in a stage that

@@ -60,6 +60,9 @@ class Reader {
     scene_.output = {output.integer("history_interval"),    output.integer("frame_interval"),
                      output.integer("checkpoint_interval"), output.real("checkpoint_seconds"),
                      output.integer("contact_interval"),    output.integer("micro_interval")};
+    scene_.output.history_strain = output.optional_real("history_strain").value_or(0.0);
+    scene_.output.frame_strain = output.optional_real("frame_strain").value_or(0.0);
+    if (scene_.output.frame == 0) output.forbid("frame_strain", "with a frame_interval > 0 alone");
     scene_.output.contact_frames = output.boolean("contact_frames");
     scene_.output.polar = output.text("partition") == "polar";
     const std::int64_t usual = scene_.output.polar ? kRingsOfPolar : kClassesOfNearUniform;

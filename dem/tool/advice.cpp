@@ -84,6 +84,8 @@ std::string earlier_end(const Simulation& simulation) {
 }  // namespace
 
 std::vector<Change> slower_strains(const Drive& stage, double share, int dimensions) {
+  if (const auto& number = stage.inertial_number)
+    return {{"inertial_number", tables::to_text(*number), rounded_down(share * *number)}};
   std::vector<Change> changes;
   const Mat3 rate = -stage.loading.strain_rate;
   const int axial = dimensions - 1;

@@ -67,14 +67,6 @@ double overlap_under(const Scene& scene, std::size_t type, const Pressed& presse
   return high;
 }
 
-/// Diameter times the root of density, of the type where it is largest.
-double slowness(const Scene& scene) {
-  double most = 0.0;
-  for (const auto& [name, batch] : scene.particle_types)
-    most = std::max(most, 2.0 * batch.shape.mean_radius * std::sqrt(batch.density));
-  return most;
-}
-
 /// What all weight makes on the walls that bear it.
 double weight_stress(const Simulation& simulation) {
   const State& state = simulation.state();
@@ -85,15 +77,6 @@ double weight_stress(const Simulation& simulation) {
   for (int k = 0; k < scene.dimensions; ++k)
     if (scene.walled[static_cast<std::size_t>(k)])
       most = std::max(most, mass * std::abs(scene.gravity[k]) * edges[k] / edges.prod());
-  return most;
-}
-
-/// The largest stress that a stage holds; 0 where it holds none.
-double held_stress(const Scene& scene, const Stage& stage) {
-  double most = stage.growth && stage.growth->ramp ? stage.growth->ramp->start : 0.0;
-  for (const Target& target : stage.drive->loading.targets) most = std::max(most, target.wanted);
-  for (const PlaneWall& plane : scene.planes)
-    if (plane.held) most = std::max(most, plane.held->stress);
   return most;
 }
 
@@ -122,7 +105,7 @@ class Forecaster {
     seen.least = is_current ? simulation_.cycles_needed()
                             : cycles_needed(stage, seen.time_step, scene_.dimensions,
                                             {.to_packing = to_packing_});
-    if (const double held = held_stress(scene_, stage); held > 0.0) stress_ = held;
+    if (const double held = scene_.held_stress(stage); held > 0.0) stress_ = held;
     if (drive.stress_tolerance) {
       to_packing_ = 0.0;
       pack();
@@ -156,7 +139,7 @@ class Forecaster {
       return drive.friction_coefficient.value_or(law.friction_coefficient) > 0.0;
     });
     seen.pressed = {stress_, slides};
-    const double time = slowness(scene_) / std::sqrt(stress_);
+    const double time = scene_.inertial_time(stress_);
     const double rate = drive.loading.strain_rate.cwiseAbs().maxCoeff();
     if (rate > 0.0) seen.inertial_number = rate * time;
     if (!drive.loading.targets.empty())

@@ -47,6 +47,10 @@ void require_supported(const Scene& scene, const State& state, const std::string
     const Stage& stage = scene.stages[k];
     if (scene.has_walls() && stage.drive && strains(stage.drive->loading))
       refuse(name, "cell.walls: with stages that strain the cell they do not go to LAMMPS");
+    if (stage.drive && stage.drive->ramp)
+      refuse(name, "stage " + stage.name +
+                       ": ramps do not go to LAMMPS: run it first, and export "
+                       "its end");
     if (stage.growth)
       refuse(name, "stage " + stage.name +
                        ": particles that grow do not go to LAMMPS: run it first, and export its "

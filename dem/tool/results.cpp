@@ -33,9 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An interval, in cycles, that no run comes to.
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-
 /// Makes the directory and sees that files can be made in it. Leaves nothing when not.
 fs::path usable(const fs::path& directory) {
   std::error_code error;
@@ -161,8 +158,8 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
       kept_(directory_, carries_on_ ? simulation.state().cycle : -1, simulation) {
   if (carries_on_) {
     const OutputIntervals& output = simulation.scene().output;
-    history_.carry_on(simulation, output.history);
-    micro_.carry_on(simulation, output.micro > 0 ? output.micro : kNever);
+    history_.carry_on(simulation, is_due(simulation, output.history, output.history_strain));
+    micro_.carry_on(simulation, is_due(simulation, output.micro));
   }
   for (const char* name : {"summary.json", "final.state"}) fs::remove(directory_ / name);
   if (carries_on_) return;
@@ -213,8 +210,8 @@ void Results::make_up(const Simulation& simulation) {
   const State& state = simulation.state();
   if (!carries_on_ || state.stage_cycle == 0) return;  // a stage's end has what is due there
   const OutputIntervals& every = simulation.scene().output;
-  if (every.frame > 0 && state.cycle % every.frame == 0) frames_.add(simulation);
-  if (every.contacts > 0 && state.cycle % every.contacts == 0) contacts_.add(simulation);
+  if (is_due(simulation, every.frame, every.frame_strain)) frames_.add(simulation);
+  if (is_due(simulation, every.contacts)) contacts_.add(simulation);
 }
 
 void Results::checkpoint(const Simulation& simulation) const {

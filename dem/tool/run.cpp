@@ -161,10 +161,10 @@ class Run {
 
     const OutputIntervals& every = simulation_.scene().output;
     const std::int64_t now = simulation_.state().cycle;
-    if (now % every.history == 0) add_row();
-    if (every.micro > 0 && now % every.micro == 0) results_.add_micro(simulation_);
-    if (every.frame > 0 && now % every.frame == 0) results_.add_frame(simulation_);
-    if (every.contacts > 0 && now % every.contacts == 0) results_.add_contacts(simulation_);
+    if (is_due(simulation_, every.history, every.history_strain)) add_row();
+    if (is_due(simulation_, every.micro)) results_.add_micro(simulation_);
+    if (is_due(simulation_, every.frame, every.frame_strain)) results_.add_frame(simulation_);
+    if (is_due(simulation_, every.contacts)) results_.add_contacts(simulation_);
     results_.kept().after_cycle(simulation_);
     const bool by_cycles = every.checkpoint > 0 && now % every.checkpoint == 0;
     const bool by_time = every.checkpoint_seconds > 0.0 &&

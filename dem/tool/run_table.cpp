@@ -29,6 +29,13 @@ Moment moment_of(const Simulation& simulation) {
   return {state.cycle, state.stage_cycle == 0 ? state.stage - 1 : state.stage};
 }
 
+bool is_due(const Simulation& simulation, std::int64_t interval, double strain) {
+  const State& state = simulation.state();
+  const auto& drive = simulation.stage().drive;
+  const bool by_strain = strain > 0.0 && drive && !drive->loading.strain_rate.isZero(0.0);
+  return by_strain ? simulation.has_passed(strain) : interval > 0 && state.cycle % interval == 0;
+}
+
 std::int64_t cycle_of(const std::string& row) { return std::atoll(row.c_str()); }
 
 std::string stage_of(const std::string& row) {
@@ -55,7 +62,7 @@ std::vector<std::string> RunTable::rows_in_file() const {
 
 /// Of the state's own cycle there may be more rows than the run had written: of the end of its
 /// stage and of stages after it that ended at once.
-void RunTable::carry_on(const Simulation& simulation, std::int64_t interval) {
+void RunTable::carry_on(const Simulation& simulation, bool due) {
   const State& state = simulation.state();
   const auto& stages = simulation.scene().stages;
   const auto is_called = [&](std::size_t first, std::size_t end, const std::string& name) {
@@ -64,7 +71,7 @@ void RunTable::carry_on(const Simulation& simulation, std::int64_t interval) {
                        [&](const Stage& stage) { return stage.name == name; });
   };
   const auto had = [&](const std::string& row) {
-    if (state.stage_cycle > 0) return !last_ && state.cycle % interval == 0;
+    if (state.stage_cycle > 0) return !last_ && due;
     return is_called(0, state.stage, stage_of(row)) ||
            !is_called(state.stage, stages.size(), stage_of(row));
   };

@@ -32,6 +32,11 @@ struct Moment {
 /// Of the simulation as it is: at the start of a stage that of the end of the one before.
 Moment moment_of(const Simulation& simulation);
 
+/// Is something due after the last cycle: by the strain where that is > 0 and the stage has a rate,
+/// else by cycles?
+/// @param interval  cycles between two; 0: none is due by them
+bool is_due(const Simulation& simulation, std::int64_t interval, double strain = 0.0);
+
 /// The cycle and the stage's name of a row as it stands in a file.
 std::int64_t cycle_of(const std::string& row);
 std::string stage_of(const std::string& row);
@@ -46,8 +51,8 @@ class RunTable {
   std::vector<std::string> rows_in_file() const;
 
   /// Keeps the rows of the file that the run had written when it was at this state.
-  /// @param interval  cycles between two rows within a stage
-  void carry_on(const Simulation& simulation, std::int64_t interval);
+  /// @param due  whether a row within its stage was due there
+  void carry_on(const Simulation& simulation, bool due);
 
   bool has_rows() const { return !rows_.empty(); }
   /// Whether a row of that moment is there, as its last one.

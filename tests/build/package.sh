@@ -25,6 +25,7 @@ build() {
           -DTANGENCY_BUILD_TESTS=OFF -DTANGENCY_BUILD_BENCH=OFF
   fi
   cmake --build "$here/build"
+  touch "$here/built"
 }
 
 # Every header compiles with nothing before it.
@@ -86,7 +87,8 @@ for kind in "$@"; do
   mkdir -p "$here"
   prefix=$here/consumer/prefix
   consumer "builds, without tests and benchmarks" build
-  [ -e "$here/build/CMakeCache.txt" ] || continue
+  # What did not build has no users: each would fail in words of its own.
+  [ -e "$here/built" ] || continue
   "$source/tests/build/consumer.sh" "$here/build" "$source" "$here/consumer" || failed=1
   consumer "each header alone" each_header
   consumer "Debug" all_programs debug -DCMAKE_BUILD_TYPE=Debug

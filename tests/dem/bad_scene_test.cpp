@@ -269,6 +269,31 @@ TEST(Combinations, ThatExcludeOneAnotherAreRefused) {
        scene_with("shear") + "[[stage]]\nkind = \"servo\"\nname = \"shear\"\nduration = 1\n",
        "scene.toml:19: stage[2].name = 'shear': a name of its own: a shear stage and another have "
        "the same"},
+      {"two ramps", servo("friction_coefficient = 0.1\nramp_cycles = 5\nramp_time = 1e-3\n"),
+       "scene.toml:18: stage[1].ramp_time = 0.001: one of ramp_cycles, ramp_time and ramp_strain"},
+      {"a ramp of nothing", servo("ramp_cycles = 5\n"),
+       "scene.toml:16: stage[1].ramp_cycles = 5: with a stress to hold or a friction_coefficient "
+       "alone"},
+      {"a ramp over no strain", servo("friction_coefficient = 0.1\nramp_strain = 0.1\n"),
+       "scene.toml:17: stage[1].ramp_strain = 0.1: with a rate of strain alone"},
+      {"a ramp beyond its stage", servo("friction_coefficient = 0.1\nramp_cycles = 11\n"),
+       "scene.toml:17: stage[1].ramp_cycles = 11: at most 10, where the stage ends"},
+      {"a ramp beyond its strain",
+       scene_with("shear") + "friction_coefficient = 0.1\nramp_strain = 0.11\n",
+       "scene.toml:18: stage[1].ramp_strain = 0.11: at most 0.1, where the stage ends"},
+      {"a rate twice", scene_with("shear") + "mean_stress = 1e6\ninertial_number = 1e-3\n",
+       "scene.toml:15: stage[1].axial_strain_rate = 0.01: not together with inertial_number"},
+      {"an inertial number of no stress",
+       with(scene_with("shear"), "axial_strain_rate = 0.01", "inertial_number = 1e-3"),
+       "scene.toml:15: stage[1].inertial_number = 0.001: with a stress that this stage or one "
+       "before "
+       "it holds"},
+      {"an inertial number of no rate", servo("mean_stress = 1e6\ninertial_number = 1e-3\n" + rate),
+       "scene.toml:17: stage[1].inertial_number = 0.001: with a rate that is not 0"},
+      {"frames by strain where there are none",
+       with(scene_with("shear"), "[output]\n",
+            "[output]\nframe_interval = 0\nframe_strain = 0.01\n"),
+       "scene.toml:12: output.frame_strain = 0.01: with a frame_interval > 0 alone"},
       {"strains beyond the stage's", scene_with("shear") + "save_strains = [0.05, 0.11]\n",
        "scene.toml:17: stage[1].save_strains = [ 0.05, 0.11 ]: finite numbers > 0 and at most "
        "axial_strain, ascending"},

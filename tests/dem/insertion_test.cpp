@@ -173,6 +173,23 @@ TEST(Insertion, SaysHowFarItCameWhereThereIsNoMoreRoom) {
   EXPECT_THROW(insertion_edges({batch_of({1.0, 1.0, 1.0}, 130)}, small), DoesNotFit);
 }
 
+// 0.45 of a layer that is a fifth of the cell.
+TEST(Insertion, SaysHowFullALayerIsWhereItHasNoMoreRoom) {
+  Placement how{{}, 0.0, 1, Arrangement::insertion};
+  how.cell_size = Vec3(20.0, 20.0, 20.0);
+  Batch batch = batch_of({1.0, 1.0, 1.0}, 180);
+  batch.layer = {0.4, 0.5};
+  Cell cell;
+  try {
+    insert({batch}, how, cell);
+    FAIL() << "spheres do not go so far";
+  } catch (const DoesNotFit& error) {
+    EXPECT_NE(std::string(error.what()).find("of 180, the volume fraction of its layer being 0.3"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Insertion, RefusesLayersThatCannotHoldTheirBodiesBeforeItDraws) {
   const auto refusal = [](const std::array<double, 2>& layer, std::size_t count, bool walled) {
     Placement how{{}, 0.0, 1, Arrangement::insertion};

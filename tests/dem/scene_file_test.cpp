@@ -152,17 +152,41 @@ TEST(Include, RefusesACircleAndAMissingFile) {
                 folder.path("none.toml") + ": cannot be read: No such file or directory");
 }
 
-// Each of thirty files names the next twice.
-TEST(Include, OfMoreFilesThanAnyoneKeepsIsRefused) {
+TEST(Include, OfAFileOverTwoWaysTakesItOnceWhereItIsFirst) {
+  const TemporaryFolder folder;
+  folder.write("base.toml", small_scene());
+  folder.write("rough.toml", "include = \"base.toml\"\n[contact]\nfriction_coefficient = 0.75\n");
+  folder.write("soft.toml", "include = \"./base.toml\"\n[contact]\nnormal_stiffness = 1e9\n");
+  const std::string file = folder.write(
+      "scene.toml", "schema = 1\ninclude = [\"rough.toml\", \"soft.toml\", \"rough.toml\"]\n");
+  const Scene scene = SceneFile(file).scene();
+  EXPECT_EQ(scene.stages.size(), 3u);
+  EXPECT_EQ(scene.laws.law[0].friction_coefficient, 0.75) << "base.toml comes before rough.toml";
+  EXPECT_EQ(scene.laws.law[0].normal_stiffness, 1e9);
+}
+
+// Each of thirty files names the next twice: by their ways there are 2^30.
+TEST(Include, CountsFilesAndNotTheWaysToThem) {
   const TemporaryFolder folder;
   for (int k = 0; k < 30; ++k) {
     const std::string next = "\"f" + std::to_string(k + 1) + ".toml\"";
     folder.write("f" + std::to_string(k) + ".toml", "include = [" + next + ", " + next + "]\n");
   }
-  folder.write("f30.toml", "schema = 1\n");
-  EXPECT_NE(
-      refused([&] { SceneFile file(folder.path("f0.toml")); }).find(": at most 1000 files in all"),
-      std::string::npos);
+  folder.write("f30.toml", small_scene());
+  EXPECT_EQ(SceneFile(folder.path("f0.toml")).scene().stages.size(), 3u);
+}
+
+TEST(Include, OfMoreFilesThanAnyoneKeepsIsRefused) {
+  const TemporaryFolder folder;
+  std::string list;
+  for (int k = 0; k <= 1000; ++k) {
+    const std::string name = "f" + std::to_string(k) + ".toml";
+    folder.write(name, "schema = 1\n");
+    list += "\"" + name + "\", ";
+  }
+  const std::string file = folder.write("scene.toml", "include = [" + list + "]\n");
+  EXPECT_NE(refused([&] { SceneFile all(file); }).find(": at most 1000 files in all"),
+            std::string::npos);
 }
 
 std::string sweeping(const std::string& table) { return small_scene() + "[sweep]\n" + table; }

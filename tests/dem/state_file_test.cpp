@@ -156,7 +156,7 @@ TEST(StateFile, OfAnotherVersionDamagedOrOfAnotherKindIsRefused) {
   std::string changed = bytes;
   changed[8] = 3;
   EXPECT_EQ(failure(folder.write("v.state", changed)),
-            folder.path("v.state") + ": state of version 3: this program reads version 5 or 7");
+            folder.path("v.state") + ": state of version 3: this program reads version 5, 7 or 8");
   changed = bytes;
   changed[bytes.size() / 2] ^= 1;
   EXPECT_EQ(failure(folder.write("d.state", changed)),

@@ -111,7 +111,7 @@ def _take(row: NDArray[np.float64], given: Any, argument: str) -> None:
             return
         except OverflowError:  # an int, which plain() refuses
             pass
-    table = table_of_row(given)
+    table = given if type(given) is np.ndarray else table_of_row(given)
     if table is not given:
         row[:] = rows_of(table, NAMES[Form.axes], argument)[0]
         return
