@@ -19,9 +19,4 @@ Scene load_scene(const std::filesystem::path& file);
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);
 
-/// Gives a scene whose place names a file its bodies.
-/// @throws SceneError  where they are not as many of each type as the scene says; starts with
-/// `name`
-void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name);
-
 }  // namespace tangency::inline v0::dem

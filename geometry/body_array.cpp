@@ -23,7 +23,7 @@ BodyArray::BodyArray(std::span<const Ellipsoid> bodies)
   in_default_environment([&] {
     for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill(lanes_[i], bodies[i]);
     detail::fill_shape_rows(lanes_.data(), bodies.size(), rows_.data());
-    detail::fill(floats_.data(), lanes_.data(), rows_.data(), bodies.size());
+    detail::fill_float_rows(lanes_.data(), rows_.data(), bodies.size(), floats_.data());
   });
 }
 BodyArray::~BodyArray() = default;
@@ -49,7 +49,7 @@ void BodyArray::refresh(std::size_t i) noexcept {
   in_default_environment([&] {
     detail::fill(lanes_[i], bodies_[i]);
     detail::fill_shape_rows(&lanes_[i], 1, &rows_[i]);
-    detail::fill(&floats_[i], &lanes_[i], &rows_[i], 1);
+    detail::fill_float_rows(&lanes_[i], &rows_[i], 1, &floats_[i]);
   });
 }
 

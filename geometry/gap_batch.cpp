@@ -191,6 +191,7 @@ void run(PairTask task, Accuracy accuracy, int threads, const Write& write) noex
   task.tolerance = accuracy.length;
   task.polish = accuracy.normals;
   task.cutoff = accuracy.cutoff;
+  task.require_floats();
   detail::in_ranges(task.count, threads, kBlock, [&](std::size_t first, std::size_t last) {
     in_default_environment([&] {
       task.indexed() ? Run(task, write, nullptr)(first, last) : run_plain(task, write, first, last);

@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/geometry/batch/body_rows.hpp>
 #include <tangency/geometry/batch/moving_lanes.hpp>
-#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
 
@@ -18,9 +16,6 @@ namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quaternion) == 4 * sizeof(double),
               "the lanes read the columns as numbers");
-
-// Bodies whose rows of one kind are still near when those of the other are made. Chosen.
-constexpr std::size_t kNear = 64;
 
 /// Is there a body in every place of the range?
 void require_range(const char* call, std::size_t first, std::size_t count, std::size_t size) {
@@ -100,11 +95,16 @@ MovingBodies& MovingBodies::operator=(MovingBodies&& other) noexcept {
 
 void MovingBodies::look_at(std::span<const Vec3> semi_axes,
                            std::span<const Quaternion> orientations) {
+  look_at(semi_axes, orientations, Questions::any);
+}
+
+void MovingBodies::look_at(std::span<const Vec3> semi_axes,
+                           std::span<const Quaternion> orientations, Questions questions) {
   if (orientations.size() != semi_axes.size())
     contract::wrong_column("MovingBodies", "orientations", orientations.size(), semi_axes.size());
   lanes_.resize(semi_axes.size());
   rows_.resize(semi_axes.size());
-  floats_.resize(semi_axes.size());
+  floats_.resize(questions == Questions::any ? semi_axes.size() : 0);
   semi_axes_ = semi_axes;
   orientations_ = orientations;
   owns_ = false;
@@ -120,15 +120,10 @@ void MovingBodies::refresh(std::size_t first, std::size_t last) noexcept {
 void MovingBodies::fill(std::size_t first, std::size_t count) noexcept {
   if (count == 0) return;
   in_default_environment([&] {
-    for (std::size_t i = first; i < first + count; i += kNear) {
-      const std::size_t some = std::min(kNear, first + count - i);
-      detail::LaneBody* const to = lanes_.data() + i;
-      detail::fill_moving_lanes(semi_axes_[i].data(), orientations_[i].coeffs().data(), some, to);
-      for (std::size_t k = 0; k < some && !centres_.empty(); ++k)
-        std::copy_n(centres_[i + k].data(), 3, to[k].centre);
-      detail::fill_shape_rows(to, some, rows_.data() + i);
-      detail::fill(floats_.data() + i, to, rows_.data() + i, some);
-    }
+    detail::fill_moving_lanes(
+        semi_axes_[first].data(), orientations_[first].coeffs().data(),
+        centres_.empty() ? nullptr : centres_[first].data(), count,
+        {&lanes_[first], &rows_[first], floats_.empty() ? nullptr : &floats_[first]});
   });
 }
 
@@ -142,6 +137,7 @@ void MovingBodies::own() {
   own_axes_.assign(semi_axes_.begin(), semi_axes_.end());
   own_turns_.assign(orientations_.begin(), orientations_.end());
   owns_ = true;
+  floats_.resize(size());
   look_at_own();
   fill(0, size());
 }

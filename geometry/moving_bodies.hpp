@@ -46,13 +46,22 @@ struct PoseColumns {
   VectorColumn centres = {};      ///< as many; or none: all at the origin
 };
 
+/// What is asked of bodies that are looked at.
+enum class Questions {
+  any,
+  /// None in single precision: no Accuracy::fast(), or any other `of_size` that is not below its,
+  /// and no cutoff; a call that asks for one ends the process. A refresh is a fifth quicker.
+  in_double,
+};
+
 /// The bodies Ellipsoid(centre, semi_axes[i], orientations[i]).
 ///
 /// What the batch reads of them is what they were at the last refresh(), or when they were last
-/// set: 288 bytes a body. Bodies that do not overlap as ranges may be refreshed and set by
-/// different threads, but for the calls that change their number, the first call that owns numbers
-/// and the first that gives bodies centres. One that was moved from is empty; so is the copy of one
-/// that looks at columns, whose owner has columns of his own to look_at().
+/// set: 288 bytes a body, 224 where questions are in double alone. Bodies that do not overlap as
+/// ranges may be refreshed and set by different threads, but for the calls that change their
+/// number, the first call that owns numbers and the first that gives bodies centres. One that was
+/// moved from is empty; so is the copy of one that looks at columns, whose owner has columns of his
+/// own to look_at().
 ///
 /// Here and below a column of another length, and an index that is none, end the process with one
 /// line on standard error. Numbers that make no ellipsoid do so where a pair names them.
@@ -79,6 +88,10 @@ class MovingBodies {
   /// Other columns from now on, to be refreshed before anything is asked. Allocates only where
   /// there are more bodies than there ever were.
   void look_at(std::span<const Vec3> semi_axes, std::span<const Quaternion> orientations);
+  /// The same for some questions alone. Of bodies that own their numbers anything may be asked,
+  /// whatever was said here before.
+  void look_at(std::span<const Vec3> semi_axes, std::span<const Quaternion> orientations,
+               Questions questions);
 
   /// To be called after columns that are looked at were changed, from body `first` to before
   /// `last`; of bodies that are owned it changes nothing. What is written does not depend on the
@@ -131,8 +144,10 @@ class MovingBodies {
   const detail::LaneBody* lanes() const noexcept { return lanes_.data(); }
   /// For the library's own use.
   const detail::ShapeRow* rows() const noexcept { return rows_.data(); }
-  /// For the library's own use.
-  const detail::FloatRow* floats() const noexcept { return floats_.data(); }
+  /// For the library's own use: null where questions are in double alone.
+  const detail::FloatRow* floats() const noexcept {
+    return floats_.empty() ? nullptr : floats_.data();
+  }
 
  private:
   void own();
@@ -147,7 +162,7 @@ class MovingBodies {
   std::vector<Quaternion> own_turns_;
   std::vector<detail::LaneBody, LargePages<detail::LaneBody>> lanes_;
   std::vector<detail::ShapeRow, LargePages<detail::ShapeRow>> rows_;
-  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;
+  std::vector<detail::FloatRow, LargePages<detail::FloatRow>> floats_;  ///< as rows_, or none
 };
 
 }  // namespace tangency::inline v0

@@ -60,7 +60,8 @@ void NarrowPhase::aim(const Particles& particles) {
   if (kind_ == Kind::spheres) radii_.resize(particles.size());
   if (kind_ == Kind::ellipses)
     ellipses_.resize(particles.size(), Ellipse(Vec2::Zero(), Vec2::Ones()));
-  if (kind_ == Kind::ellipsoids) bodies_.look_at(particles.semi_axes, particles.orientation);
+  if (kind_ == Kind::ellipsoids)
+    bodies_.look_at(particles.semi_axes, particles.orientation, Questions::in_double);
 }
 
 void NarrowPhase::refresh(const Particles& particles, std::size_t first, std::size_t last) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/lammps/host.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -27,7 +28,7 @@ double largest_of(const double* shape) { return std::max({shape[0], shape[1], sh
 
 }  // namespace
 
-const LAMMPS_NS::AtomVecEllipsoid* AtomBodies::ellipsoids(LAMMPS_NS::LAMMPS* lammps) {
+LAMMPS_NS::AtomVecEllipsoid* AtomBodies::ellipsoids(LAMMPS_NS::LAMMPS* lammps) {
   return dynamic_cast<LAMMPS_NS::AtomVecEllipsoid*>(lammps->atom->style_match("ellipsoid"));
 }
 
@@ -44,7 +45,7 @@ std::vector<double> AtomBodies::reach_by_type(LAMMPS_NS::LAMMPS* lammps) {
   for (int i = 0; i < atoms.nlocal; ++i) {
     if (atoms.ellipsoid[i] < 0) continue;
     double& largest = here[static_cast<std::size_t>(atoms.type[i])];
-    largest = std::max(largest, largest_of(from.bonus[atoms.ellipsoid[i]].shape));
+    largest = std::max(largest, largest_of(body_at(from, atoms.ellipsoid[i]).shape));
   }
   MPI_Allreduce(here.data(), all.data(), static_cast<int>(here.size()), MPI_DOUBLE, MPI_MAX,
                 lammps->world);
@@ -87,21 +88,22 @@ void AtomBodies::place() {
 
 void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from) {
   const int i = atom_[body];
-  if (atom->ellipsoid[i] < 0) refuse(i, "is no ellipsoid: give it three diameters, all > 0");
-  const LAMMPS_NS::AtomVecEllipsoid::Bonus& bonus = from.bonus[atom->ellipsoid[i]];
+  if (atom->ellipsoid[i] < 0) refuse(i, " is no ellipsoid: give it three diameters, all > 0");
+  if (!is_ellipsoid(from, atom->ellipsoid[i])) refuse(i, kNoEllipsoid);
+  const Body& bonus = body_at(from, atom->ellipsoid[i]);
   const double* const q = bonus.quat;
   const double *const v = atom->v[i], *const l = atom->angmom[i];
   if (!are_finite(atom->x[i], 3) || !are_finite(v, 3) || !are_finite(l, 3) || !are_finite(q, 4))
     refuse(i,
-           "has a place, a turn or a motion that is no finite number: is the time step too long?");
+           " has a place, a turn or a motion that is no finite number: is the time step too long?");
   if (!(atom->rmass[i] > 0.0) || !std::isfinite(atom->rmass[i]))
-    refuse(i, "has a mass that is not > 0 and finite");
+    refuse(i, " has a mass that is not > 0 and finite");
   // LAMMPS keeps it at length 1, to rounding: one that is much shorter was never set. Chosen.
   if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 0x1p-40)
-    refuse(i, "has the quaternion 0, which is no orientation");
+    refuse(i, " has the quaternion 0, which is no orientation");
   for (const double axis : bonus.shape)
     if (!(axis > 0.0) || !std::isfinite(axis))
-      refuse(i, "has a diameter that is not > 0 and finite");
+      refuse(i, " has a diameter that is not > 0 and finite");
   const Vec3 axes(bonus.shape[0], bonus.shape[1], bonus.shape[2]);
   const Quaternion turn(q[0], q[1], q[2], q[3]);
   reach_[body] = largest_of(bonus.shape);
@@ -114,7 +116,7 @@ void AtomBodies::take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from)
 }
 
 void AtomBodies::refuse(int i, const char* what) {
-  error->one(FLERR, "Pair style tangency: atom " + std::to_string(atom->tag[i]) + " " + what);
+  error->one(FLERR, "Pair style tangency: atom " + std::to_string(atom->tag[i]) + what);
 }
 
 double AtomBodies::memory_usage() const {

@@ -46,7 +46,7 @@ class AtomBodies : protected LAMMPS_NS::Pointers {
   double memory_usage() const;
 
   /// The ellipsoids of a LAMMPS; null where its atom style has none.
-  static const LAMMPS_NS::AtomVecEllipsoid* ellipsoids(LAMMPS_NS::LAMMPS* lammps);
+  static LAMMPS_NS::AtomVecEllipsoid* ellipsoids(LAMMPS_NS::LAMMPS* lammps);
   /// The angular velocity that an angular momentum is of.
   static Vec3 spin_of(const Vec3& momentum, const Quaternion& turn, double mass, const Vec3& axes);
   /// The largest reach of each type over all ranks, length; entry 0 is of no type.

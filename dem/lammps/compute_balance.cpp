@@ -13,7 +13,9 @@
 #include <cstddef>
 #include <string>
 
+#include <tangency/dem/lammps/atom_bodies.hpp>
 #include <tangency/dem/lammps/contact_source.hpp>
+#include <tangency/dem/lammps/host.hpp>
 #include <tangency/dem/lammps/words.hpp>
 
 namespace tangency::inline v0::lammps {
@@ -33,8 +35,7 @@ ComputeBalance::ComputeBalance(LAMMPS_NS::LAMMPS* lammps, int count, char** argu
     if (key != "least") words.refuse("keyword", key, "least");
     least_ = words.positive(key);
   }
-  if (dynamic_cast<LAMMPS_NS::AtomVecEllipsoid*>(atom->avec) == nullptr)
-    words.refuse("needs atom_style ellipsoid");
+  if (AtomBodies::ellipsoids(lammps) == nullptr) words.refuse("needs atom_style ellipsoid");
   vector_flag = 1;
   size_vector = kNumbers;
   extvector = 0;
@@ -61,8 +62,8 @@ void ComputeBalance::compute_vector() {
     contacts_[static_cast<std::size_t>(contact.a)] += 1.0;
     contacts_[static_cast<std::size_t>(contact.b)] += 1.0;
   });
-  comm->reverse_comm_compute(this);
-  auto& bodies = dynamic_cast<LAMMPS_NS::AtomVecEllipsoid&>(*atom->avec);
+  add_ghosts_to_atoms(*comm, this);
+  const LAMMPS_NS::AtomVecEllipsoid& bodies = *AtomBodies::ellipsoids(lmp);
   std::array<double, 2> largest_here{}, largest{};
   for (int i = 0; i < atom->nlocal; ++i) {
     const double contacts = contacts_[static_cast<std::size_t>(i)];
@@ -70,7 +71,7 @@ void ComputeBalance::compute_vector() {
     here[4] += rattles ? 1.0 : 0.0;
     here[5] += rattles ? 0.0 : contacts;
     if (contacts == 0.0 || atom->ellipsoid[i] < 0) continue;
-    const double* axes = bodies.bonus[atom->ellipsoid[i]].shape;
+    const double* axes = body_at(bodies, atom->ellipsoid[i]).shape;
     const double resultant = length(atom->f[i]);
     here[2] += resultant;
     here[3] += 1.0;

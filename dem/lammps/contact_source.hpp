@@ -24,8 +24,6 @@ struct SeenContact {
 /// Implemented by pair styles beside LAMMPS_NS::Pair.
 class ContactSource {
  public:
-  virtual ~ContactSource() = default;
-
   /// Calls `look` with each contact of the last step of which this rank tells: over all ranks each
   /// one once, with newton on and off.
   virtual void for_each_contact(const std::function<void(const SeenContact&)>& look) const = 0;
@@ -34,6 +32,9 @@ class ContactSource {
   static const ContactSource* of(const LAMMPS_NS::Force& force) {
     return dynamic_cast<const ContactSource*>(force.pair);
   }
+
+ protected:
+  ~ContactSource() = default;  ///< nobody owns one by this base
 };
 
 }  // namespace tangency::inline v0::lammps

@@ -16,6 +16,8 @@
 #include <cstring>
 #include <string>
 
+#include <tangency/dem/lammps/atom_bodies.hpp>
+#include <tangency/dem/lammps/host.hpp>
 #include <tangency/dem/lammps/words.hpp>
 #include <tangency/dem/particles.hpp>
 #include <tangency/geometry/vectors.hpp>
@@ -71,7 +73,7 @@ struct FixMove::Chunk {
   /// @param low  where positions count from
   void add(const LAMMPS_NS::Atom& atoms, const LAMMPS_NS::AtomVecEllipsoid& bodies, int i,
            const Vec3& low) {
-    const auto& body = bodies.bonus[atoms.ellipsoid[i]];
+    const Body& body = body_at(bodies, atoms.ellipsoid[i]);
     atom[count] = i;
     mass[count] = atoms.rmass[i];
     const Quaternion turn(body.quat[0], body.quat[1], body.quat[2], body.quat[3]);
@@ -90,13 +92,13 @@ struct FixMove::Chunk {
   }
 
   /// Writes back what moved. @param low  where positions count from now
-  void take_back(LAMMPS_NS::Atom& atoms, LAMMPS_NS::AtomVecEllipsoid& bodies,
+  void take_back(LAMMPS_NS::Atom& atoms, const LAMMPS_NS::AtomVecEllipsoid& bodies,
                  const Vec3& low) const {
     for (std::size_t k = 0; k < count; ++k) {
       const int i = atom[k];
       const double* q = orientation.data() + 4 * k;
       const double wxyz[] = {q[3], q[0], q[1], q[2]};
-      std::copy_n(wxyz, 4, bodies.bonus[atoms.ellipsoid[i]].quat);
+      std::copy_n(wxyz, 4, body_at(bodies, atoms.ellipsoid[i]).quat);
       std::copy_n(Vec3(at(position.data() + 3 * k) + low).data(), 3, atoms.x[i]);
     }
     take_back_velocities(atoms);
@@ -151,7 +153,7 @@ FixMove::FixMove(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments)
   }
   if (fire_ && (motion_.damping > 0.0 || motion_.rotational_damping))
     words.refuse("damping fire: not together with a rate of damping");
-  bodies_ = dynamic_cast<LAMMPS_NS::AtomVecEllipsoid*>(atom->avec);
+  bodies_ = AtomBodies::ellipsoids(lammps);
   if (bodies_ == nullptr || atom->rmass_flag == 0) words.refuse("needs atom_style ellipsoid");
   if (domain->dimension != 3) words.refuse("needs dimension 3");
   time_integrate = 1;
@@ -168,8 +170,13 @@ int FixMove::setmask() {
 
 void FixMove::init() {
   int bare = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit) != 0 && atom->ellipsoid[i] < 0) bare = 1;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    if (atom->ellipsoid[i] < 0)
+      bare = 1;
+    else if (!is_ellipsoid(*bodies_, atom->ellipsoid[i]))
+      error->one(FLERR, "fix tangency/move: atom " + std::to_string(atom->tag[i]) + kNoEllipsoid);
+  }
   int any = 0;
   MPI_Allreduce(&bare, &any, 1, MPI_INT, MPI_MAX, world);
   if (any != 0)

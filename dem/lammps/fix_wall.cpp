@@ -17,6 +17,7 @@
 
 #include <tangency/dem/contact/contact_blocks.hpp>
 #include <tangency/dem/lammps/atom_bodies.hpp>
+#include <tangency/dem/lammps/host.hpp>
 #include <tangency/dem/lammps/pair_coefficients.hpp>
 #include <tangency/dem/lammps/words.hpp>
 
@@ -119,7 +120,10 @@ void FixWall::collect() {
   const LAMMPS_NS::AtomVecEllipsoid& from = *AtomBodies::ellipsoids(lmp);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0 || atom->ellipsoid[i] < 0) continue;
-    const auto& body = from.bonus[atom->ellipsoid[i]];
+    if (!is_ellipsoid(from, atom->ellipsoid[i]))
+      error->one(FLERR,
+                 std::string(kCommand) + ": atom " + std::to_string(atom->tag[i]) + kNoEllipsoid);
+    const Body& body = body_at(from, atom->ellipsoid[i]);
     const Vec3 axes = Vec3::Map(body.shape), place = Vec3::Map(atom->x[i]);
     if (!(cell_.planes[0].height_of(place) < axes.maxCoeff())) {
       std::fill_n(record_of(i), kRecordNumbers, 0.0);

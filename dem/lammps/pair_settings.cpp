@@ -29,18 +29,24 @@ namespace tangency::inline v0::lammps {
 void PairTangency::settings(int count, char** words) {
   branch_ = dem::Branch::follow;
   accuracy_ = Accuracy::certified();
+  is_timed_ = false;
   for (int k = 0; k < count; k += 2) {
     const std::string key = words[k];
-    if (key != "branch" && key != "accuracy")
-      error->all(FLERR, "Pair style tangency: word = " + key + ": branch or accuracy is allowed");
+    if (key != "branch" && key != "accuracy" && key != "timing")
+      error->all(FLERR,
+                 "Pair style tangency: word = " + key + ": branch, accuracy or timing is allowed");
     const std::string value = k + 1 < count ? words[k + 1] : "";
     if (key == "branch" && (value == "follow" || value == "global"))
       branch_ = value == "global" ? dem::Branch::global : dem::Branch::follow;
     else if (key == "accuracy" && (value == "certified" || value == "standard"))
       accuracy_ = value == "standard" ? Accuracy::standard() : Accuracy::certified();
+    else if (key == "timing" && (value == "yes" || value == "no"))
+      is_timed_ = value == "yes";
     else
       error->all(FLERR, "Pair style tangency: " + key + " = " + value + ": " +
-                            (key == "branch" ? "follow or global" : "certified or standard") +
+                            (key == "branch"     ? "follow or global"
+                             : key == "accuracy" ? "certified or standard"
+                                                 : "yes or no") +
                             " is allowed");
   }
 }

@@ -7,6 +7,7 @@
 #include <force.h>
 #include <memory.h>
 #include <modify.h>
+#include <mpi.h>
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <update.h>
@@ -21,7 +22,10 @@
 #include <utility>
 
 #include <tangency/dem/contact/contact_blocks.hpp>
+#include <tangency/dem/contact/coulomb_limit.hpp>
 #include <tangency/dem/lanes/contact_lanes.hpp>
+#include <tangency/geometry/curvature.hpp>
+#include <tangency/geometry/ellipsoid.hpp>
 
 namespace tangency::inline v0::lammps {
 namespace {
@@ -30,6 +34,9 @@ namespace {
 /// in parts of its branch, to be the one of the record. Chosen: between rounding, of which a
 /// restart moves places and turns, and what anybody would move by a command.
 constexpr double kSameContact = 1e-9;
+
+/// Parts of the work that are timed.
+constexpr std::size_t kBodies = 0, kGather = 1, kKernel = 2, kLaw = 3;
 
 bool is_same(const ContactRecord& before, const ContactRecord& now) {
   const double near = kSameContact * now.branch.norm();
@@ -59,8 +66,8 @@ PairTangency::PairTangency(LAMMPS_NS::LAMMPS* lammps)
   centroidstressflag = LAMMPS_NS::CENTROID_NOTAVAIL;
   finitecutflag = 1;
   nondefault_history_transfer = 1;
-  nextra = static_cast<int>(work_.size());
-  pvector = new double[work_.size()]();
+  nextra = static_cast<int>(work_.size() + seconds_.size());
+  pvector = new double[work_.size() + seconds_.size()]();
   // Holds the history's place in the order of fixes until it is made.
   modify->add_fix(history_id_ + "_DUMMY all DUMMY");
 }
@@ -94,6 +101,7 @@ PairTangency::Step PairTangency::step() {
   else
     rate = box_.advance(*domain, dt);
   if (domain->deform_vremap != 0) rate.setZero();
+  rate_ = rate;
   const bool damped = laws_.dissipate();
   // A record may have a shear force of a law before.
   return {{bodies_.particles(), bodies_.narrow_phase(), laws_, bodies_.motion(), dt, rate, true,
@@ -105,7 +113,9 @@ void PairTangency::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   const bool listed_anew = neighbor->ago == 0;
   if (listed_anew) require_room();
+  if (is_timed_) lap_began_ = MPI_Wtime();
   bodies_.refresh(listed_anew);
+  lap(kBodies);
   history_->change();
   const Step now = step();
   affine_stiffness_ = 0.0;
@@ -114,7 +124,15 @@ void PairTangency::compute(int eflag, int vflag) {
   // The rank of the other atom has the pair too.
   finish(across_, now, 0.5);
   laws_are_new_ = false;
-  std::copy(work_.begin(), work_.end(), pvector);
+  std::copy(seconds_.begin(), seconds_.end(), std::copy(work_.begin(), work_.end(), pvector));
+}
+
+/// A part of the work ends here.
+void PairTangency::lap(std::size_t part) {
+  if (!is_timed_) return;
+  const double now = MPI_Wtime();
+  seconds_[part] += now - lap_began_;
+  lap_began_ = now;
 }
 
 void PairTangency::collect(const Step& step) {
@@ -151,9 +169,11 @@ void PairTangency::collect(const Step& step) {
 void PairTangency::finish(PairBlock& pairs, const Step& step, double weight) {
   const std::size_t count = pairs.size();
   if (count == 0) return;
+  lap(kGather);
   dem::ContactBlock block = pairs.block();
   bodies_.narrow_phase().measure(count, std::span(pairs.normals(), count), branch_, accuracy_,
                                  pairs.geometry());
+  lap(kKernel);
   step_block(step.blocks, pairs.geometry(), block);
   const dem::BlockSums& sums = pairs.sums();
   work_[0] += weight * sums.sliding;
@@ -172,6 +192,7 @@ void PairTangency::finish(PairBlock& pairs, const Step& step, double weight) {
   for (std::size_t k = 0; k < count; ++k)
     if (pairs.touches(k)) apply(pairs, k);
   pairs.clear();
+  lap(kLaw);
 }
 
 /// Gives the force of a pair to its atoms and to what is tallied.
@@ -207,7 +228,34 @@ const double* PairTangency::history_of(int i, int j) const {
   return nullptr;
 }
 
-double PairTangency::single(int i, int j, int, int, double rsq, double, double, double& fforce) {
+/// Of j's body relative to i's at their contact, spins and the strain of the box in it, when forces
+/// were last computed.
+/// @param side  1 where the record's a is i, else -1
+Vec3 PairTangency::velocity_at(int i, int j, const ContactRecord& record, double side) const {
+  const auto at = [this](int k, const Vec3& arm) -> Vec3 {
+    const dem::MotionRow& row = bodies_.motion()[bodies_.body_of(k)];
+    return Vec3::Map(row.velocity) + Vec3::Map(row.spin).cross(arm);
+  };
+  const Vec3 from_a = record.arm, from_b = record.arm - record.branch;
+  const bool in_order = side > 0.0;
+  return at(j, in_order ? from_b : from_a) - at(i, in_order ? from_a : from_b) +
+         side * (rate_ * record.branch);
+}
+
+/// Of the distance of the two surfaces at the contact, the smaller one first, 1/length.
+std::array<double, 2> PairTangency::curvatures(int i, int j, const ContactRecord& record) const {
+  const auto body = [this](int of) {
+    const std::size_t k = bodies_.body_of(of);
+    return Ellipsoid(Vec3::Zero(), bodies_.particles().semi_axes[k],
+                     bodies_.particles().orientation[k]);
+  };
+  // Ellipsoids look the same from both ends: the normal's sign does not matter.
+  const PrincipalCurvatures relative = contact_curvature(body(i), body(j), record.normal).relative;
+  return {relative.curvature[1], relative.curvature[0]};
+}
+
+double PairTangency::single(int i, int j, int itype, int jtype, double rsq, double, double,
+                            double& fforce) {
   std::fill_n(svector, kPairColumns, 0.0);
   fforce = 0.0;
   const double* history = history_of(i, j);
@@ -220,6 +268,9 @@ double PairTangency::single(int i, int j, int, int, double rsq, double, double, 
   const Vec3 arm = side > 0.0 ? record.arm : Vec3(record.arm - record.branch);
   const Vec3 shear = -side * record.shear_force, all = -side * record.force();
   const Vec3 branch = side * record.branch, normal = side * record.normal;
+  const Vec3 velocity = velocity_at(i, j, record, side);
+  const std::array<double, 2> curvature = curvatures(i, j, record);
+  const bool at_limit = slides(law_between(itype, jtype), record.normal_force, shear.norm());
   const double columns[] = {shear[0],
                             shear[1],
                             shear[2],
@@ -240,7 +291,13 @@ double PairTangency::single(int i, int j, int, int, double rsq, double, double, 
                             record.shear_energy,
                             all[0],
                             all[1],
-                            all[2]};
+                            all[2],
+                            at_limit ? 1.0 : 0.0,
+                            velocity[0],
+                            velocity[1],
+                            velocity[2],
+                            curvature[0],
+                            curvature[1]};
   static_assert(std::size(columns) == kPairColumns);
   std::copy(std::begin(columns), std::end(columns), svector);
   fforce = -all.dot(branch) / rsq;
@@ -270,6 +327,10 @@ void PairTangency::for_each_contact(const std::function<void(const SeenContact&)
 
 void PairTangency::transfer_history(double* source, double* target) {
   std::copy_n(source, kRecordNumbers, target);
+}
+
+void PairTangency::transfer_history(double* source, double* target, int, int) {
+  transfer_history(source, target);
 }
 
 double PairTangency::memory_usage() {

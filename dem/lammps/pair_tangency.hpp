@@ -2,7 +2,7 @@
 /// @file
 /// pair_style tangency: the simulator's contacts between the ellipsoids of LAMMPS.
 ///
-///     pair_style tangency [branch follow|global] [accuracy certified|standard]
+///     pair_style tangency [branch follow|global] [accuracy certified|standard] [timing yes|no]
 ///     pair_coeff I J ...                          (pair_coefficients.hpp)
 ///
 /// Geometry and law are the simulator's own functions (NarrowPhase, step_block()), so that a study
@@ -16,7 +16,8 @@
 ///     shear forces stay, but for the turn of the contact.
 /// (4) The virial is the symmetric part of the sum of branch times force, the energy that of the
 ///     springs. `compute pair` has the account of works since the style was made: sliding,
-///     boundary, branch, viscous (dem::ContactWork).
+///     boundary, branch, viscous (dem::ContactWork); and, with `timing yes`, the time that was
+///     spent on bodies, on gathering pairs, in the kernel, on the law and what is given to atoms.
 ///
 /// Refused with one line: atoms that are no ellipsoids, numbers that are none, a plane box,
 /// r-RESPA, ghosts without velocities, a floating-point environment that flushes or rounds
@@ -45,7 +46,7 @@
 namespace tangency::inline v0::lammps {
 
 /// Numbers of a contact that `compute pair/local` knows as p1, p2, ...
-inline constexpr int kPairColumns = 21;
+inline constexpr int kPairColumns = 27;
 
 /// The pair style; LAMMPS makes it, calls it and owns it.
 class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
@@ -75,8 +76,11 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   void* extract(const char* name, int& dimension) override;
   /// For computes: the contacts of the last call of compute().
   void for_each_contact(const std::function<void(const SeenContact&)>& look) const override;
-  /// A record is the same from both sides.
-  void transfer_history(double* source, double* target) override;
+  /// A record is the same from both sides. Of the two that of this LAMMPS overrides: since 2022 it
+  /// gives the types of the atoms too.
+  void transfer_history(double* source, double* target);
+  /// The same.
+  void transfer_history(double* source, double* target, int itype, int jtype);
 
   /// Laws and settings into a restart file.
   void write_restart(FILE* file) override;
@@ -101,7 +105,10 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   void collect(const Step& step);
   void finish(PairBlock& block, const Step& step, double weight);
   void apply(const PairBlock& block, std::size_t k);
+  void lap(std::size_t part);
   const double* history_of(int i, int j) const;
+  Vec3 velocity_at(int i, int j, const ContactRecord& record, double side) const;
+  std::array<double, 2> curvatures(int i, int j, const ContactRecord& record) const;
 
   dem::Branch branch_ = dem::Branch::follow;
   Accuracy accuracy_ = Accuracy::certified();
@@ -109,8 +116,12 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   std::vector<double> reach_;  ///< of each type
   AtomBodies bodies_;
   BoxMotion box_;
+  Mat3 rate_ = Mat3::Zero();   ///< of the box, which the last forces have seen
   PairBlock within_, across_;  ///< pairs of owned atoms; those that another rank has too
   std::array<double, 4> work_{};
+  bool is_timed_ = false;
+  double lap_began_ = 0.0;           ///< on MPI's clock
+  std::array<double, 4> seconds_{};  ///< of each part, on this rank
   double affine_stiffness_ = 0.0;
   bool laws_are_new_ = false;  ///< since the last compute()
   FixContactHistory* history_ = nullptr;

@@ -8,6 +8,26 @@
 #include <tangency/dem/lanes/elementary.hpp>
 
 namespace tangency::inline v0::dem {
+namespace {
+
+/// Those that `how` says, or of the cube (square) of which `volume` is the share `fraction`.
+Vec3 edges_around(const Placement& how, double volume, double fraction) {
+  if (how.cell_size) return *how.cell_size;
+  Vec3 edges = Vec3::Ones();
+  edges.head(how.dimensions)
+      .setConstant(how.dimensions == 2 ? std::sqrt(volume / fraction)
+                                       : cube_root(volume / fraction));
+  return edges;
+}
+
+void require_longer_edges(const Vec3& edges, double largest, double clearance, int dimensions) {
+  if (edges.head(dimensions).minCoeff() > 2.0 * largest * (1.0 + clearance)) return;
+  std::ostringstream room;
+  room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
+  throw DoesNotFit(room.str());
+}
+
+}  // namespace
 
 std::array<double, 2> Batch::radius_range() const {
   std::array<double, 2> range{shape.mean_radius, shape.mean_radius};
@@ -36,20 +56,22 @@ void sort_largest_first(std::vector<Coming>& all) {
                    [](const Coming& a, const Coming& b) { return a.radius() > b.radius(); });
 }
 
-Vec3 edges_around(const Placement& how, double volume, double fraction) {
-  if (how.cell_size) return *how.cell_size;
-  Vec3 edges = Vec3::Ones();
-  edges.head(how.dimensions)
-      .setConstant(how.dimensions == 2 ? std::sqrt(volume / fraction)
-                                       : cube_root(volume / fraction));
+Vec3 edges_with_room(const std::vector<Batch>& batches, const Placement& how,
+                     const Filling& filling) {
+  double volume = 0.0, largest = 0.0;
+  for (const Coming& one : coming_particles(batches, how.dimensions)) {
+    volume += filling.volume(one, how.dimensions);
+    largest = std::max(largest, one.radius());
+  }
+  const Vec3 edges = edges_around(how, volume, filling.fraction);
+  const double filled = volume / edges.prod();
+  if (!(filled <= filling.most * (1.0 + filling.clearance))) {
+    std::ostringstream room;
+    room << filling.what << " would fill " << filled << " of it, more than " << filling.most;
+    throw DoesNotFit(room.str());
+  }
+  require_longer_edges(edges, largest, filling.clearance, how.dimensions);
   return edges;
-}
-
-void require_longer_edges(const Vec3& edges, double largest, double clearance, int dimensions) {
-  if (edges.head(dimensions).minCoeff() > 2.0 * largest * (1.0 + clearance)) return;
-  std::ostringstream room;
-  room << "an edge of it is shorter than the largest particle, " << 2.0 * largest;
-  throw DoesNotFit(room.str());
 }
 
 std::vector<double> bounding_radii(const std::vector<Coming>& all, double clearance) {

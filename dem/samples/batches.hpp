@@ -99,13 +99,21 @@ std::vector<Coming> coming_particles(const std::vector<Batch>& batches, int dime
 /// The one with the largest bounding sphere first; equal ones stay as they are.
 void sort_largest_first(std::vector<Coming>& all);
 
-/// The edges of a cell for all of them: those that `how` says, or of the cube (square) of which
-/// `volume` is the share `fraction`.
-Vec3 edges_around(const Placement& how, double volume, double fraction);
+/// What is counted as filled in a cell, and how far it may be.
+struct Filling {
+  const char* what;  ///< in messages: "the particles"
+  /// Of one of them; length^3, in the plane length^2.
+  double (*volume)(const Coming&, int dimensions);
+  double fraction;   ///< of the cell that is filled where `how` has no edges
+  double most;       ///< of a cell with edges
+  double clearance;  ///< share of their axes by which particles are made larger
+};
 
-/// @throws DoesNotFit  where an edge is no longer than a particle of this bounding radius, made
-/// larger by a share of it
-void require_longer_edges(const Vec3& edges, double largest, double clearance, int dimensions);
+/// The edges of a cell for all particles: those that `how` says, or of a cube (square).
+/// @throws DoesNotFit  where it would be filled beyond `most`, or an edge is no longer than a
+/// particle
+Vec3 edges_with_room(const std::vector<Batch>& batches, const Placement& how,
+                     const Filling& filling);
 
 /// Radii of their bounding spheres, made larger by a share of each.
 std::vector<double> bounding_radii(const std::vector<Coming>& all, double clearance);

@@ -253,19 +253,12 @@ void check_layer(const Batch& batch, const Placement& how, const Vec3& edges) {
 }  // namespace
 
 Vec3 insertion_edges(const std::vector<Batch>& batches, const Placement& how) {
-  double volume = 0.0, largest = 0.0;
-  for (const Coming& one : coming_particles(batches, how.dimensions)) {
-    volume += volume_of(one.axes, how.dimensions);
-    largest = std::max(largest, one.radius());
-  }
-  const Vec3 edges = edges_around(how, volume, how.volume_fraction);
-  std::ostringstream room;
-  const double filled = volume / edges.prod();
-  if (!(filled <= kMostInserted * (1.0 + kInsertionClearance))) {
-    room << "the particles would fill " << filled << " of it, more than " << kMostInserted;
-    throw DoesNotFit(room.str());
-  }
-  require_longer_edges(edges, largest, kInsertionClearance, how.dimensions);
+  const auto volume = [](const Coming& one, int dimensions) {
+    return volume_of(one.axes, dimensions);
+  };
+  const Vec3 edges = edges_with_room(
+      batches, how,
+      {"the particles", volume, how.volume_fraction, kMostInserted, kInsertionClearance});
   for (const Batch& batch : batches) check_layer(batch, how, edges);
   return edges;
 }

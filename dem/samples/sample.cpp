@@ -74,28 +74,15 @@ Lattice lattice_for(const std::vector<Batch>& batches, const Placement& how) {
 /// largest bounding fraction, none took more than 500 in the plane and 1500 in space.
 constexpr int kMostDraws = 100000;
 
-double bounding_volume(double radius, int dimensions) {
-  return volume_of(Vec3::Constant(radius), dimensions);
-}
-
 /// The cell of a random placement. @throws DoesNotFit
 Vec3 room_for(const std::vector<Batch>& batches, const Placement& how) {
-  double volume = 0.0, largest = 0.0;
-  for (const Coming& one : coming_particles(batches, how.dimensions)) {
-    volume += bounding_volume(one.radius(), how.dimensions);
-    largest = std::max(largest, one.radius());
-  }
-  const Vec3 edges = edges_around(how, volume, how.bounding_fraction);
-  std::ostringstream room;
-  const char* spheres = how.dimensions == 2 ? "bounding circles" : "bounding spheres";
-  const double filled = volume / edges.prod();
-  const double most = largest_bounding_fraction(how.dimensions) * (1.0 + kClearance);
-  if (!(filled <= most)) {
-    room << spheres << " would fill " << filled << " of it, more than " << most;
-    throw DoesNotFit(room.str());
-  }
-  require_longer_edges(edges, largest, kClearance, how.dimensions);
-  return edges;
+  const auto bounding_volume = [](const Coming& one, int dimensions) {
+    return volume_of(Vec3::Constant(one.radius()), dimensions);
+  };
+  return edges_with_room(
+      batches, how,
+      {how.dimensions == 2 ? "bounding circles" : "bounding spheres", bounding_volume,
+       how.bounding_fraction, largest_bounding_fraction(how.dimensions), kClearance});
 }
 
 Particles place_bodies(const std::vector<Batch>& batches, const Placement& how, Cell& cell) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
+
+#include <tangency/dem/scene/scene_error.hpp>
 
 namespace tangency::inline v0::dem {
 
@@ -81,6 +84,17 @@ Shape Scene::shape_in(std::size_t type, std::size_t stage, std::int64_t incremen
     if (const auto& growth = stages[k].growth)
       shape = growth->shape_after(shape, k < stage ? growth->increments : increments);
   return shape;
+}
+
+void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name) {
+  std::vector<std::size_t> counts(scene.particle_types.size(), 0);
+  for (const Body& body : bodies) ++counts.at(body.type);
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (const ParticleType& type = scene.particle_types[k]; counts[k] != type.batch.count)
+      throw SceneError(name + ": " + std::to_string(counts[k]) + " bodies of type " + type.name +
+                       ": as many as particles." + type.name + ".count, " +
+                       std::to_string(type.batch.count));
+  scene.bodies = std::move(bodies);
 }
 
 }  // namespace tangency::inline v0::dem

@@ -146,4 +146,9 @@ struct Scene {
   Shape shape_in(std::size_t type, std::size_t stage, std::int64_t increments) const;
 };
 
+/// Gives a scene whose place names a file its bodies.
+/// @throws SceneError  where they are not as many of each type as the scene says; starts with
+/// `name`
+void set_bodies(Scene& scene, std::vector<Body> bodies, const std::string& name);
+
 }  // namespace tangency::inline v0::dem

@@ -242,4 +242,18 @@ std::string_view Section::fallback(std::string_view name) const {
       ->fallback;
 }
 
+const toml::array& tables_of(const Source& source, const toml::node& node,
+                             const std::string& name) {
+  const toml::array* list = node.as_array();
+  if (!list || !list->is_homogeneous<toml::table>())
+    source.fail(node.source(),
+                name + " = " + text_of(node) + ": a list of [[" + name + "]] tables");
+  return *list;
+}
+
+Section section_of(const Source& source, const toml::array& tables, const std::string& name,
+                   std::size_t k) {
+  return {source, *tables.get(k)->as_table(), name + "[" + std::to_string(k) + "]", name};
+}
+
 }  // namespace tangency::inline v0::dem

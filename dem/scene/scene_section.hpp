@@ -6,6 +6,7 @@
 
 #include <toml++/toml.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -101,5 +102,13 @@ class Section {
   std::string section_, kind_;
   const toml::table* base_;
 };
+
+/// The tables [[name]] of a list.
+/// @throws SceneError  where the value is another, or the list is empty
+const toml::array& tables_of(const Source& source, const toml::node& node, const std::string& name);
+
+/// Number k of them.
+Section section_of(const Source& source, const toml::array& tables, const std::string& name,
+                   std::size_t k);
 
 }  // namespace tangency::inline v0::dem

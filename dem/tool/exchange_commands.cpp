@@ -14,6 +14,7 @@
 
 #include <tangency/dem/saved/state_file.hpp>
 #include <tangency/dem/simulation.hpp>
+#include <tangency/dem/tool/cycle_files.hpp>
 #include <tangency/dem/tool/exchange_sample.hpp>
 #include <tangency/dem/tool/export_lammps.hpp>
 #include <tangency/dem/tool/export_text.hpp>
@@ -181,7 +182,7 @@ int export_script(const ExportWords& words) {
   std::vector<std::string> types;
   for (const ParticleType& type : run.scene().particle_types) types.push_back(type.name);
   const std::string data = lammps_data(with_triangular_cell(sample_of(run.state(), types)));
-  fs::create_directories(words.folder);
+  make_folder(words.folder);
   tables::OutputFile script_out(words.folder + "/in." + name),
       data_out(words.folder + "/" + name + ".data");
   script_out.write(script);

@@ -6,16 +6,15 @@
 #include <utility>
 
 #include <tangency/dem/contact/contact_law.hpp>
+#include <tangency/dem/contact/coulomb_limit.hpp>
 #include <tangency/dem/neighbours.hpp>
 #include <tangency/dem/particles.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
 
-/// Of the Coulomb limit. Chosen: a force that was cut back to it is off by rounding alone, and one
-/// that comes as near by chance is at it.
-constexpr double kAtTheLimit = 1e-12;
-/// Alike. Chosen far above rounding: the law of a stage is another, or it is not.
+/// In parts of the Coulomb limit. Chosen far above rounding: the law of a stage is another, or it
+/// is not.
 constexpr double kAboveTheLimit = 1e-6;
 
 struct Entry {
@@ -34,15 +33,6 @@ Entry entry_of(const Pair& pair, std::size_t index, const std::vector<std::int32
     for (std::int32_t& k : named.image) k = -k;
   }
   return {named, index, exchanged};
-}
-
-double limit_of(const Contact& contact, const ContactLaw& law) {
-  return law.cohesion + law.friction_coefficient * contact.normal_force;
-}
-
-bool slides(const Contact& contact, const ContactLaw& law) {
-  const double size = contact.shear.force.norm();
-  return size > 0.0 && size >= (1.0 - kAtTheLimit) * limit_of(contact, law);
 }
 
 void add(PackingContacts& all, const Entry& entry, const Contact& contact, const Vec3& centre_of_a,
@@ -121,7 +111,7 @@ Packing packing_of(const State& state, const ContactLaws& laws) {
     const auto type = [&](std::size_t i) { return static_cast<std::size_t>(particles.type[i]); };
     add(packing.contacts, entry, contact,
         packing.particles.position[static_cast<std::size_t>(entry.of_ids.a)],
-        slides(contact, laws.between(type(a), type(b))));
+        slides(laws.between(type(a), type(b)), contact.normal_force, contact.shear.force.norm()));
   }
   return packing;
 }
@@ -141,7 +131,10 @@ std::int64_t contacts_above_limit(const State& state, const ContactLaws& laws) {
     const ContactLaw& law =
         laws.between(static_cast<std::size_t>(types[a]), static_cast<std::size_t>(types[b]));
     const Contact contact = state.contacts.records()[k];
-    above += contact.shear.force.norm() > (1.0 + kAboveTheLimit) * limit_of(contact, law) ? 1 : 0;
+    above +=
+        contact.shear.force.norm() > (1.0 + kAboveTheLimit) * shear_limit(law, contact.normal_force)
+            ? 1
+            : 0;
   }
   return above;
 }

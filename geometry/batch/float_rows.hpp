@@ -5,8 +5,8 @@
 
 namespace tangency::inline v0::detail {
 
-/// What body_rows.hpp makes of a LaneBody and its ShapeRow: floats to nearest, but for least_radius
-/// and widest. "Single precision" in docs/derivations/gap-batch.md.
+/// What shape_rows.hpp makes of a LaneBody and its ShapeRow: floats to nearest, but for
+/// least_radius and widest. "Single precision" in docs/derivations/gap-batch.md.
 struct alignas(64) FloatRow {
   double centre[3];
   float largest;       ///< semi-axis; NaN where the body is not moderate(): no lane then settles

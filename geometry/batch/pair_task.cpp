@@ -73,8 +73,8 @@ void find_bodies(const PairTask& task, std::size_t count, const Place& place, La
   fill_shape_rows(plain->bodies_a, count, plain->rows_a);
   fill_shape_rows(plain->bodies_b, count, plain->rows_b);
   if (task.in_floats() || task.has_cutoff()) {
-    fill(plain->floats_a, plain->bodies_a, plain->rows_a, count);
-    fill(plain->floats_b, plain->bodies_b, plain->rows_b, count);
+    fill_float_rows(plain->bodies_a, plain->rows_a, count, plain->floats_a);
+    fill_float_rows(plain->bodies_b, plain->rows_b, count, plain->floats_b);
   }
   block.bodies_a = plain->bodies_a, block.bodies_b = plain->bodies_b;
   block.rows_a = plain->rows_a, block.rows_b = plain->rows_b;
@@ -199,6 +199,11 @@ Gap PairTask::wanted(const Gap& gap) const noexcept {
 
 void PairTask::require_finite_separation(std::size_t i) const noexcept {
   if (separations != nullptr) contract::require_finite(call, "separation", separations[i]);
+}
+
+void PairTask::require_floats() const noexcept {
+  if (body_count > 0 && floats == nullptr && (in_floats() || has_cutoff()))
+    contract::no_floats(call);
 }
 
 /// The two indices of a pair are one number p of 64 bits: where neither half has its highest bit,

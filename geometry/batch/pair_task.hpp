@@ -86,6 +86,8 @@ struct PairTask {
   bool overlaps(std::size_t i) const noexcept;
   std::optional<bool> overlaps_by_filter(std::size_t i) const noexcept;
 
+  /// Do the bodies have what the accuracy asks for? Else the process ends.
+  void require_floats() const noexcept;
   /// Are the bodies of pairs first to first + n in the array? Else the process ends.
   void require_indices(std::size_t first, std::size_t n) const noexcept;
 

@@ -42,6 +42,14 @@ void no_ellipsoid(const char* call, std::size_t index, const char* why) noexcept
   std::abort();
 }
 
+void no_floats(const char* call) noexcept {
+  std::fprintf(stderr,
+               "tangency: %s: accuracy: single precision or a cutoff, and the bodies are looked at "
+               "in double alone\n",
+               call);
+  std::abort();
+}
+
 void not_finite(const char* call, const char* what, const Vec3& value) noexcept {
   std::fprintf(stderr, "tangency: %s: %s = (%g, %g, %g): must be finite\n", call, what, value[0],
                value[1], value[2]);

@@ -28,6 +28,9 @@ namespace tangency::inline v0::contract {
                                std::size_t bodies) noexcept;
 /// "tangency: signed_gaps: body 1: r3 = -1: a semi-axis must be finite and > 0"
 [[noreturn]] void no_ellipsoid(const char* call, std::size_t index, const char* why) noexcept;
+/// "tangency: signed_gaps: accuracy: single precision or a cutoff, and the bodies are looked at in
+/// double alone"
+[[noreturn]] void no_floats(const char* call) noexcept;
 /// "tangency: signed_gap: separation = (1, nan, 0): must be finite"
 [[noreturn]] void not_finite(const char* call, const char* what, const Vec3& value) noexcept;
 

@@ -16,6 +16,10 @@ for name, column in found:
     np.testing.assert_array_equal(column, getattr(expected, name))
 frame = pandas.DataFrame(found.flat())
 assert list(frame["normal_z"]) == list(expected.normal[:, 2]) and len(frame) == 50
+# A row alone has its names, in whatever order.
+turned = table[list(table.columns)[::-1]]
+assert tangency.contact(turned.iloc[0], turned.iloc[0]).gap == found.gap[0]
+assert list(tangency.contacts(turned.iloc[0], table).gap)[0] == found.gap[0]
 short = pandas.DataFrame(rows[:, :6], columns=NAMES[:6])
 assert len(tangency.Bodies(short)) == 50
 # Types of pandas that know of missing numbers, and columns that hold no numbers.

@@ -25,6 +25,7 @@ build() {
           -DTANGENCY_BUILD_TESTS=OFF -DTANGENCY_BUILD_BENCH=OFF
   fi
   cmake --build "$here/build"
+  touch "$here/built"
 }
 
 # Every header compiles with nothing before it.
@@ -86,17 +87,15 @@ for kind in "$@"; do
   mkdir -p "$here"
   prefix=$here/consumer/prefix
   consumer "builds, without tests and benchmarks" build
-  [ -e "$here/build/CMakeCache.txt" ] || continue
+  # What did not build has no users: each would fail in words of its own.
+  [ -e "$here/built" ] || continue
   "$source/tests/build/consumer.sh" "$here/build" "$source" "$here/consumer" || failed=1
   consumer "each header alone" each_header
   consumer "Debug" all_programs debug -DCMAKE_BUILD_TYPE=Debug
   consumer "clang++" all_programs clang -DCMAKE_CXX_COMPILER=clang++-14
   consumer "the kernel's files alone, docs/example" kernel_alone
   if [ "$kind" = shared ]; then
-    # Dumps are made at a release (abi.sh --write): before the first one every change of an interface would be a new dump.
-    if [ -d "$source/tests/build/abi" ]; then
-      consumer "programs linked with the last release" "$source/tests/build/abi.sh" --check "$here/build"
-    fi
+    consumer "programs in C that were linked before" "$source/tests/build/abi.sh" --check "$here/build"
     consumer "Debian packages, unpacked and installed" "$source/tests/build/debian.sh" "$source" "$here/build" "$here/debian"
   fi
   # These build the kernel again.

@@ -192,5 +192,15 @@ TEST_F(ExportLammps, RefusesWhatLammpsHasNot) {
     EXPECT_EQ(run_tool(words).status, 2) << words.back();
 }
 
+TEST_F(ExportLammps, NamesTheFolderThatCannotBeMade) {
+  const std::string taken = folder_.write("taken", "a file\n");
+  const Finished ended =
+      run_tool({"export", "--lammps", taken, "--scene", folder_.write("study.toml", kScene)});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.err.find(taken + ": cannot be written: "), 0u) << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_EQ(read_file(taken), "a file\n");
+}
+
 }  // namespace
 }  // namespace tangency::testing

@@ -242,6 +242,12 @@ void check_pair(const std::string& target, const verify::EllipsoidPair& raw, con
   Checks(target, raw, bodies, choice).run();
 }
 
+void check_known(const std::string& target, const verify::EllipsoidPair& raw, const Bodies& bodies,
+                 const Enclosure& known) {
+  if (!meet(enclosure_of(signed_gap(bodies.a, bodies.b)), known))
+    broken(target, "the gap as the pair was made: " + row_of(raw));
+}
+
 void check_by_oracle(const std::string& target, const verify::EllipsoidPair& raw,
                      const Bodies& bodies) {
   const verify::ExactRelation exact = verify::exact_relation(raw.a, raw.b);

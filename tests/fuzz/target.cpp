@@ -15,8 +15,8 @@ namespace tangency::testing::fuzz {
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = [] {
     std::vector<Target> list;
-    for (auto&& part :
-         {pair_targets(), table_targets(), simulator_targets(), grader_targets(), c_targets()})
+    for (auto&& part : {pair_targets(), batch_targets(), table_targets(), simulator_targets(),
+                        grader_targets(), c_targets()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -60,7 +60,8 @@ std::string source_file(const std::string& path, std::size_t lines = 0);
 /// One that is broken by an input with a `!` in it: to see what a finding looks like.
 const Target& planted_target();
 
-std::vector<Target> pair_targets();       ///< calls, batch
+std::vector<Target> pair_targets();       ///< calls
+std::vector<Target> batch_targets();      ///< batch
 std::vector<Target> table_targets();      ///< one for each subcommand of `tangency`
 std::vector<Target> simulator_targets();  ///< scene, state, history
 std::vector<Target> grader_targets();     ///< answers, truth

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <tangency/geometry/batch/lane_block.hpp>
+#include <tangency/geometry/batch/shape_rows.hpp>
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
@@ -259,6 +260,81 @@ TEST(MovingBodies, RowsDoNotDependOnTheRangesThatAreRefreshed) {
   });
 }
 
+/// All but what is unused.
+std::vector<double> numbers(const detail::ShapeRow& row) {
+  std::vector<double> all(row.centre, row.centre + 3);
+  all.insert(all.end(), {row.largest, row.least_radius, row.reach});
+  all.insert(all.end(), row.shape, row.shape + 6);
+  return all;
+}
+std::vector<double> numbers(const detail::FloatRow& row) {
+  std::vector<double> all(row.centre, row.centre + 3);
+  all.insert(all.end(), {row.largest, row.least_radius, row.widest});
+  all.insert(all.end(), row.shape, row.shape + 6);
+  return all;
+}
+template <class Row>
+bool same(const Row& a, const Row& b) {
+  const std::vector<double> p = numbers(a), q = numbers(b);
+  return std::equal(p.begin(), p.end(), q.begin(),
+                    [](double x, double y) { return std::isnan(x) ? std::isnan(y) : x == y; });
+}
+
+// geometry/batch/moving_lanes.hpp: several bodies at once are written as one is, thick and flat
+// ones, far too large and small ones, whole registers and what is left over.
+TEST(MovingBodies, HaveTheRowsThatEachBodyHasByItself) {
+  Moving m(testing::contacts(verify::contact_classes()[1], 101));
+  std::vector<Vec3> centres;
+  for (std::size_t i = 0; i < m.semi_axes.size(); ++i) {
+    if (i % 7 == 0) m.semi_axes[i][i % 3] *= 0x1p-6;
+    if (i % 11 == 0) m.semi_axes[i] *= i % 2 == 0 ? 0x1p70 : 0x1p-70;
+    centres.emplace_back(0.5, -static_cast<double>(i), 1.0);
+  }
+  at_every_level([&] {
+    for (const bool placed : {false, true}) {
+      const MovingBodies bodies(m.semi_axes,
+                                {m.orientations, placed ? VectorColumn(centres) : VectorColumn()});
+      std::size_t thick = 0;
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Vec3 centre = placed ? centres[i] : Vec3(Vec3::Zero());
+        const detail::LaneBody& lane = bodies.lanes()[i];
+        ASSERT_EQ(Vec3(Vec3::Map(lane.centre)), centre) << i;
+        detail::ShapeRow row;
+        detail::FloatRow floats;
+        detail::fill_shape_rows(&lane, 1, &row);
+        detail::fill_float_rows(&lane, &row, 1, &floats);
+        ASSERT_TRUE(same(bodies.rows()[i], row)) << i;
+        ASSERT_TRUE(same(bodies.floats()[i], floats)) << i;
+        if (!std::isnan(row.largest)) ++thick;
+      }
+      EXPECT_GT(thick, bodies.size() / 2);
+      EXPECT_LT(thick, bodies.size() * 9 / 10);
+    }
+  });
+}
+
+TEST(MovingBodies, LookedAtInDoubleAloneHaveTheSameAnswersToTheBit) {
+  const Family f = testing::contacts(verify::contact_classes()[1], 101);
+  Moving m(f);
+  MovingBodies bodies;
+  bodies.look_at(m.semi_axes, m.orientations, Questions::in_double);
+  at_every_level([&] {
+    m.bodies.refresh(0, m.bodies.size());
+    bodies.refresh(0, bodies.size());
+    Columns with(f.a.size()), without(f.a.size());
+    signed_gaps(m.bodies, m.list(), with.all());
+    signed_gaps(bodies, m.list(), without.all());
+    for (std::size_t i = 0; i < f.a.size(); ++i) ASSERT_TRUE(same_bits(with[i], without[i])) << i;
+  });
+  // What owns its numbers answers anything again.
+  bodies.set_semi_axes(0, std::span<const Vec3>(m.semi_axes).first(1));
+  m.bodies.refresh(0, m.bodies.size());
+  Columns with(f.a.size()), without(f.a.size());
+  signed_gaps(m.bodies, m.list(), with.all(), Accuracy::fast());
+  signed_gaps(bodies, m.list(), without.all(), Accuracy::fast());
+  for (std::size_t i = 0; i < f.a.size(); ++i) ASSERT_TRUE(same_bits(with[i], without[i])) << i;
+}
+
 /// Two bodies, and one pair more than fits into a block.
 struct Few {
   std::vector<Vec3> axes{Vec3(1, 2, 3), Vec3(1, 2, 1)};
@@ -327,6 +403,13 @@ TEST(BrokenContract, OfMovingBodiesEndsTheProcessAndNamesIt) {
           "signed_gaps: body 1: r. = .*: a semi-axis must be finite and > 0");
     }
   }
+  f.bodies.look_at(f.axes, f.turns, Questions::in_double);
+  f.bodies.refresh(0, 2);
+  for (const Accuracy& accuracy : {Accuracy::fast(), Accuracy::standard().up_to(1.0)})
+    EXPECT_DEATH(
+        follow_gaps(f.bodies, {f.pairs, f.separations}, f.normals, {.gap = f.gaps}, accuracy),
+        "follow_gaps: accuracy: single precision or a cutoff, and the bodies are looked at in "
+        "double alone");
   f.turns[0].coeffs().setZero();
   f.bodies.refresh(0, 2);
   EXPECT_DEATH(follow_gaps(f.bodies, {f.pairs, f.separations}, f.normals, {}),

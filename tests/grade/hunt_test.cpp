@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/tests/tool/process.hpp>
@@ -89,6 +90,27 @@ TEST(Verdict, NumbersAreJudgedToTheirLastDigits) {
   EXPECT_EQ(fault_of(local, balls(0.5), Goal::certificate), "");
   EXPECT_EQ(fault_of({.gap = -2, .gap_error = 0.25}, balls(0.5), Goal::certificate),
             "bound broken");
+}
+
+// A small ball in the middle of a body of semi-axes 3, 2, 1: the gap is -1.5 along z, below minus
+// the least radii of curvature. The answered normal is enough, and no claim is believed.
+TEST(Verdict, DeepAnswersAreJudgedFromTheirNormal) {
+  const EllipsoidPair deep{{{0, 0, 0}, {3, 2, 1}}, {{0, 0, 0x1p-60}, {0.5, 0.5, 0.5}}};
+  const auto judged = [&](double gap, double gap_error, const std::array<double, 3>& normal) {
+    Judge judge(Goal::certificate, {});
+    const Answer answer{.gap = gap, .gap_error = gap_error, .normal = normal};
+    const std::string fault = judge.verdict(deep, answer).fault;
+    return std::pair(fault, judge.counts().gaps);
+  };
+  const std::array<double, 3> up{0, 0, 1}, astray{0.6, 0, 0.8};
+  const std::size_t none = 0, one = 1;
+  EXPECT_EQ(judged(-1.5, 1e-15, up), std::pair(std::string(), none));
+  EXPECT_EQ(judged(-1.5 + 1e-13, 9e-14, up), std::pair(std::string("bound broken"), none));
+  EXPECT_EQ(judged(-1.5 - 1e-13, 9e-14, up), std::pair(std::string("bound broken"), none));
+  EXPECT_EQ(judged(-1.5, 0, up), std::pair(std::string("bound broken"), none));
+  EXPECT_EQ(judged(-1.5, 1e-15, astray).first, "");
+  // What is no ascent away from the truth is left to the slow oracle: along x f is -3.5.
+  EXPECT_EQ(judged(-3.5, 1e-15, {1, 0, 0}), std::pair(std::string("bound broken"), one));
 }
 
 // Crossed bodies of one centre: f is -3 along x and -3 - tie along y, lower between.

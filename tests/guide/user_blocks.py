@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs what README and guide tell a user to type, in a clone and with a home folder of its own.
+"""Runs what README, guide and the pages of the languages tell a user to type, in a clone and with a home folder of its own.
 
-Blocks of kind sh are run one after the other from the root of the clone, those of a page in one shell with -e. Blocks of kind
-cmake become a project each, with a program to link, which is configured, built and run with the package that the sh
-blocks have installed.
+Blocks of kind sh are run one after the other from the root of the clone, those of a page in one shell with -e. The first
+program of the pages of C and Fortran lies there as contact.c and contact.f90. Blocks of kind cmake become a project each,
+with a program to link, which is configured, built and run with the package that the sh blocks have installed.
 Usage: user_blocks.py ROOT SCRATCH
 """
 import os
@@ -14,6 +14,11 @@ import subprocess
 import sys
 
 from blocks import blocks_of, user_pages
+
+# Pages of the languages. They come after those of the guide, the last of which installs what they use.
+LANGUAGES = ["docs/c.md", "docs/fortran.md", "docs/python.md"]
+# The file that holds the first program of a page, by the kind of its block.
+PROGRAMS = {"c": "contact.c", "fortran": "contact.f90"}
 
 
 def say(text):
@@ -58,12 +63,16 @@ def main():
         shutil.copy2(root / file, clone / file, follow_symlinks=False)
     environment = dict(os.environ, HOME=str(home))
     failed, count = [], 0
-    blocks = [block for page in user_pages(root) for block in blocks_of(root, page)]
+    blocks = [block for page in user_pages(root) + LANGUAGES for block in blocks_of(root, page)]
     for page in dict.fromkeys(block.page for block in blocks if block.kind == "sh"):
-        # A page begins with a clean clone, but for what is built: pages give the same commands again.
-        shutil.rmtree(home / "tangency", ignore_errors=True)
-        shutil.rmtree(clone / "first", ignore_errors=True)
         lines = "".join(block.text for block in blocks if block.kind == "sh" and block.page == page)
+        # A page that installs begins with a clean clone, but for what is built: pages give the same commands again.
+        if "--install" in lines:
+            shutil.rmtree(home / "tangency", ignore_errors=True)
+            shutil.rmtree(clone / "first", ignore_errors=True)
+        for kind, file in PROGRAMS.items():
+            for program in [block.text for block in blocks if block.page == page and block.kind == kind][:1]:
+                (clone / file).write_text(program, encoding="utf-8")
         say(f"== {page}\n{lines}")
         count += 1
         if not run(["bash", "-euo", "pipefail", "-c", lines], clone, environment):

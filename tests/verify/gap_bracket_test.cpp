@@ -74,5 +74,31 @@ TEST(GapBracket, TheBoundsEncloseTheGap) {
   EXPECT_GT(100 * tight, 99 * bounded) << tight << " of " << bounded;
 }
 
+// The claim is a start, no premise: whatever it is the bounds hold.
+TEST(GapBracket, TheBoundsEncloseTheGapWhateverNormalIsClaimed) {
+  std::size_t right = 0, tight = 0, deep = 0;
+  for_each_pair(2, [&](const EllipsoidPair& pair) {
+    const auto truth = verify::signed_gap(pair.a, pair.b);
+    const std::array<double, 3> best{truth.normal[0].convert_to<double>(),
+                                     truth.normal[1].convert_to<double>(),
+                                     truth.normal[2].convert_to<double>()};
+    const bool is_deep =
+        !(verify::gap_bracket(pair.a, pair.b).upper < std::numeric_limits<long double>::infinity());
+    for (const auto& claimed : {best, std::array<double, 3>{-best[1], best[0], best[2]},
+                                std::array<double, 3>{0, 0, 1}, std::array<double, 3>{}}) {
+      const GapBracket bracket = verify::gap_bracket(pair.a, pair.b, {0, claimed});
+      EXPECT_LE(Real(bracket.lower), truth.gap + truth.unproven) << "seed " << kSeed;
+      EXPECT_GE(Real(bracket.upper), truth.gap) << "seed " << kSeed;
+    }
+    if (!is_deep || !truth.global) return;
+    const GapBracket bracket = verify::gap_bracket(pair.a, pair.b, {0, best});
+    ++deep;
+    right += bracket.upper < std::numeric_limits<long double>::infinity();
+    tight += static_cast<double>(bracket.upper - bracket.lower) <= 0x1p-56 * bracket.size;
+  });
+  // Two thirds of those that the least radii of curvature leave open, to the digits of doubles.
+  EXPECT_GT(3 * tight, 2 * deep) << tight << " and " << right << " of " << deep;
+}
+
 }  // namespace
 }  // namespace tangency::testing

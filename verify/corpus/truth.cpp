@@ -47,13 +47,13 @@ std::vector<TrueNormals> about_axis(const CoaxialGap& found) {
 }
 
 std::optional<PairTruth> truth_of(const ExactRelation& relation, const RealEllipsoid& a,
-                                  const RealEllipsoid& b) {
+                                  const RealEllipsoid& b, std::size_t most_boxes = kMostGapBoxes) {
   PairTruth truth{relation, ascent::extent(separation(a, b)), 0, {}, {}};
   if (const auto coaxial = coaxial_gap(a, b)) {
     truth.gap = coaxial->gap;
     truth.normals = about_axis(*coaxial);
   } else {
-    const std::vector<GapTruth> best = highest_gaps(a, b, 0);
+    const std::vector<GapTruth> best = highest_gaps(a, b, 0, most_boxes);
     if (!best.front().global) return std::nullopt;
     truth.gap = best.front().gap;
     for (const GapTruth& one : best) {
@@ -73,8 +73,8 @@ std::optional<PairTruth> with_other_gaps(std::optional<PairTruth> truth, const R
 
 }  // namespace
 
-std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair) {
-  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b));
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair, std::size_t most_boxes) {
+  return truth_of(exact_relation(pair.a, pair.b), real(pair.a), real(pair.b), most_boxes);
 }
 
 std::optional<PairTruth> pair_truth(const EllipsoidPair& pair) {

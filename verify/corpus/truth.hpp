@@ -3,11 +3,13 @@
 /// What is true of an input, by the oracles alone.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include <tangency/verify/families/families.hpp>
 #include <tangency/verify/oracles/classification.hpp>
+#include <tangency/verify/oracles/gap.hpp>
 #include <tangency/verify/oracles/perram_wertheim.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
@@ -39,7 +41,9 @@ std::optional<PairTruth> pair_truth(const EllipsoidPair& pair);
 std::optional<PairTruth> pair_truth(const MatrixPair& pair);
 
 /// The same without the gaps by other definitions: `perram_wertheim` is left empty.
-std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair);
+/// @param most_boxes  what may be spent on deep pairs: gap.hpp
+std::optional<PairTruth> common_normal_truth(const EllipsoidPair& pair,
+                                             std::size_t most_boxes = kMostGapBoxes);
 
 struct EllipsePairTruth {
   ExactRelation relation;

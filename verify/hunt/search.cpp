@@ -132,6 +132,8 @@ void Search::take(const Candidate& candidate, const Verdict& verdict) {
     FaultCount& count = faults_[verdict.fault];
     if (count.count++ == 0) count.first = answers_;
   }
+  // Nothing is known of an open answer, and those near it cost as much and say as little.
+  if (verdict.open) return;
   const std::pair kind{verdict.fault, traits(candidate.pair, verdict.near)};
   const auto found = archive_.find(kind);
   // A right answer as bad as the one before takes its place, so that the search moves on.

@@ -237,12 +237,11 @@ GapTruth stationary_gap(const RealEllipsoid& a, const RealEllipsoid& b,
   return *truth;
 }
 
-std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within) {
+std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within,
+                                   std::size_t most_boxes) {
   const Search search(a, b);
   if (const auto truth = shallow_gap(search); truth && within == 0) return {*truth};
-  // Chosen: isolates nearly all pairs, and takes some 0.1 s where it does not.
-  constexpr std::size_t kMostBoxes = 50000;
-  return deep_gaps(search, gap_enclosure(a, b, {0, within, kMostBoxes}), within);
+  return deep_gaps(search, gap_enclosure(a, b, {0, within, most_boxes}), within);
 }
 
 GapTruth signed_gap(const RealEllipsoid& a, const RealEllipsoid& b) {

@@ -28,11 +28,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <tangency/verify/oracles/real_ellipsoid.hpp>
 
 namespace tangency::inline v0::verify {
+
+/// Chosen: isolates nearly all pairs, and takes some 0.1 s where it does not.
+constexpr std::size_t kMostGapBoxes = 50000;
 
 struct GapTruth {
   Real gap;
@@ -56,6 +60,8 @@ GapTruth signed_gap(const RawEllipsoid& a, const RawEllipsoid& b);
 /// The global answer and after it, best first, every maximum whose gap is lower by up to `within`
 /// >= 0 (in the unit of length); none is left out if the first is `global`, and only the first is
 /// marked so. Where normals tie along a curve some of them. Throws as above.
-std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within);
+/// `most_boxes` is the budget of (4).
+std::vector<GapTruth> highest_gaps(const RealEllipsoid& a, const RealEllipsoid& b, double within,
+                                   std::size_t most_boxes = kMostGapBoxes);
 
 }  // namespace tangency::inline v0::verify

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
+#include <optional>
 
+#include <tangency/verify/oracles/inner_ellipsoid.hpp>
 #include <tangency/verify/oracles/newton_ascent.hpp>
+#include <tangency/verify/oracles/proven_body.hpp>
 
 namespace tangency::inline v0::verify {
 namespace {
@@ -16,160 +18,6 @@ using ascent::dot;
 using Long3 = std::array<long double, 3>;
 
 constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
-
-// ---- numbers with an error bound
-
-// The true value is within `error` of `value`. Each operation adds its own rounding, at most kUnit
-// of the result and kLeast below the normal range; kUp covers the roundings of the bound itself,
-// which are fewer than eight.
-class Ball {
- public:
-  Ball() = default;
-  Ball(long double value, long double error = 0) : value_(value), error_(error) {}
-
-  long double value() const { return value_; }
-  long double low() const { return value_ - width(); }
-  long double high() const { return value_ + width(); }
-
-  friend Ball operator+(const Ball& a, const Ball& b) {
-    return rounded(a.value_ + b.value_, a.error_ + b.error_);
-  }
-  friend Ball operator-(const Ball& a, const Ball& b) {
-    return rounded(a.value_ - b.value_, a.error_ + b.error_);
-  }
-  friend Ball operator*(const Ball& a, const Ball& b) {
-    return rounded(a.value_ * b.value_, std::abs(a.value_) * b.error_ +
-                                            a.error_ * std::abs(b.value_) + a.error_ * b.error_);
-  }
-  // Of b > 0; unknown where b may be 0.
-  friend Ball operator/(const Ball& a, const Ball& b) {
-    const long double least = b.low(), quotient = a.value_ / b.value_;
-    if (!(least > 0)) return {0, kInfinity};
-    return rounded(quotient, (a.error_ + (std::abs(quotient) + kLeast) * b.error_) / least);
-  }
-  // Of a >= 0; unknown where a may be 0.
-  friend Ball sqrt(const Ball& a) {
-    if (!(a.low() > 0)) return {0, kInfinity};
-    const long double root = std::sqrt(a.value_);
-    return rounded(root, a.error_ / root);
-  }
-
- private:
-  static constexpr long double kUnit = std::numeric_limits<long double>::epsilon() / 2;
-  static constexpr long double kUp = 1 + 32 * kUnit;
-  static constexpr long double kLeast = 8 * std::numeric_limits<long double>::denorm_min();
-
-  // Of both ends: the bound, and the roundings of the ends.
-  long double width() const { return error_ + 4 * kUnit * (std::abs(value_) + error_) + kLeast; }
-  static Ball rounded(long double value, long double error) {
-    return {value, (error + kUnit * std::abs(value)) * kUp + kLeast};
-  }
-
-  long double value_ = 0, error_ = 0;
-};
-
-using Ball3 = std::array<Ball, 3>;
-
-Ball3 cross(const Ball3& a, const Ball3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Ball inner(const Ball3& a, const Ball3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// ---- bodies
-
-// |q|^2 R(q) by columns, in any arithmetic that the entries of q are given in.
-template <class T>
-std::array<std::array<T, 3>, 3> turned_axes(const T& w, const T& x, const T& y, const T& z) {
-  const T ww = w * w, xx = x * x, yy = y * y, zz = z * z, two = 2.0L;
-  return {{{ww + xx - yy - zz, two * (x * y + w * z), two * (x * z - w * y)},
-           {two * (x * y - w * z), ww - xx + yy - zz, two * (y * z + w * x)},
-           {two * (x * z + w * y), two * (y * z - w * x), ww - xx - yy + zz}}};
-}
-
-// A power of two, so that the largest entry of q is about 1: exact.
-int exponent_of(const RawEllipsoid& body) {
-  double most = 0;
-  for (const double v : body.orientation) most = std::max(most, std::abs(v));
-  const bool finite = std::ranges::all_of(body.centre, [](double v) { return std::isfinite(v); });
-  const bool is_body =
-      std::ranges::all_of(body.semi_axes, [](double v) { return v > 0 && std::isfinite(v); });
-  if (!finite || !is_body || !(most > 0) || !std::isfinite(most)) {
-    throw std::invalid_argument("oracle: not an ellipsoid");
-  }
-  return std::ilogb(most);
-}
-
-template <class T>
-std::array<T, 4> orientation_of(const RawEllipsoid& body) {
-  const int exponent = exponent_of(body);
-  std::array<T, 4> q;
-  for (std::size_t i = 0; i < 4; ++i) {
-    q[i] = std::ldexp(static_cast<long double>(body.orientation[i]), -exponent);
-  }
-  return q;
-}
-
-Shape<long double> guessed_shape(const RawEllipsoid& body) {
-  const auto q = orientation_of<long double>(body);
-  Shape<long double> shape{{body.semi_axes[0], body.semi_axes[1], body.semi_axes[2]},
-                           turned_axes(q[0], q[1], q[2], q[3])};
-  const long double per = 1 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (Long3& axis : shape.axes) axis = ascent::scaled(per, axis);
-  return shape;
-}
-
-// A body with an error bound beside each number.
-class ProvenBody {
- public:
-  explicit ProvenBody(const RawEllipsoid& body) {
-    const auto q = orientation_of<Ball>(body);
-    axes_ = turned_axes(q[0], q[1], q[2], q[3]);
-    norm_ = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-    for (std::size_t k = 0; k < 3; ++k) lengths_[k] = Ball(body.semi_axes[k]);
-    const auto [least, most] = std::ranges::minmax(body.semi_axes);
-    radius_ = Ball(least) * Ball(least) / Ball(most);
-  }
-
-  const Ball& least_radius() const { return radius_; }
-
-  // h(n) for n of any length.
-  Ball support(const Ball3& n) const { return reach(n, nullptr); }
-  // The same, and subtracts x(n) from `w`.
-  Ball support_from(const Ball3& n, Ball3& w) const { return reach(n, &w); }
-
-  // Is x, relative to the centre, inside?
-  bool holds(const Ball3& x) const {
-    Ball sum;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Ball along = inner(axes_[k], x) / (norm_ * lengths_[k]);
-      sum = sum + along * along;
-    }
-    return sum.high() < 1;
-  }
-
- private:
-  Ball reach(const Ball3& n, Ball3* w) const {
-    Ball sum;
-    Ball3 along;
-    for (std::size_t k = 0; k < 3; ++k) {
-      along[k] = lengths_[k] * inner(axes_[k], n) / norm_;
-      sum = sum + along[k] * along[k];
-    }
-    const Ball h = sqrt(sum);
-    if (w == nullptr) return h;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Ball share = along[k] * lengths_[k] / (h * norm_);
-      for (std::size_t i = 0; i < 3; ++i) (*w)[i] = (*w)[i] - share * axes_[k][i];
-    }
-    return h;
-  }
-
-  std::array<Ball3, 3> axes_;  // times norm_
-  Ball norm_;
-  Ball3 lengths_;
-  Ball radius_;
-};
 
 // ---- guesses, in double and in units of the pair's size
 
@@ -232,15 +80,30 @@ Meeting guessed_meeting(const Rows& ma, const Rows& mb, const Vector& d) {
 
 // ---- the proof
 
+// The size of a pair, of its rounded numbers.
+Separation<long double> guessed_pair(const RawEllipsoid& a, const RawEllipsoid& b) {
+  Separation<long double> guess{{}, guessed_shape(a), guessed_shape(b)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    guess.d[i] = static_cast<long double>(b.centre[i]) - static_cast<long double>(a.centre[i]);
+  }
+  return guess;
+}
+
+Ball3 proven(const Long3& v) { return {Ball(v[0]), Ball(v[1]), Ball(v[2])}; }
+
 class Proof {
  public:
-  Proof(const RawEllipsoid& a, const RawEllipsoid& b) : a_(a), b_(b) {
-    guess_ = {{}, guessed_shape(a), guessed_shape(b)};
+  Proof(const RawEllipsoid& a, const RawEllipsoid& b, const ClaimedGap& claimed)
+      : guess_(guessed_pair(a, b)),
+        size_(ascent::extent(guess_)),
+        unit_(std::ilogb(size_)),
+        a_(a, unit_),
+        b_(b, unit_),
+        claimed_(claimed),
+        claimed_gap_(in_unit(claimed.gap, unit_)) {
     for (std::size_t i = 0; i < 3; ++i) {
-      d_[i] = Ball(b.centre[i]) - Ball(a.centre[i]);
-      guess_.d[i] = d_[i].value();
+      d_[i] = in_unit(b.centre[i], unit_) - in_unit(a.centre[i], unit_);
     }
-    size_ = ascent::extent(guess_);
   }
 
   GapBracket bracket() {
@@ -254,56 +117,99 @@ class Proof {
     Long3 n{};
     std::ranges::copy(meeting.normal, n.begin());
     if (!(dot(n, n) > 0) || !std::isfinite(dot(n, n))) n = {1, 0, 0};
-    // Chosen: some roundings of long doubles; as many steps as nearly all pairs take, and few where
-    // (2) will hardly apply.
-    const bool shallow = ascent::value(guess_, ascent::normalised(n)).f +
+    // Chosen: as many steps as nearly all pairs take, and few where (2) will hardly apply.
+    const bool shallow = ascent::value(guess_, ascent::normalised(n)).f / std::ldexp(1.0L, unit_) +
                              a_.least_radius().value() + b_.least_radius().value() >
                          0;
-    n = ascent::ascend(guess_, n, 0x1p-62L * size_, shallow ? 40 : 6).at.n;
+    n = top_from(n, shallow ? 40 : 6);
     GapBracket result = bounds_at(n);
+    if (claimed_.normal && !(result.upper < kInfinity)) improve_by(*claimed_.normal, result);
     if (result.lower > 0) {
       result.relation = Relation::separate;
     } else if ((result.upper < 0 || share(meeting.point)) && protrudes(a_, b_, guess_.a, n, -1) &&
                protrudes(b_, a_, guess_.b, n, 1)) {
       result.relation = Relation::overlap;
     }
+    in_its_unit(result);
     return result;
   }
 
  private:
+  // Where Newton's ascent from n ends, to some roundings of long doubles.
+  Long3 top_from(const Long3& n, int most_steps) const {
+    return ascent::ascend(guess_, n, 0x1p-62L * size_, most_steps).at.n;
+  }
+
   // (1) to (3)
   GapBracket bounds_at(const Long3& n) const {
-    const Ball3 along{Ball(n[0]), Ball(n[1]), Ball(n[2])};
+    const Ball3 along = proven(n);
     Ball3 w = d_;
     const Ball h_a = a_.support_from(along, w), h_b = b_.support_from(along, w);
     const Ball length = sqrt(inner(along, along));
     const Ball f = (inner(along, d_) - h_a - h_b) / length;
     // |n x w| is |n| times the part of w across n, however n is rounded.
     const Ball3 across = cross(along, w);
-    const long double slope = (sqrt(Ball(inner(across, across).high())) / length).high();
-    const long double raised = (f + a_.least_radius() + b_.least_radius()).low();
+    const long double slope = (sqrt(Ball(inner(across, across).most())) / length).most();
+    const long double raised = (f + a_.least_radius() + b_.least_radius()).least();
     GapBracket result{-kInfinity,
                       kInfinity,
                       {},
+                      -kInfinity,
+                      kInfinity,
                       std::numeric_limits<double>::infinity(),
                       static_cast<double>(size_),
                       std::nullopt};
     for (std::size_t i = 0; i < 3; ++i) result.normal[i] = static_cast<double>(n[i]);
-    if (f.low() > -kInfinity) result.lower = f.low();  // not so where it is unknown
+    if (f.least() > -kInfinity) {  // not so where it is unknown
+      result.lower = f.least();
+      result.least_excess = (f - claimed_gap_).least();
+    }
     if (!(raised > 0 && slope < kInfinity)) return result;
     const Ball excess = Ball(slope) * Ball(slope) / (Ball(2) * Ball(raised));
-    if (const long double end = (f + Ball(excess.high())).high(); end < kInfinity) {
-      result.upper = end;
+    const Ball highest = f + Ball(excess.most());
+    if (highest.most() < kInfinity) {
+      bound_above(highest, result);
       result.normal_error = static_cast<double>(2 * slope / raised);
     }
     return result;
   }
 
+  // A claimed normal is a start as good as any; (6) proves what (2) does not reach.
+  void improve_by(const std::array<double, 3>& claimed, GapBracket& result) const {
+    Long3 n{};
+    std::ranges::copy(claimed, n.begin());
+    if (!(dot(n, n) > 0) || !std::isfinite(dot(n, n))) return;
+    // Chosen: a normal that is true to its digits takes one or two.
+    constexpr int kSteps = 12;
+    n = top_from(n, kSteps);
+    const GapBracket there = bounds_at(n);
+    if (there.lower > result.lower) result = there;
+    if (result.upper < kInfinity) return;
+    const Ball3 along = proven(n);
+    const Ball f = inner(along, d_) - a_.support(along) - b_.support(along);
+    if (const auto depth = depth_by_inner_ellipsoid(a_, b_, d_, along, -f)) {
+      bound_above(-*depth, result);
+    }
+  }
+
+  void bound_above(const Ball& gap, GapBracket& result) const {
+    result.upper = gap.most();
+    result.most_excess = (gap - claimed_gap_).most();
+  }
+
+  void in_its_unit(GapBracket& result) const {
+    result.lower = std::ldexp(result.lower, unit_);
+    result.upper = std::ldexp(result.upper, unit_);
+    result.least_excess = std::ldexp(result.least_excess, unit_);
+    result.most_excess = std::ldexp(result.most_excess, unit_);
+  }
+
   // Is the point, relative to A's centre in units of the size, inside both?
   bool share(const Vector& point) const {
+    const long double per = size_ / std::ldexp(1.0L, unit_);
     Ball3 of_a, of_b;
     for (std::size_t i = 0; i < 3; ++i) {
-      of_a[i] = Ball(point[i] * size_);
+      of_a[i] = Ball(point[i] * per);
       of_b[i] = of_a[i] - d_[i];
     }
     return a_.holds(of_a) && b_.holds(of_b);
@@ -313,10 +219,10 @@ class Proof {
   bool protrudes(const ProvenBody& body, const ProvenBody& other, const Shape<long double>& shape,
                  const Long3& n, long double sign) const {
     const auto reaches = [&](const Long3& m) {
-      const Ball3 way{Ball(m[0]), Ball(m[1]), Ball(m[2])};
+      const Ball3 way = proven(m);
       const Ball shift = inner(way, d_);
       const Ball beyond = body.support(way) - other.support(way);
-      return (sign > 0 ? beyond + shift : beyond - shift).low() > 0;
+      return (sign > 0 ? beyond + shift : beyond - shift).least() > 0;
     };
     if (reaches(ascent::scaled(sign, n))) return true;
     for (const Long3& axis : shape.axes) {
@@ -325,16 +231,19 @@ class Proof {
     return false;
   }
 
+  Separation<long double> guess_;
+  long double size_;
+  int unit_;  // of the proof: lengths in units of 2^unit_
   ProvenBody a_, b_;
   Ball3 d_;
-  Separation<long double> guess_;
-  long double size_ = 0;
+  ClaimedGap claimed_;
+  Ball claimed_gap_;
 };
 
 }  // namespace
 
-GapBracket gap_bracket(const RawEllipsoid& a, const RawEllipsoid& b) {
-  return Proof(a, b).bracket();
+GapBracket gap_bracket(const RawEllipsoid& a, const RawEllipsoid& b, const ClaimedGap& claimed) {
+  return Proof(a, b, claimed).bracket();
 }
 
 }  // namespace tangency::inline v0::verify

@@ -5,7 +5,8 @@
 /// relation.hpp and gap.hpp, which are a hundred to ten thousand times slower.
 ///
 /// Newton's ascent in long double (newton_ascent.hpp) finds a normal n, which is a guess. All that
-/// is said of it is evaluated once more with an error bound beside every number. f, h, rho as in
+/// is said of it is evaluated once more in two doubles with an error bound beside every number
+/// (ball.hpp). f, h, rho as in
 /// gap.hpp; r is the gradient of f on the sphere at n, F = f(n) + rho.
 ///
 ///  (1) gap >= f(n), for every n.
@@ -17,6 +18,9 @@
 ///      inside both is known.
 ///  (5) A is not in B, if h_A(m) - h_B(m) > m.d for some m; overlap, if the interiors meet and
 ///      neither is in the other.
+///  (6) deeper pairs: gap <= -t, if a ball of radius t about d lies in an ellipsoid that lies in A
+///  - B
+///      (inner_ellipsoid.hpp).
 ///
 /// Identity: lower <= gap <= upper, and `relation` is that of exact_relation(), for all bodies.
 /// Assumes rounding to nearest.
@@ -32,14 +36,23 @@ namespace tangency::inline v0::verify {
 
 struct GapBracket {
   long double lower, upper;  ///< of the global gap, in the unit of length; infinite where unproven
-  std::array<double, 3> normal;      ///< unit to rounding, from A to B, where `lower` is reached
+  std::array<double, 3> normal;  ///< unit to rounding, from A to B, where `lower` is reached
+  long double least_excess, most_excess;  ///< of gap - claimed gap, to the last bits of either
   double normal_error;               ///< by (3), without the rounding of `normal`; infinite without
   double size;                       ///< L = |d| + both largest semi-axes, rounded
   std::optional<Relation> relation;  ///< separate or overlap, where it is proven
 };
 
+/// What somebody says the gap is. The normal is one more start of an ascent, and with it (6) is
+/// tried; nothing is taken on trust.
+struct ClaimedGap {
+  double gap = 0;
+  std::optional<std::array<double, 3>> normal{};
+};
+
 /// Throws std::invalid_argument unless both are ellipsoids: finite, semi-axes > 0, orientation !=
 /// 0.
-GapBracket gap_bracket(const RawEllipsoid& a, const RawEllipsoid& b);
+GapBracket gap_bracket(const RawEllipsoid& a, const RawEllipsoid& b,
+                       const ClaimedGap& claimed = {});
 
 }  // namespace tangency::inline v0::verify

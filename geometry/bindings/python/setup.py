@@ -9,12 +9,21 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
-from wheel.bdist_wheel import bdist_wheel
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel
+except ImportError:  # setuptools before 70.1
+    try:
+        from wheel.bdist_wheel import bdist_wheel
+    except ImportError:
+        raise SystemExit(f"{sys.executable} has neither the package wheel nor setuptools 70.1 or newer: install one "
+                         "of them (on Debian: python3-wheel, and call /usr/bin/python3)") from None
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRATCH = tempfile.TemporaryDirectory(prefix="tangency-wheel-")

@@ -74,6 +74,22 @@ class FormsOfInput(unittest.TestCase):
 
         self.check(Frame({"a." + name: self.a[:, k] for k, name in enumerate(NAMES)}), self.b)
 
+    def test_a_row_of_a_structured_array_is_read_by_its_names(self):
+        table = np.zeros(2, [("id", "i4"), *((name, "f8") for name in reversed(NAMES))])
+        for k, name in enumerate(NAMES):
+            table[name] = self.a[:2, k]
+        self.assertEqual(tangency.contact(table[0], table[1]).gap, tangency.contact(self.a[0], self.a[1]).gap)
+        many = tangency.contacts(table[0], self.b)
+        self.assertTrue(same(many, tangency.contacts(self.a[0], self.b)))
+        with self.assertRaisesRegex(tangency.TangencyError, "^b: there is no column x or b.x$"):
+            tangency.contact(table[0], table[["y", "z"]][1])
+
+    def test_empty_lists_are_no_rows(self):
+        for a, b in (([], []), (self.a[:1], []), ([], self.b[:1])):
+            self.assertEqual(len(tangency.contacts(a, b)), 0)
+        for none in (tangency.Bodies([]), tangency.neighbours([]), tangency.points([], [])):
+            self.assertEqual(len(none), 0)
+
     def test_bodies_without_a_quaternion_are_not_turned(self):
         rows = drawn(5, 3)
         rows[:, 6:] = [1, 0, 0, 0]
@@ -282,6 +298,11 @@ class Errors(Refusals):
         self.refused("up_to = -1: must be >= 0", None, tangency.contacts, rows, rows, up_to=-1.0)
         self.refused("separations: row 2: z = nan: must be finite", 2, tangency.contacts, rows, rows,
                      separations=[[1, 1, 1], [1, 1, 1], [1, 1, np.nan], [1, 1, 1]])
+        self.refused("a: row 2: 9 numbers: must be 10, as many as of row 0", 2, tangency.contacts,
+                     [BALL, BALL, BALL[:9]], rows[:3])
+        self.refused("b: row 1: 1 numbers: must be 10, as many as of row 0", 1, tangency.relations, rows[:2], (BALL, 7))
+        for ask in (tangency.contacts, tangency.relations):
+            self.refused("columns = 'gap': must be a list of names, as ['gap']", None, ask, rows, rows, columns="gap")
         broken = np.zeros(2, [(name, "f8") for name in NAMES if name != "r3"])
         self.refused("a: there is no column r3", None, tangency.contacts, broken, rows[:2])
 

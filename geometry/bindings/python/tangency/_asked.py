@@ -44,13 +44,22 @@ def accuracy_pointer(accuracy: str | float, up_to: float | None = None) -> tuple
     return ctypes.addressof(struct), struct
 
 
+def names_of(columns: Iterable[str] | None) -> tuple[str, ...] | None:
+    """Names that may be read more than once. A single text is refused: it would be taken for its letters."""
+    if isinstance(columns, str):
+        raise TangencyError(f"columns = {columns!r}: must be a list of names, as [{columns!r}]")
+    return None if columns is None else tuple(columns)
+
+
 def columns_for(kind: type[Answer], count: int, columns: Iterable[str] | None, out: Answer | None = None) -> Answer:
     """The columns that are asked for: those named, all that take no longer, or those of an earlier answer."""
     if out is not None:
         _require_writable(kind, count, columns, out)
         return out
     known = [column.name for column in kind.fields]
-    wanted = tuple(name for name in known if name not in ON_DEMAND) if columns is None else tuple(columns)
+    wanted = names_of(columns)
+    if wanted is None:
+        wanted = tuple(name for name in known if name not in ON_DEMAND)
     for name in wanted:
         if name not in known:
             raise TangencyError(f"columns: {name!r}: must be of {' '.join(known)}")

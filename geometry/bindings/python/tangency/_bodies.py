@@ -39,6 +39,7 @@ def rows_of(given: Any, names: tuple[str, ...], argument: str) -> NDArray[Any]:
     Arrays of (N, width) and structured arrays whose columns are neighbours are not copied, whatever
     their stride; data frames and other structured arrays are.
     """
+    given = table_of_row(given)
     columns = _column_names(given)
     if columns is not None:
         return _rows_of_columns(given, columns, names, argument)
@@ -47,14 +48,30 @@ def rows_of(given: Any, names: tuple[str, ...], argument: str) -> NDArray[Any]:
     array = plain(given, argument)
     if array.dtype not in (np.float64, np.float32):
         array = array.astype(np.float64)
-    if array.ndim == 1 and array.size == len(names):
-        array = array[np.newaxis]
+    array = _as_rows(array, len(names))
     if array.ndim != 2 or array.shape[1] != len(names):
         raise TangencyError(f"{argument}: shape {array.shape}: must be (N, {len(names)}), the columns "
                             + " ".join(names))
     if array.shape[0] and array.strides[1] != array.itemsize or not array.flags.aligned:
         array = np.ascontiguousarray(array)
     return array
+
+
+def _as_rows(array: NDArray[Any], width: int) -> NDArray[Any]:
+    """One row as an array of rows, and an empty list as one of none."""
+    if array.ndim == 1 and array.size in (0, width):
+        return array.reshape(-1, width)
+    return array
+
+
+def table_of_row(given: Any) -> Any:
+    """A row of a structured array or of a data frame as a table of one row: its columns may stand in any order."""
+    if isinstance(given, np.void) and given.dtype.names is not None:
+        return np.asarray(given).reshape(1)
+    to_frame = getattr(given, "to_frame", None)
+    if callable(to_frame) and all(isinstance(name, str) for name in given.index):
+        return to_frame().T
+    return given
 
 
 def _column_names(given: Any) -> list[str] | None:
@@ -72,7 +89,8 @@ def _rows_of_columns(given: Any, columns: list[str], names: tuple[str, ...], arg
     missing = [name for name in wanted if name not in columns
                and not (name[len(prefix):] in _IDENTITY and not turned)]
     if missing:
-        raise TangencyError(f"{argument}: there is no column {missing[0]}")
+        either = f"{names[0]} or " if missing[0] == f"{argument}.{names[0]}" else ""
+        raise TangencyError(f"{argument}: there is no column {either}{missing[0]}")
     if isinstance(given, np.ndarray) and not isinstance(given, np.ma.MaskedArray) and given.ndim == 1:
         view = _view_of_neighbours(given, wanted)
         if view is not None:
@@ -222,8 +240,7 @@ class Ellipses(_Rows):
 def float_rows(given: ArrayLike, width: int, count: int | None, argument: str) -> NDArray[np.float64]:
     """Rows of float64 side by side, `count` of them."""
     array = np.ascontiguousarray(plain(given, argument), np.float64)
-    if array.ndim == 1 and array.size == width:
-        array = array[np.newaxis]
+    array = _as_rows(array, width)
     if array.ndim != 2 or array.shape[1] != width or (count is not None and len(array) != count):
         rows = "N" if count is None else str(count)
         raise TangencyError(f"{argument}: shape {array.shape}: must be ({rows}, {width})")

@@ -59,12 +59,22 @@ def member(kind: type[Enumeration], value: Any, name: str) -> Enumeration:
     raise TangencyError(f"{name} = {value!r}: must be of {names}")
 
 
+def _ragged(given: Any, argument: str, error: ValueError) -> TangencyError:
+    """Which row of a list has another length than the first."""
+    lengths = [len(row) if hasattr(row, "__len__") else 1 for row in given] if isinstance(given, (list, tuple)) else []
+    for row, length in enumerate(lengths):
+        if length != lengths[0]:
+            return TangencyError(f"{argument}: row {row}: {length} numbers: must be {lengths[0]}, as many as of row 0",
+                                 row)
+    return TangencyError(f"{argument}: {error}")
+
+
 def plain(given: Any, argument: str, kinds: str = "fiub", rule: str = "real numbers") -> NDArray[Any]:
     """An array of numbers of some kinds of NumPy type. Entries that are masked are refused."""
     try:
         array = np.asarray(given)
     except ValueError as error:  # lists of unequal lengths
-        raise TangencyError(f"{argument}: {error}") from error
+        raise _ragged(given, argument, error) from error
     if array.size and array.dtype.kind not in kinds:
         raise TangencyError(f"{argument}: numbers of type {array.dtype}: must be {rule}")
     if isinstance(given, np.ma.MaskedArray):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tangency._asked import ON_DEMAND, Answer, Asked, accuracy_pointer, ask, columns_for, data_of
+from tangency._asked import ON_DEMAND, Answer, Asked, accuracy_pointer, ask, columns_for, data_of, names_of
 from tangency._bodies import NAMES, Bodies, float_rows, pair_rows, rows_of
 from tangency._checks import TangencyError, integer, member, plain, real
 from tangency._library import call, functions
@@ -75,7 +75,7 @@ def contacts(a: Any, b: Any = None, pairs: ArrayLike | None = None, *, separatio
     >>> found.gap
     array([1.])
     """
-    columns = None if columns is None else tuple(columns)  # read more than once
+    columns = names_of(columns)
     fast = _contacts_of_rows(a, b, accuracy_pointer(accuracy, up_to), columns, threads, out) if (
         pairs is None and separations is None and previous_normals is None and b is not None
         and not isinstance(a, Bodies)) else None

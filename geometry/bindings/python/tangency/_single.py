@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tangency._bodies import NAMES, rows_of, table_of_row
 from tangency._checks import TangencyError, plain
 from tangency._library import failed, functions
-from tangency._table import FUNCTIONS, ContactColumnsStruct, GapTier, Status
+from tangency._table import FUNCTIONS, ContactColumnsStruct, Form, GapTier, Status
 
 
 @dataclass
@@ -77,7 +78,8 @@ def contact(a: ArrayLike, b: ArrayLike) -> Contact:
     Parameters
     ----------
     a, b : array_like, shape (10,)
-        ``x y z r1 r2 r3 qw qx qy qz`` as of `contacts`, whose answer this is to the bit.
+        ``x y z r1 r2 r3 qw qx qy qz`` as of `contacts`, whose answer this is to the bit; or a row of a structured
+        array or of a data frame with these columns.
 
     Raises
     ------
@@ -109,6 +111,10 @@ def _take(row: NDArray[np.float64], given: Any, argument: str) -> None:
             return
         except OverflowError:  # an int, which plain() refuses
             pass
+    table = given if type(given) is np.ndarray else table_of_row(given)
+    if table is not given:
+        row[:] = rows_of(table, NAMES[Form.axes], argument)[0]
+        return
     array = plain(given, argument)
     if array.shape != (10,):  # a single number would be taken for all ten
         raise TangencyError(f"{argument}: shape {array.shape}: must be (10,), the numbers x y z r1 r2 r3 qw qx qy qz")
