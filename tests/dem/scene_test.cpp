@@ -269,9 +269,10 @@ TEST(Scene, ThatIsNoTomlIsRefusedWithItsLine) {
 }
 
 TEST(Scene, PassesItsOwnTableOfKeys) {
-  for (const char* name : {"assembly-27", "assembly-125", "assembly-1000", "plane-1000", "impact",
-                           "slope", "settle-1000", "packing-1000", "isotropic-packing",
-                           "triaxial-drained", "triaxial-undrained", "oedometer", "simple-shear"})
+  for (const char* name :
+       {"assembly-27", "assembly-125", "assembly-1000", "plane-1000", "impact", "slope",
+        "settle-1000", "packing-1000", "isotropic-packing", "triaxial-drained",
+        "triaxial-undrained", "oedometer", "simple-shear", "plane-shear"})
     EXPECT_NO_THROW(load_scene(std::string(TANGENCY_SCENES) + "/" + name + ".toml")) << name;
 }
 
