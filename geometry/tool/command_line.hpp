@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,6 +41,8 @@ struct RowCommand {
   std::function<void(tables::Command&, Options&)> describe{};
   /// What it does, once the options are known.
   std::function<tables::RowTask(const Options&)> task;
+  /// What it does in place of that, where an option asks for it: the exit status, else nothing.
+  std::function<std::optional<int>(const Options&)> instead{};
 };
 
 /// The one way in which they are registered.
@@ -52,7 +55,9 @@ void add_row_command(tables::Program& program, const RowCommand<Options>& row_co
   add_mixed_terms_option(command, *options);
   add_row_stream_options(command, *options);
   command.footer(row_command.help);
-  command.runs([options, task = row_command.task] {
+  command.runs([options, task = row_command.task, instead = row_command.instead]() -> int {
+    if (const std::optional<int> status = instead ? instead(*options) : std::nullopt)
+      return *status;
     return tables::run_row_stream(task(*options), *options);
   });
 }

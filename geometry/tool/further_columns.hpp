@@ -108,9 +108,9 @@ std::string further_columns_help(std::span<const ColumnGroup<Row>> groups) {
 
 /// Adds --columns NAME,...
 template <class Row>
-void add_columns_option(tables::Command& command, std::string& columns,
-                        std::span<const ColumnGroup<Row>> groups) {
-  command
+tables::Option add_columns_option(tables::Command& command, std::string& columns,
+                                  std::span<const ColumnGroup<Row>> groups) {
+  return command
       .option("--columns", columns,
               "Add these columns at the end of each row; their names are below")
       .check([groups](const std::string& names) {

@@ -4,6 +4,9 @@
 const STEPS = 96;  // points of a curve; chosen: no corner is seen at 1,000 pixels
 const COLOURS = { a: "38,104,170", b: "196,92,24" };
 
+/** A turn of the screen's frame that follows the hand: a radian for 150 pixels. */
+const handTurn = (dx, dy) => turnAbout([dy, dx, 0], Math.hypot(dx, dy) / 150);
+
 /** Where one looks from: a turn of space into the frame of the screen (x right, y up, z towards the eye). */
 class Camera {
   constructor() { Object.assign(this, { turn: normalised([0.82, 0.42, 0.34, 0.1]), centre: [0, 0, 0], scale: 1 }); }
@@ -18,6 +21,10 @@ class Camera {
     this.centre = [a.x + d[0] * along, a.y + d[1] * along, a.z + d[2] * along];
     this.scale = 0.45 * Math.min(width, height) / ((to - from) / 2);
   }
+
+  /** Turns with the hand. */
+  follow(dx, dy) { this.turn = normalised(product(handTurn(dx, dy), this.turn)); }
+  zoom(factor) { this.scale *= Math.min(Math.max(factor, 0.5), 2); }
 
   get matrix() { return matrixOf(this.turn); }
 }
@@ -55,7 +62,7 @@ class Drawing {
   get size() { return [this.canvas.clientWidth, this.canvas.clientHeight]; }
   get projection() { return new Projection(this.camera, ...this.size); }
 
-  /** @param show {spheres, selected, answer} */
+  /** @param show {spheres, selected, answer}; a body that is selected has handles */
   draw(pair, show) {
     const [width, height] = this.size, sharp = window.devicePixelRatio || 1;
     this.canvas.width = width * sharp, this.canvas.height = height * sharp;
@@ -66,7 +73,7 @@ class Drawing {
     const names = ["a", "b"].sort((p, q) => this.depth(pair[p]) - this.depth(pair[q]));
     for (const name of names) this.body(pair[name], name, name === show.selected);
     if (show.spheres) for (const name of names) this.sphere(pair[name], name);
-    this.handles(pair[show.selected], show.selected);
+    if (show.selected) this.handles(pair[show.selected], show.selected);
     const gap = show.answer?.gaps?.["common-normal"];
     if (gap && gap.gap !== null) this.contact(gap);
   }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernel in the page: a module of WebAssembly, asked one pair at a time.
 
-/** The columns of a body, as in the tables of `tangency contact`. */
-const BODY_COLUMNS = ["x", "y", "z", "r1", "r2", "r3", "qw", "qx", "qy", "qz"];
-
 /** A file that make_page.py has compressed and written as base64. */
 async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));

@@ -1,22 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The playground: what a hand does to the pair, and what the kernel says of it.
 
-const SAYS = {
-  separate: "The bodies are apart: no common point.",
-  external_touch: "The bodies touch from outside: common points, but no common inner point.",
-  overlap: "The bodies overlap.",
-  internal_touch: "One body is inside the other, and the surfaces meet.",
-  a_in_b: "A is inside B, and the surfaces do not meet.",
-  b_in_a: "B is inside A, and the surfaces do not meet.",
-  equal: "The two are the same set of points.",
-};
-const MEANS = {
-  "common-normal": "distance, or minus the length of the shortest way out",
-  "perram-wertheim": "distance of the tangent planes at the point of equal potentials",
-  "midpoint-potential": "along the line through the point of equal potentials",
-  trace: "published scheme of curves; only where the bodies overlap",
-  spheres: "distance of the least spheres about the centres",
-};
 const START = {
   "Needle and disc": [0, 0, 0, 2, 0.5, 0.5, 0.9, 0.1, 0.3, 0.2, 1.9, 0.4, 0.9, 1.2, 1.2, 0.3, 0.8, 0.4, -0.3, 0.1],
   "Apart, but their spheres overlap": [0, 0, 0, 2, 0.5, 0.5, 1, 0, 0, 0, 0, 1.5, 0.2, 2, 0.6, 0.5, 1, 0, 0, 0.15],
@@ -149,11 +133,8 @@ function grasp([x, y]) {
   return { what: state.mode };
 }
 
-/** A turn of the screen's frame that follows the hand: a radian for 150 pixels. */
-const handTurn = (dx, dy) => turnAbout([dy, dx, 0], Math.hypot(dx, dy) / 150);
-
 const ACTIONS = {
-  view: (dx, dy) => (drawing.camera.turn = normalised(product(handTurn(dx, dy), drawing.camera.turn))),
+  view: (dx, dy) => drawing.camera.follow(dx, dy),
   move(dx, dy) {
     const body = state.pair[state.selected], { scale, matrix } = drawing.camera;
     const way = timesTransposed(matrix, [dx / scale, -dy / scale, 0]);
@@ -175,7 +156,7 @@ const ACTIONS = {
   },
 };
 
-function zoom(factor) { drawing.camera.scale *= Math.min(Math.max(factor, 0.5), 2); }
+const zoom = (factor) => drawing.camera.zoom(factor);
 
 function moved(event) {
   const before = pointers.get(event.pointerId);

@@ -1,6 +1,25 @@
 // SPDX-License-Identifier: MIT
-// A pair of bodies as numbers, link, table and code. A body is {x, y, z, r1, r2, r3, qw, qx, qy, qz}.
+// A pair of bodies as numbers, link, table and code, and words for what is said of it. A body is {x, y, z, r1, r2, r3, qw, qx, qy, qz}.
 
+/** The columns of a body, as in the tables of `tangency contact`. */
+const BODY_COLUMNS = ["x", "y", "z", "r1", "r2", "r3", "qw", "qx", "qy", "qz"];
+
+const SAYS = {
+  separate: "The bodies are apart: no common point.",
+  external_touch: "The bodies touch from outside: common points, but no common inner point.",
+  overlap: "The bodies overlap.",
+  internal_touch: "One body is inside the other, and the surfaces meet.",
+  a_in_b: "A is inside B, and the surfaces do not meet.",
+  b_in_a: "B is inside A, and the surfaces do not meet.",
+  equal: "The two are the same set of points.",
+};
+const MEANS = {
+  "common-normal": "distance, or minus the length of the shortest way out",
+  "perram-wertheim": "distance of the tangent planes at the point of equal potentials",
+  "midpoint-potential": "along the line through the point of equal potentials",
+  trace: "published scheme of curves; only where the bodies overlap",
+  spheres: "distance of the least spheres about the centres",
+};
 const numbersOf = (body) => BODY_COLUMNS.map((name) => body[name]);
 const pairNumbers = (pair) => [...numbersOf(pair.a), ...numbersOf(pair.b)];
 const bodyOf = (numbers) => Object.fromEntries(BODY_COLUMNS.map((name, k) => [name, numbers[k]]));
