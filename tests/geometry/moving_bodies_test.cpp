@@ -286,7 +286,7 @@ TEST(MovingBodies, HaveTheRowsThatEachBodyHasByItself) {
   Moving m(testing::contacts(verify::contact_classes()[1], 101));
   std::vector<Vec3> centres;
   for (std::size_t i = 0; i < m.semi_axes.size(); ++i) {
-    if (i % 7 == 0) m.semi_axes[i][i % 3] *= 0x1p-6;
+    if (i % 7 == 0) m.semi_axes[i][static_cast<Eigen::Index>(i % 3)] *= 0x1p-6;
     if (i % 11 == 0) m.semi_axes[i] *= i % 2 == 0 ? 0x1p70 : 0x1p-70;
     centres.emplace_back(0.5, -static_cast<double>(i), 1.0);
   }
