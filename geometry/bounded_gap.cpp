@@ -13,6 +13,7 @@
 #include <tangency/geometry/normals/perram_wertheim.hpp>
 #include <tangency/geometry/numbers/contract.hpp>
 #include <tangency/geometry/numbers/floating_point_environment.hpp>
+#include <tangency/geometry/power_of_two.hpp>
 #include <tangency/geometry/relation.hpp>
 
 namespace tangency::inline v0 {
@@ -58,9 +59,11 @@ Vec3 first_normal(const Pair& pair) {
   if (!(reach > 0.0)) return pair.a.rotation().col(0);
   if (pair.a.moderate() && pair.b.moderate() && reach >= detail::kSmallestModerate) {
     const detail::PerramWertheimForm form(pair.a, pair.b, pair.d);
-    const Vec3 normal =
-        form.normal_direction(form.maximise(detail::kPerramWertheimSteps)).normalized();
-    if (normal.allFinite()) return normal;
+    const Vec3 along = form.normal_direction(form.maximise(detail::kPerramWertheimSteps));
+    const double largest = along.cwiseAbs().maxCoeff();
+    // Of flat and long bodies its square, or all of it, may underflow.
+    if (largest > 0.0 && along.allFinite())
+      return scaled_by_power(along, -exponent_of(largest)).normalized();
   }
   return (pair.d / reach).normalized();
 }

@@ -147,6 +147,30 @@ TEST(BoundedGap, OfFlatBodiesApartIsNotTheFalseMaximumBelowZero) {
   }
 }
 
+// The direction to begin with underflows: two discs, rim to rim, 2^28 to 2^45 times as wide as
+// thick.
+TEST(BoundedGap, EnclosesTheGapOfDiscsRimToRim) {
+  const Quaternion turn(0x1.3333333333333p+0, -0x1.199999999999ap+1, 0x1.13404ea4a8c15p-9, 0.25);
+  const Vec3 d(-0x1.9ea1a1c29c60ep-3, -0x1.ba5671dc9f52ep-2, -0x1.3bf494395921fp-1);
+  for (int thin_a = 28; thin_a <= 45; ++thin_a) {
+    for (int thin_b = 28; thin_b <= thin_a; ++thin_b) {
+      SCOPED_TRACE(::testing::Message() << thin_a << ' ' << thin_b);
+      const double r = 0x1.8f5c28f5c28f6p-2;
+      const Ellipsoid a({0, 0, 0}, {r, r, std::ldexp(r, -thin_a)}, turn);
+      const Ellipsoid b(d, {r, r, std::ldexp(r, -thin_b)}, turn);
+      expect_enclosed(bounded_gap(a, b), signed_gap(a, b), 0);
+    }
+  }
+}
+
+// There it is a subnormal number.
+TEST(BoundedGap, EnclosesTheGapOfTwoFlatNeedles) {
+  const Ellipsoid a({0, 0, 0}, {0x1.469727f37aa51p-15, 0x1.e4ca53f619e2dp-20, 0x1.1455aebc0edbp-5});
+  const Ellipsoid b({0x1.3c7a9ffc9bfc7p-8, 0x1.e1191c5b2b209p-12, -0x1.4e096cdda36e4p-5},
+                    {0x1.df292e22919cdp-18, 0x1.63a1ff83b8f05p-22, 0x1.956d74b81bc53p-8});
+  expect_enclosed(bounded_gap(a, b), signed_gap(a, b), 0);
+}
+
 // geometry/bounded_gap.hpp (3)
 RC_GTEST_PROP(BoundedGapProperty, EnclosuresOfOneGapMeet, ()) {
   const testing::Pair p = *testing::pair_at(20, testing::uniform(0, 1.5));
