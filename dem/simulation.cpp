@@ -185,11 +185,13 @@ void Simulation::next_stage() {
   assert(!finished());
   ++state_.stage;
   state_.stage_cycle = 0;
-  begin_servos();
+  state_.ramp_start.clear();
   state_.fire = {};
   state_.increments = 0;
   prepare_stage();
   sort_in_space();
+  begin_servos();  // once sorted, as a resumed run adds up its stresses
+  renew_loading();
 }
 
 /// At the start of a stage: what its servos remember, and where its ramp begins.
