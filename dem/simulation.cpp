@@ -77,15 +77,15 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
   }
   const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
   if (state_.stage_cycle == 0) begin_servos();  // a stage added after the last
+  if (!finished() && state_.servos.size() != servos)
+    throw std::invalid_argument("a state of a stage that holds " +
+                                std::to_string(state_.servos.size()) +
+                                " stresses; the scene's stage holds " + std::to_string(servos));
   if (!finished() && state_.ramp_start.size() != (stage().drive->ramp ? servos : 0))
     throw std::invalid_argument(stage().drive->ramp
                                     ? "a state on no ramp; the scene's stage has one"
                                     : "a state on a ramp; the scene's stage has none");
   prepare_stage();
-  if (!finished() && state_.servos.size() != servos)
-    throw std::invalid_argument("a state of a stage that holds " +
-                                std::to_string(state_.servos.size()) +
-                                " stresses; the scene's stage holds " + std::to_string(servos));
 }
 
 const Stage& Simulation::stage() const {
