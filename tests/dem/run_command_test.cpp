@@ -63,8 +63,8 @@ TEST(RunCommand, RefusesAWrongType) {
 TEST(RunCommand, RefusesAnUnknownKey) {
   EXPECT_EQ(refused_change("frame_interval", "frames"),
             ":21: output.frames: no such key; allowed are history_interval, frame_interval, "
-            "contact_frames, contact_interval, micro_interval, partition, classes, "
-            "checkpoint_interval, checkpoint_seconds");
+            "history_strain, frame_strain, contact_frames, contact_interval, micro_interval, "
+            "partition, classes, checkpoint_interval, checkpoint_seconds");
 }
 
 TEST(RunCommand, RefusesAMissingKey) {
