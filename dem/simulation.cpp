@@ -77,15 +77,15 @@ Simulation::Simulation(const Scene& scene, State state) : scene_(scene), state_(
   }
   const std::size_t servos = finished() ? 0 : stage().drive->loading.targets.size();
   if (state_.stage_cycle == 0) begin_servos();  // a stage added after the last
+  if (!finished() && state_.servos.size() != servos)
+    throw std::invalid_argument("a state of a stage that holds " +
+                                std::to_string(state_.servos.size()) +
+                                " stresses; the scene's stage holds " + std::to_string(servos));
   if (!finished() && state_.ramp_start.size() != (stage().drive->ramp ? servos : 0))
     throw std::invalid_argument(stage().drive->ramp
                                     ? "a state on no ramp; the scene's stage has one"
                                     : "a state on a ramp; the scene's stage has none");
   prepare_stage();
-  if (!finished() && state_.servos.size() != servos)
-    throw std::invalid_argument("a state of a stage that holds " +
-                                std::to_string(state_.servos.size()) +
-                                " stresses; the scene's stage holds " + std::to_string(servos));
 }
 
 const Stage& Simulation::stage() const {
@@ -185,11 +185,13 @@ void Simulation::next_stage() {
   assert(!finished());
   ++state_.stage;
   state_.stage_cycle = 0;
-  begin_servos();
+  state_.ramp_start.clear();
   state_.fire = {};
   state_.increments = 0;
   prepare_stage();
   sort_in_space();
+  begin_servos();  // once sorted, as a resumed run adds up its stresses
+  renew_loading();
 }
 
 /// At the start of a stage: what its servos remember, and where its ramp begins.

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <tangency/dem/scene/scene_keys.hpp>
@@ -79,6 +80,14 @@ void change_files(toml::table& root, const Change& change) {
       file->get() = change(fs::path(file->get())).string();
 }
 
+/// A file's one name, without links and dots. Where it has none the file cannot be read, and stays
+/// as it is called.
+fs::path place_of(const fs::path& file) {
+  std::error_code fault;
+  const fs::path place = fs::weakly_canonical(file, fault);
+  return fault ? file : place;
+}
+
 /// The tree of a file and of all that it includes.
 class Including {
  public:
@@ -96,14 +105,14 @@ class Including {
     if (node->is_string()) files.push_back(node->ref<std::string>());
     if (node->is_array())
       for (const toml::node& one : *node->as_array()) files.push_back(one.ref<std::string>());
-    open_.push_back(fs::weakly_canonical(name));
+    open_.push_back(place_of(name));
     toml::table all;
     for (const std::string& file : files) {
       const fs::path path = fs::path(name).parent_path() / file;
-      if (std::find(open_.begin(), open_.end(), fs::weakly_canonical(path)) != open_.end())
+      if (std::find(open_.begin(), open_.end(), place_of(path)) != open_.end())
         refuse("a file that does not lead back to this one");
       // Taken once, the first time: over two ways its stages would stand there twice.
-      if (!taken_.insert(fs::weakly_canonical(path)).second) continue;
+      if (!taken_.insert(place_of(path)).second) continue;
       if (taken_.size() > kMostIncluded)
         refuse("at most " + std::to_string(kMostIncluded) + " files in all");
       toml::table next = tree_from(path, refuse);

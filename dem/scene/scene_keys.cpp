@@ -63,9 +63,10 @@ constexpr std::array kKeys{
         "What the scene's lengths are in. This table names units for pages and summary.json, and "
         "changes no number: the run has those of the scene"},
     Key{"units", "stress", text, "-", "", kNoRange, "Pa kPa MPa GPa", "",
-        "And stresses: forces are then in stress times length^2, masses in stress times length "
+        "What its stresses are in: forces are then in stress times length^2, masses in stress "
+        "times length "
         "times time^2 (mm, kPa and s: mN and kg)"},
-    Key{"units", "time", text, "-", "s", kNoRange, "us ms s", "", "And times"},
+    Key{"units", "time", text, "-", "s", kNoRange, "us ms s", "", "What its times are in"},
 
     Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
@@ -297,9 +298,10 @@ constexpr std::array kKeys{
         "linearly over so many cycles, from what they are where it begins; friction from that of "
         "the stage before. The stage does not end on the way"},
     Key{"stage", "ramp_time", real, "s", "(at once)", kPositive, "", kRampedKinds,
-        "The same over a time"},
+        "As ramp_cycles, over a time"},
     Key{"stage", "ramp_strain", real, "-", "(at once)", above_to(0.0, 30.0), "", "shear servo",
-        "The same over a strain: of a shear the axial one, of a servo the time in it times the "
+        "As ramp_cycles, over a strain: of a shear the axial one, of a servo the time in it times "
+        "the "
         "largest of its given rates, which in a simple shear is the shear strain"},
     Key{"stage", "stress_tolerance", real, "-", "0.002", above_to(0.0, 0.1), "", kIsotropicKinds,
         "The stage ends with the mean stress this close to the wanted, relatively"},
@@ -319,7 +321,7 @@ constexpr std::array kKeys{
         "the axial strain, of a servo the time in it times the largest of its given rates, which "
         "in a simple shear is the shear strain"},
     Key{"output", "frame_strain", real, "-", "(by cycles)", above_to(0.0, 3.0), "", "",
-        "The same between two frames"},
+        "As history_strain, between two frames"},
     Key{"output", "contact_frames", boolean, "-", "false", kNoRange, "", "",
         "With each frame its contacts: contacts.pvd (points) and chains.pvd (lines between "
         "centres) for ParaView, frames/CYCLE.bonds for OVITO"},

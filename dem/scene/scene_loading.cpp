@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <tangency/geometry/tables/number_text.hpp>
+
 namespace tangency::inline v0::dem {
 namespace {
 
@@ -117,7 +119,8 @@ void read_inertial_number(const Section& section, const Scene& scene, Drive& dri
     if (before->drive) stress = scene.held_stress(*before);
   if (stress == 0.0)
     section.fail("inertial_number", "with a stress that this stage or one before it holds");
-  drive.loading.strain_rate *= *drive.inertial_number / (most * scene.inertial_time(stress));
+  drive.loading.strain_rate /= most;  // first: a product may have no place
+  drive.loading.strain_rate *= *drive.inertial_number / scene.inertial_time(stress);
 }
 
 /// One stress to come to: its mean, or each normal component. Of a relax without it: none.
@@ -171,7 +174,7 @@ void read_ramp(const Section& section, const Scene& scene, Drive& drive) {
     const double length =
         over == Ramp::Over::cycles ? static_cast<double>(section.integer(key)) : section.real(key);
     if (length > most * (1.0 + kRounding))
-      section.fail(key, "at most " + short_text(most) + ", where the stage ends");
+      section.fail(key, "at most " + tables::to_text(most) + ", where the stage ends");
     drive.ramp = {over, length};
   }
 }

@@ -23,6 +23,8 @@ constexpr double kLeft = 62, kRight = 62, kTop = 34, kBottom = 44;
 constexpr double kLegendLine = 16, kSample = 22, kLetter = 6.6;
 /// Of the largest value across, the least that is spanned. Chosen: a servo holds a stress to 1e-2.
 constexpr double kLeastSpan = 0.04;
+/// The same upwards. Chosen: below it is rounding, and ticks could not be told apart.
+constexpr double kLeastSpanUp = 1e-9;
 /// Ticks of an axis, at most about as many as this.
 constexpr double kTicksAcross = 5, kTicksUp = 6;
 /// Pieces that a long curve is thinned to, its lowest and highest value of each kept.
@@ -67,7 +69,7 @@ class Axis {
   }
   /// Leaves room at both ends, a share of the whole.
   /// @param least  of the largest value, what is spanned: what is held shows as held
-  void pad(double share, double least = 0.0) {
+  void pad(double share, double least) {
     if (!(low_ <= high_)) low_ = 0.0, high_ = 1.0;
     const double lacking = 0.5 * (least * largest() - span());
     const double room =
@@ -125,8 +127,8 @@ struct Axes {
         (curve.on_the_right ? y_right : y).widen(curve.y[k]);
       }
     x.pad(0.0, kLeastSpan);
-    y.pad(0.04);
-    y_right.pad(0.04);
+    y.pad(0.04, kLeastSpanUp);
+    y_right.pad(0.04, kLeastSpanUp);
   }
 };
 

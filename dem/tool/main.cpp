@@ -54,9 +54,10 @@ micro.csv.
 
 constexpr const char* kRunHelp = R"(
 DIR receives:
-  history.csv        a row every history_interval cycles and at the end of each stage, where a
-                     stage that ends at once has strains of 0; first one of the start, or of the
-                     state itself where a run that is over is resumed in another DIR
+  history.csv        a row every history_interval cycles, or history_strain, and at the end of each
+                     stage, where a stage that ends at once has strains of 0; first one of the
+                     start, or of the state itself where a run that is over is resumed in another
+                     DIR
   summary.json       of a complete run: the values of its last row, and the keys below
   final.state        of a complete run: where another scene of the same particles goes on; a
                      second name of checkpoint.state where the file system has hard links
@@ -85,8 +86,9 @@ DIR receives:
                        the peak friction angle, as below; D where the volume begins to stay
                        constant: after C it changes by less than 0.02 per axial strain within
                        0.05, else the last row. B, C and D are rows of history.csv, so that
-                       history_interval bounds how well they are known. At the stage's end its
-                       cycles up to the last of them are run once more, which takes their time;
+                       history_interval, or history_strain, bounds how well they are known. At the
+                       stage's end its cycles up to the last of them are run once more, which takes
+                       their time;
                        a stage that does not reach its end has A alone
 
 Columns of history.csv. Compression is positive in stress and axial strain; strains are

@@ -132,7 +132,9 @@ std::string summary_table(const SummaryLines& summary) {
 }
 
 /// What numbers are in.
-std::string units_line(const Units& units) {
+std::string units_line(const ReportedRun& run) {
+  const Units& units = run.units();
+  if (!run.summary()) return " Units are named once it is complete, where the scene names them.";
   if (units.length.empty())
     return " The scene names no units (<code>[units]</code>): numbers are in its own, any "
            "consistent set.";
@@ -148,8 +150,8 @@ std::string page_of(const ReportedRun& run, const fs::path& directory) {
   page.append(view_style()) += "</style></head><body>\n";
   page += "<h1>" + escaped(directory.string()) + "</h1>\n<p>";
   page += run.summary() ? "A complete run." : "A run that is not complete.";
-  page += " Compression is positive in stress and axial strain." + units_line(run.units()) +
-          "</p>\n" + table_of(heads(run.units()), lines_of(run));
+  page += " Compression is positive in stress and axial strain." + units_line(run) + "</p>\n" +
+          table_of(heads(run.units()), lines_of(run));
   page += sample_view(directory, run.units());
   page += "<div class=\"parts\"><div class=\"charts\">\n";
   for (const StageRows& stage : run.stages())

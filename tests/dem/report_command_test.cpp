@@ -27,12 +27,13 @@ std::string shearing_scene() {
 }
 
 /// A directory with a history of rows {stage, cycle, cycle of the stage, axial strain, friction
-/// angle, contacts}, a mean stress of 1, all else 0.
+/// angle, contacts, mean stress}, all else 0.
 struct MadeRow {
   const char* stage;
   int cycle, stage_cycle;
   double strain, angle;
   int contacts = 1;
+  const char* stress = "1";
 };
 std::string history_of(const std::vector<MadeRow>& rows) {
   std::string text;
@@ -51,7 +52,7 @@ std::string history_of(const std::vector<MadeRow>& rows) {
                                  : field.name == "axial_strain" ? std::to_string(row.strain)
                                  : field.name == "friction_angle_deg" ? std::to_string(row.angle)
                                  : field.name == "contacts"           ? std::to_string(row.contacts)
-                                 : field.name == "mean_stress"        ? "1"
+                                 : field.name == "mean_stress"        ? row.stress
                                                                       : "0";
       line += (line.empty() ? "" : ",") + number;
     }
@@ -256,6 +257,17 @@ TEST(ReportCommand, DrawsAFrictionAngleOnlyWhereThereIsAContact) {
   EXPECT_NE(words[1].find("  -  "), words[1].npos) << words[1];
 }
 
+// Two neighbours of the grid of doubles: ticks a part of that apart would be one number.
+TEST(ReportCommand, OfAStressThatIsConstantButForRoundingHasAnAxis) {
+  const TemporaryFolder folder;
+  const std::string page =
+      page_of(folder, {{"place", 0, 0, 0.0, 1.0, 1, "100"},
+                       {"press", 120, 120, 0.1, 7.25, 1, "100.00000000000001"}});
+  const std::string chart = chart_of(page, "Stress and friction angle");
+  EXPECT_EQ(count_of(paths_of(chart).front(), "L"), 1u);
+  EXPECT_LT(count_of(chart, "<text"), 40u);
+}
+
 TEST(ReportCommand, ItsLegendsShowTheLinesAsTheyAreDrawn) {
   const TemporaryFolder folder;
   const std::string page =
@@ -278,6 +290,7 @@ TEST(ReportCommand, OfARunThatIsNotCompleteSaysSo) {
   const std::string page = without_scripts(read_file(folder.path("out/report.html")));
   expect_balanced(page);
   EXPECT_NE(page.find("A run that is not complete."), page.npos);
+  EXPECT_EQ(page.find("names no units"), page.npos) << "which is known of a complete run alone";
 }
 
 TEST(ReportCommand, OfABadDirectoryIsRefusedInOneLine) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -150,6 +151,11 @@ TEST(Include, RefusesACircleAndAMissingFile) {
   EXPECT_EQ(refused([&] { SceneFile file(lost); }),
             lost + ":2: include = 'none.toml': a file that can be read; " +
                 folder.path("none.toml") + ": cannot be read: No such file or directory");
+  std::filesystem::create_symlink("loop.toml", folder.path("loop.toml"));
+  const std::string round = folder.write("round.toml", "schema = 1\ninclude = \"loop.toml\"\n");
+  EXPECT_EQ(refused([&] { SceneFile file(round); }),
+            round + ":2: include = 'loop.toml': a file that can be read; " +
+                folder.path("loop.toml") + ": cannot be read: Too many levels of symbolic links");
 }
 
 TEST(Include, OfAFileOverTwoWaysTakesItOnceWhereItIsFirst) {
