@@ -164,7 +164,7 @@ TimeOfContact advance(const MovingPair& pair, const PairAt& start, const Gap& st
   return answer(pair, ContactTimeStatus::not_converged, t, t, kMaxSteps);
 }
 
-bool finite(const Motion& motion) {
+[[maybe_unused]] bool finite(const Motion& motion) {
   return motion.velocity.allFinite() && motion.angular_velocity.allFinite() &&
          motion.pivot_arm.allFinite();
 }

@@ -169,7 +169,7 @@ class Finder {
       if (!type) fail("particles." + parts[1] + ": no such particle type in the scene");
       return *type;
     }
-    if (is_among(section, "cell motion contact output") && parts.size() == 2)
+    if (is_among(section, "cell motion contact output units") && parts.size() == 2)
       return made_in(root_, section, std::move(made));
     if (section == "contact" && parts.size() == 3) {
       toml::table& contact = made_in(root_, section, toml::table(made));
@@ -181,7 +181,7 @@ class Finder {
  private:
   static constexpr const char* kForm =
       "a key as cell.KEY, motion.KEY, particles.NAME.KEY, contact.KEY, contact.NAME-NAME.KEY, "
-      "stage.NAME.KEY, stage[N].KEY, wall[N].KEY, body[N].KEY or output.KEY";
+      "stage.NAME.KEY, stage[N].KEY, wall[N].KEY, body[N].KEY, output.KEY or units.KEY";
 
   toml::table& made_in(toml::table& parent, const std::string& name, toml::table&& made) const {
     if (!parent.get(name)) parent.insert(name, std::move(made));

@@ -59,6 +59,14 @@ constexpr std::array kKeys{
         "by "
         "another way too, counts once, where it is first"},
 
+    Key{"units", "length", text, "-", "", kNoRange, "um mm m km", "",
+        "What the scene's lengths are in. This table names units for pages and summary.json, and "
+        "changes no number: the run has those of the scene"},
+    Key{"units", "stress", text, "-", "", kNoRange, "Pa kPa MPa GPa", "",
+        "And stresses: forces are then in stress times length^2, masses in stress times length "
+        "times time^2 (mm, kPa and s: mN and kg)"},
+    Key{"units", "time", text, "-", "s", kNoRange, "us ms s", "", "And times"},
+
     Key{"cell", "size", real3, "m", "(as the placing needs)", kPositive, "", "",
         "Edges of the periodic cell along x, y, z at the start; the lattice is spread over them"},
     Key{"cell", "dimensions", integer, "-", "3", between(2, 3), "", "",
@@ -366,6 +374,7 @@ std::string_view header_of(std::string_view section) {
   if (section == "wall") return "[[wall]], planes inside a cell with walls, which no stage strains";
   if (section == "body") return "[[body]], of a place with arrangement = explicit";
   if (section == "stage") return "[[stage]], in the order of the run";
+  if (section == "units") return "[units], which may be left out: no unit is then named";
   if (section == "cell") return "[cell]";
   if (section == "motion") return "[motion]";
   if (section == "output") return "[output]";

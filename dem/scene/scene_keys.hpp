@@ -20,7 +20,7 @@ enum class KeyType { integer, real, real3, real4, reals, boolean, text, path, pa
 
 /// The tables of a scene.
 inline constexpr std::string_view kSceneSections =
-    "cell motion particles wall body contact stage output sweep";
+    "units cell motion particles wall body contact stage output sweep";
 
 /// The values a number may have, each bound included or not.
 struct Range {

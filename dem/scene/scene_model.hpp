@@ -18,6 +18,7 @@
 #include <tangency/dem/particles.hpp>
 #include <tangency/dem/samples/sample.hpp>
 #include <tangency/dem/samples/start_axes.hpp>
+#include <tangency/dem/scene/units.hpp>
 #include <tangency/geometry/vectors.hpp>
 
 namespace tangency::inline v0::dem {
@@ -120,6 +121,7 @@ struct Scene {
   ContactLaws laws;                          ///< between all types
   std::vector<Stage> stages;                 ///< the first, and no other, places
   OutputIntervals output;                    ///< how often results are written
+  std::optional<Units> units = {};           ///< what numbers are called, where the scene says so
 
   /// Spheres have the directed axis of what they grow into.
   std::vector<Batch> batches() const;

@@ -29,6 +29,7 @@ class Reader {
 
   Scene read() {
     const Section top(source_, root_, "", "");
+    read_units();
     read_cell();
     scene_.planes = read_walls(root_, source_, scene_);
     read_motion();
@@ -70,6 +71,15 @@ class Reader {
     if (scene_.output.polar && classes < 2)
       output.refuse("classes", classes, "2 or more with partition = \"polar\"");
     scene_.output.classes = static_cast<int>(classes);
+  }
+
+  void read_units() {
+    if (!root_.get("units")) return;
+    const Section units(source_, table("units"), "units", "units");
+    scene_.units = units_of(units.text("length"), units.text("stress"), units.text("time"));
+    if (!scene_.units)
+      units.fail("length", "with stress = \"" + units.text("stress") +
+                               "\" one whose force and energy have a prefix from a to G");
   }
 
   void read_cell() {

@@ -6,28 +6,46 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
+#include <tangency/geometry/tables/html_text.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
 
-// Chosen: pixels.
-constexpr double kWidth = 620, kHeight = 330;
-constexpr double kLeft = 66, kRight = 66, kTop = 34, kBottom = 74;
+using tables::escaped;
+
+// Chosen: pixels. Narrow, so that letters are still read where a telephone shrinks it to 350.
+constexpr double kWidth = 440, kHeight = 300;
+constexpr double kLeft = 62, kRight = 62, kTop = 34, kBottom = 44;
+/// Of the legend, below: a line's height, a line's sample, and letters at their widest.
+constexpr double kLegendLine = 16, kSample = 22, kLetter = 6.6;
+/// Of the largest value across, the least that is spanned. Chosen: a servo holds a stress to 1e-2.
+constexpr double kLeastSpan = 0.04;
+/// Ticks of an axis, at most about as many as this.
+constexpr double kTicksAcross = 5, kTicksUp = 6;
 /// Pieces that a long curve is thinned to, its lowest and highest value of each kept.
 constexpr std::size_t kPieces = 500;
 
-/// Told apart by the colour-blind too [Wong2011], and three more.
-constexpr std::array<const char*, 9> kColours = {"#0072b2", "#d55e00", "#009e73",
-                                                 "#cc79a7", "#8a6d00", "#56b4e9",
-                                                 "#e69f00", "#555555", "#7b3fa0"};
+/// Told apart by the colour-blind too [Wong2011], and four more.
+constexpr std::array<const char*, 10> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                  "#8a6d00", "#56b4e9", "#e69f00", "#555555",
+                                                  "#7b3fa0", "#b22222"};
 
 std::string pixels(double x) { return tables::formatted("%.1f", x); }
 
 std::string label(double x, double y, const std::string& attributes, const std::string& text) {
   return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" " + attributes + ">" +
          escaped(text) + "</text>\n";
+}
+
+/// A name along an axis upwards.
+std::string upright(double x, const std::string& text) {
+  const double y = 0.5 * (kTop + kHeight - kBottom);
+  return label(
+      x, y, "text-anchor=\"middle\" transform=\"rotate(-90 " + pixels(x) + " " + pixels(y) + ")\"",
+      text);
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& colour) {
@@ -48,10 +66,12 @@ class Axis {
     high_ = std::max(high_, v);
   }
   /// Leaves room at both ends, a share of the whole.
-  void pad(double share) {
+  /// @param least  of the largest value, what is spanned: what is held shows as held
+  void pad(double share, double least = 0.0) {
     if (!(low_ <= high_)) low_ = 0.0, high_ = 1.0;
-    const double span = high_ - low_;
-    const double room = span > 0.0 ? share * span : std::max(0.5 * std::abs(low_), 0.5);
+    const double lacking = 0.5 * (least * largest() - span());
+    const double room =
+        span() > 0.0 ? std::max(share * span(), lacking) : std::max(0.5 * std::abs(low_), 0.5);
     low_ -= room;
     high_ += room;
   }
@@ -61,8 +81,8 @@ class Axis {
   }
 
   /// Values at 1, 2 or 5 times a power of ten, of a logarithmic axis powers of ten.
-  std::vector<double> ticks() const {
-    const double rough = (high_ - low_) / 6.0;
+  std::vector<double> ticks(double most) const {
+    const double rough = (high_ - low_) / most;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = 10.0 * power;
     for (const double factor : {5.0, 2.0, 1.0})
@@ -73,6 +93,14 @@ class Axis {
       values.push_back(logarithmic_ ? std::pow(10.0, k * step) : k * step + 0.0);  // no -0
     return values;
   }
+  /// Three times a whole number: the power of ten that numbers are shown without, so that they are
+  /// short.
+  int exponent() const {
+    if (logarithmic_ || (largest() < 1e4 && largest() >= 1e-2)) return 0;
+    return 3 * static_cast<int>(std::floor(std::log10(largest()) / 3.0));
+  }
+  double largest() const { return std::max(std::abs(low_), std::abs(high_)); }
+  double span() const { return high_ - low_; }
 
  private:
   double scaled(double value) const {
@@ -96,28 +124,46 @@ struct Axes {
         x.widen(curve.x[k]);
         (curve.on_the_right ? y_right : y).widen(curve.y[k]);
       }
-    x.pad(0.0);
+    x.pad(0.0, kLeastSpan);
     y.pad(0.04);
     y_right.pad(0.04);
   }
 };
 
-/// Indices of a curve's points that are drawn.
+/// Indices of a curve's points that are drawn: of each piece those at its ends, where it is least
+/// and greatest, and all where it is parted.
 std::vector<std::size_t> thinned(const Curve& curve) {
   const std::size_t count = curve.x.size();
-  std::vector<std::size_t> kept;
   const std::size_t piece = std::max<std::size_t>(1, count / kPieces);
+  std::vector<std::size_t> kept;
   for (std::size_t first = 0; first < count; first += piece) {
-    const auto from = curve.y.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto to = curve.y.begin() + static_cast<std::ptrdiff_t>(std::min(first + piece, count));
-    const auto [low, high] = std::minmax_element(from, to);
-    for (const auto at : {std::min(low, high), std::max(low, high)}) {
-      const auto index = static_cast<std::size_t>(at - curve.y.begin());
-      if (kept.empty() || kept.back() < index) kept.push_back(index);
+    const std::size_t end = std::min(first + piece, count);
+    std::vector<std::size_t> points;
+    for (std::size_t k = first; k < end; ++k) points.push_back(k);
+    const auto has_place = [&](std::size_t k) {
+      return std::isfinite(curve.x[k]) && std::isfinite(curve.y[k]);
+    };
+    if (std::all_of(points.begin(), points.end(), has_place)) {
+      std::vector<std::size_t> ends{first, end - 1};
+      for (const std::vector<double>* values : {&curve.x, &curve.y}) {
+        const auto less = [&](std::size_t p, std::size_t q) { return (*values)[p] < (*values)[q]; };
+        const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
+        ends.insert(ends.end(), {*low, *high});
+      }
+      std::sort(ends.begin(), ends.end());
+      ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+      points = std::move(ends);
     }
+    kept.insert(kept.end(), points.begin(), points.end());
   }
-  if (count > 0 && kept.back() + 1 < count) kept.push_back(count - 1);
   return kept;
+}
+
+/// How a curve's line is drawn, in the chart and in the legend.
+std::string pen_of(const Curve& curve, const char* colour) {
+  return std::string(" fill=\"none\" stroke=\"") + colour +
+         "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" +
+         (curve.on_the_right ? " stroke-dasharray=\"6 2\"" : "") + "/>\n";
 }
 
 std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* colour) {
@@ -132,9 +178,7 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* 
     path += (pen_is_up ? "M" : "L") + pixels(px) + " " + pixels(py);
     pen_is_up = false;
   }
-  return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour +
-         "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" +
-         (curve.on_the_right ? " stroke-dasharray=\"6 2\"" : "") + "/>\n";
+  return "<path d=\"" + path + "\"" + pen_of(curve, colour);
 }
 
 std::string bands_of(const Chart& chart, const Axis& x) {
@@ -158,79 +202,93 @@ std::string bands_of(const Chart& chart, const Axis& x) {
   return svg;
 }
 
-std::string frame_of(const Chart& chart, const Axes& axes) {
+/// Of the axis' ticks, with as many digits as tell them apart, four at least.
+std::string number(double value, const Axis& axis) {
+  const double of_a_step = axis.largest() / axis.span();
+  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(of_a_step))) + 2, 4, 15);
+  return tables::rounded_text(value / std::pow(10.0, axis.exponent()), digits);
+}
+
+/// "stress (1e6 Pa)"
+std::string name_of(const Scale& scale, int exponent) {
+  std::string unit = exponent == 0 ? "" : "1e" + std::to_string(exponent);
+  if (!scale.unit.empty()) unit += (unit.empty() ? "" : " ") + scale.unit;
+  return unit.empty() ? scale.name : scale.name + " (" + unit + ")";
+}
+
+/// Numbers and name of the axis upwards, beside the frame.
+std::string left_of(const Scale& scale, const Axis& y) {
   std::string svg;
-  for (const double value : axes.y.ticks()) {
-    const double y = axes.y.at(value);
-    svg += line(kLeft, y, kWidth - kRight, y, "#d8d8d8") +
-           label(kLeft - 6, y + 4, "text-anchor=\"end\"", tables::formatted("%.4g", value));
-  }
-  if (!chart.right_label.empty())
-    for (const double value : axes.y_right.ticks()) {
-      const double y = axes.y_right.at(value);
-      svg += line(kWidth - kRight, y, kWidth - kRight + 4, y, "#555") +
-             label(kWidth - kRight + 7, y + 4, "", tables::formatted("%.4g", value));
-    }
-  for (const double value : axes.x.ticks()) {
+  for (const double value : y.ticks(kTicksUp))
+    svg += line(kLeft, y.at(value), kWidth - kRight, y.at(value), "#d8d8d8") +
+           label(kLeft - 6, y.at(value) + 4, "text-anchor=\"end\"", number(value, y));
+  return svg + upright(14, name_of(scale, y.exponent()));
+}
+std::string right_of(const Scale& scale, const Axis& y) {
+  std::string svg;
+  if (scale.name.empty()) return svg;
+  const double x = kWidth - kRight;
+  for (const double value : y.ticks(kTicksUp))
+    svg += line(x, y.at(value), x + 4, y.at(value), "#555") +
+           label(x + 7, y.at(value) + 4, "", number(value, y));
+  return svg + upright(kWidth - 8, name_of(scale, y.exponent()));
+}
+
+std::string frame_of(const Chart& chart, const Axes& axes) {
+  std::string svg = left_of(chart.left, axes.y) + right_of(chart.right, axes.y_right);
+  const double bottom = kHeight - kBottom;
+  const int exponent = axes.x.exponent();
+  for (const double value : axes.x.ticks(kTicksAcross)) {
     const double x = axes.x.at(value);
-    svg += line(x, kHeight - kBottom, x, kHeight - kBottom + 4, "#555") +
-           label(x, kHeight - kBottom + 17, "text-anchor=\"middle\"",
-                 tables::formatted("%.4g", value));
+    svg += line(x, bottom, x, bottom + 4, "#555") +
+           label(x, bottom + 17, "text-anchor=\"middle\"", number(value, axes.x));
   }
   svg += "<rect x=\"" + pixels(kLeft) + "\" y=\"" + pixels(kTop) + "\" width=\"" +
-         pixels(kWidth - kLeft - kRight) + "\" height=\"" + pixels(kHeight - kTop - kBottom) +
+         pixels(kWidth - kLeft - kRight) + "\" height=\"" + pixels(bottom - kTop) +
          "\" fill=\"none\" stroke=\"#555\"/>\n";
-  const auto upright = [](double x, const std::string& text) {
-    const double y = 0.5 * (kTop + kHeight - kBottom);
-    return label(
-        x, y,
-        "text-anchor=\"middle\" transform=\"rotate(-90 " + pixels(x) + " " + pixels(y) + ")\"",
-        text);
-  };
   return svg + label(0.5 * kWidth, 18, "text-anchor=\"middle\" class=\"title\"", chart.title) +
-         label(0.5 * kWidth, kHeight - kBottom + 34, "text-anchor=\"middle\"", chart.x_label) +
-         upright(14, chart.left_label) + upright(kWidth - 8, chart.right_label);
+         label(0.5 * kWidth, bottom + 34, "text-anchor=\"middle\"",
+               name_of(chart.across, exponent));
+}
+
+/// A legend below the chart, and where it ends. One curve alone has none: the axis says what it is.
+struct Legend {
+  std::string svg;
+  double end = kHeight;
+};
+Legend legend_of(const Chart& chart) {
+  Legend legend;
+  if (chart.curves.size() == 1) return legend;
+  double x = kLeft, y = kHeight + 8;
+  for (std::size_t k = 0; k < chart.curves.size(); ++k) {
+    const Curve& curve = chart.curves[k];
+    const double wide = kSample + 16 + kLetter * static_cast<double>(curve.name.size());
+    if (x > kLeft && x + wide > kWidth) x = kLeft, y += kLegendLine;
+    legend.svg += "<path d=\"M" + pixels(x) + " " + pixels(y - 4) + "h" + pixels(kSample) + "\"" +
+                  pen_of(curve, kColours[k % kColours.size()]) +
+                  label(x + kSample + 4, y, "", curve.name);
+    x += wide;
+  }
+  legend.end = y + 8;
+  return legend;
 }
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 std::string svg_of(const Chart& chart) {
   const Axes axes(chart);
+  const Legend legend = legend_of(chart);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(kWidth) +
-                    "\" height=\"" + pixels(kHeight) + "\" viewBox=\"0 0 " + pixels(kWidth) + " " +
-                    pixels(kHeight) + "\" role=\"img\" aria-label=\"" + escaped(chart.title) +
-                    "\">\n";
+                    "\" height=\"" + pixels(legend.end) + "\" viewBox=\"0 0 " + pixels(kWidth) +
+                    " " + pixels(legend.end) + "\" role=\"img\" aria-label=\"" +
+                    escaped(chart.title) + "\">\n";
   svg += bands_of(chart, axes.x) + frame_of(chart, axes);
-  double at_x = kLeft, at_y = kHeight - 22;
   for (std::size_t k = 0; k < chart.curves.size(); ++k) {
     const Curve& curve = chart.curves[k];
-    const char* colour = kColours[k % kColours.size()];
-    svg += drawn(curve, axes.x, curve.on_the_right ? axes.y_right : axes.y, colour);
-    if (chart.curves.size() == 1) continue;  // the axis says what it is
-    const double wide = 34 + 6.5 * static_cast<double>(curve.name.size());
-    if (at_x + wide > kWidth - 10) at_x = kLeft, at_y += 16;
-    svg +=
-        line(at_x, at_y - 4, at_x + 18, at_y - 4, colour) + label(at_x + 22, at_y, "", curve.name);
-    at_x += wide;
+    svg += drawn(curve, axes.x, curve.on_the_right ? axes.y_right : axes.y,
+                 kColours[k % kColours.size()]);
   }
-  return svg + "</svg>\n";
+  return svg + legend.svg + "</svg>\n";
 }
 
 }  // namespace tangency::inline v0::dem

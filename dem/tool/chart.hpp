@@ -20,18 +20,21 @@ struct Band {
   double from, to;
 };
 
+/// What an axis has. Where its numbers are large or small, a power of ten goes before the unit:
+/// "stress (1e6 Pa)".
+struct Scale {
+  std::string name = {}, unit = {};
+};
+
 struct Chart {
-  std::string title, x_label;
-  std::string left_label, right_label;  ///< of the two y axes
-  std::vector<Curve> curves;            ///< at most as many as there are colours, nine
+  std::string title;
+  Scale across, left, right;  ///< of the axes; a right one without a name is not drawn
+  std::vector<Curve> curves;  ///< at most as many as there are colours, ten
   std::vector<Band> bands = {};
   bool logarithmic = false;  ///< the left axis: what is not > 0 parts the curve
 };
 
 /// The chart's <svg>. Long curves are thinned to what pixels can show, peaks kept.
 std::string svg_of(const Chart& chart);
-
-/// Text that HTML and SVG show as it is.
-std::string escaped(const std::string& text);
 
 }  // namespace tangency::inline v0::dem

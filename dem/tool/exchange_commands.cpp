@@ -56,8 +56,8 @@ scene places its bodies:
   tangency-dem export --lammps cluster --scene shear.toml
   cd cluster && mpirun -np 2 tangency-lammps -in in.shear
 Shear forces of contacts do not go into the data file: a message says where a state has some. Walls
-go where no stage strains the cell, each as fix wall/tangency; those that hold a stress, plane scenes,
-stages that grow particles and stages on a ramp do not go to LAMMPS.
+go where no stage strains the cell, each as fix wall/tangency; those that hold a stress, plane scenes
+and stages that grow particles or have a ramp do not go to LAMMPS.
 LAMMPS and HOOMD have cells with the first edge along x and the second in the plane of x and y. A
 cell that shear has tilted otherwise is turned into that, with all vectors: it then does not read
 back to the same double, and LAMMPS may ask for `box tilt large`.

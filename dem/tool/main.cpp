@@ -147,6 +147,7 @@ another scene is refused; --replace takes its results away. Exit status: that of
 
 More keys of summary.json:
   set                   with --set or [sweep]: keys and the values that they were set to
+  units                 with [units]: names of length, stress, time, force and energy
   particles, cycles, threads
   wall_seconds          of this process: what ran before a resumption is not in it
   ns_per_listed_pair_per_cycle, listed_pairs

@@ -84,6 +84,7 @@ std::string title_of(std::string_view section) {
   if (section == "contact") return "`[contact]` for all pairs, `[contact.NAME-NAME]` for one";
   if (section == "body") return "`[[body]]`: a body of an explicit arrangement";
   if (section == "wall") return "`[[wall]]`: a plane wall";
+  if (section == "units") return "`[units]`: names of units, which may be left out";
   if (section == "sweep")
     return "`[sweep]`: a run for each combination of values, `\"KEY\" = [VALUE, ...]` with keys by "
            "their path, as `--set` has them";
@@ -118,7 +119,8 @@ std::string schema_markdown() {
   }
   page +=
       "\nThe run is a list of `[[stage]]` tables, one after the other; the first, and no other, "
-      "places the particles.\n";
+      "places the particles. When to use which, what ends it, and an example of each: [the stages "
+      "of a run](stages.md).\n";
   for (const std::string& kind : kinds) {
     page += "\n## Stage `" + kind + "`\n\n" + kHead;
     for (const Key& key : scene_keys())

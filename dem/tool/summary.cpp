@@ -120,6 +120,9 @@ void write_summary(const fs::path& directory, const Simulation& simulation, cons
     for (const auto& [name, count] : entries_of(*cost.verified))
       std::visit([&, &key = name](auto number) { summary["verified"][key] = number; }, count);
   add_points(summary, history, simulation.scene(), directory / "states");
+  if (simulation.scene().units)
+    for (const auto& [what, name] : simulation.scene().units->entries())
+      summary["units"][std::string(what)] = name;
   for (const std::string& setting : cost.settings) {
     const std::size_t equals = setting.find('=');
     const auto value = nlohmann::ordered_json::parse(setting.substr(equals + 1), nullptr, false);

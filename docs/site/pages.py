@@ -9,7 +9,7 @@ from formulas import is_formula, set_formula, set_inline
 GUIDE = "docs/guide.md"
 CHAPTERS = ["project", "one-pair", "many-pairs", "moving", "yes-no", "accuracy", "extremes", "bodies", "further", "shell",
             "ci", "simulation", "own-grains", "reference"]
-BESIDE = ["docs/python.md", "docs/c.md", "docs/fortran.md", "docs/octave.md", "docs/playground.md", "docs/simulator.md", "docs/runs.md", "docs/samples.md", "docs/scenes.md", "docs/choosing.md", "docs/lammps.md", "docs/lammps-fixes.md", "docs/scene-keys.md", "docs/grading.md", "docs/hunt.md",
+BESIDE = ["docs/python.md", "docs/c.md", "docs/fortran.md", "docs/octave.md", "docs/playground.md", "docs/simulator.md", "docs/runs.md", "docs/samples.md", "docs/scenes.md", "docs/stages.md", "docs/choosing.md", "docs/lammps.md", "docs/lammps-fixes.md", "docs/scene-keys.md", "docs/grading.md", "docs/hunt.md",
           "docs/classification.md"]
 MEASURED = ["docs/speed-accuracy.md", "docs/peers.md", "docs/peer-grades.md", "docs/profiles.md", "docs/trace.md",
             "docs/study.md"]

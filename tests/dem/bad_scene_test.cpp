@@ -39,15 +39,17 @@ std::string stage_of(const std::string& kind) {
 /// A scene that is accepted, with every section, and a stage of the kind last but for the body.
 std::string scene_with(const std::string& kind) {
   const bool is_explicit = kind == "explicit", has_wall = kind == "wall", sweeps = kind == "sweep";
+  const bool has_units = kind == "units";
   return "schema = 1\n[cell]\nsize = [90.0, 90.0, 90.0]\n" +
          std::string(has_wall ? "walls = \"xyz\"\n" : "") +
          "[motion]\n[particles.grain]\n"
          "count = 1\nmean_radius = 10.0\n[contact]\nnormal_stiffness = 1e10\n[output]\n" +
          stage_of("place") + (is_explicit ? "arrangement = \"explicit\"\n" : "") +
          (is_explicit || has_wall || kind == "place" ? ""
-          : sweeps                                   ? stage_of("compress")
+          : sweeps || has_units                      ? stage_of("compress")
                                                      : stage_of(kind)) +
          (is_explicit ? "[[body]]\ntype = \"grain\"\nposition = [1.0, 2.0, 3.0]\n" : "") +
+         (has_units ? "[units]\nlength = \"mm\"\nstress = \"kPa\"\n" : "") +
          (sweeps ? "[sweep]\n\"contact.friction_coefficient\" = [0.1, 0.2]\n" : "") +
          (has_wall ? "[[wall]]\npoint = [1.0, 2.0, 3.0]\nnormal = [1.0, 2.0, 3.0]\n"
                      "stress = 1e3\nmax_speed = 1.0\n"
@@ -156,7 +158,7 @@ std::vector<std::string> wrong_values(const Key& key) {
 std::vector<std::string> kinds_of(const Key& key) {
   if (key.section == "body") return {"explicit"};
   if (key.section == "wall") return {"wall"};
-  if (key.section == "sweep") return {"sweep"};
+  if (key.section == "sweep" || key.section == "units") return {std::string(key.section)};
   if (key.section != "stage") return {"compress"};
   std::istringstream stream{std::string(key.kinds)};
   std::vector<std::string> kinds;

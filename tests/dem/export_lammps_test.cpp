@@ -176,6 +176,7 @@ TEST_F(ExportLammps, RefusesWhatLammpsHasNot) {
       {with(scene, "\"global\"", "\"trace\""), "contact.branch"},
       {with(scene, "kind = \"compress\"", "kind = \"grow\"\nelongation = 1.6\nname = \"compress\""),
        "grow"},
+      {with(scene, "kind = \"compress\"", "kind = \"compress\"\nramp_cycles = 9"), "ramps"},
       {with(scene, "count = 20", "count = 20\nweight = 3"), "weight"}};
   for (const auto& [text, message] : cases) {
     const Finished ended = exported(text);

@@ -27,11 +27,12 @@ std::string shearing_scene() {
 }
 
 /// A directory with a history of rows {stage, cycle, cycle of the stage, axial strain, friction
-/// angle}, all else 0.
+/// angle, contacts}, a mean stress of 1, all else 0.
 struct MadeRow {
   const char* stage;
   int cycle, stage_cycle;
   double strain, angle;
+  int contacts = 1;
 };
 std::string history_of(const std::vector<MadeRow>& rows) {
   std::string text;
@@ -49,6 +50,8 @@ std::string history_of(const std::vector<MadeRow>& rows) {
                                  : field.name == "stage_cycle"  ? std::to_string(row.stage_cycle)
                                  : field.name == "axial_strain" ? std::to_string(row.strain)
                                  : field.name == "friction_angle_deg" ? std::to_string(row.angle)
+                                 : field.name == "contacts"           ? std::to_string(row.contacts)
+                                 : field.name == "mean_stress"        ? "1"
                                                                       : "0";
       line += (line.empty() ? "" : ",") + number;
     }
@@ -160,7 +163,8 @@ void expect_balanced(const std::string& page) {
 
 TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write("scene.toml", shearing_scene());
+  const std::string scene = folder.write(
+      "scene.toml", with(shearing_scene(), "[output]\n", "[output]\nmicro_interval = 50\n"));
   const std::string out = folder.path("out");
   ASSERT_EQ(run_tool({"run", scene, "--out", out, "--quiet"}).status, 0);
   const Finished report = run_tool({"report", out});
@@ -168,10 +172,11 @@ TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
   const std::string page = without_scripts(read_file(out + "/report.html"));
   expect_balanced(page);
   for (const char* word :
-       {"Stress and friction angle: shear", "Volumetric strain: shear", "Coordination and porosity",
+       {"Principal stresses: shear", "Stress path: shear", "Volumetric strain: shear",
+        "Coordination number: shear", "Fabric: shear", "Coordination and porosity",
         "Inertial fraction", "Energy account", "peak_friction_angle_deg", "A complete run."})
     EXPECT_NE(page.find(word), page.npos) << word;
-  EXPECT_EQ(page.find("friction angle: compress"), page.npos) << "a stage that keeps its shape";
+  EXPECT_EQ(page.find("stresses: compress"), page.npos) << "a stage that keeps its shape";
   EXPECT_EQ(page.find("http"), page.find("http://www.w3.org/2000/svg")) << "needs no network";
   EXPECT_EQ(page.find("nan"), page.npos);
   // The energy error of the sheared end is that of the last row over the work done.
@@ -182,6 +187,87 @@ TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
   shown.precision(1);
   shown << std::scientific << share;
   EXPECT_NE(report.out.find(shown.str()), report.out.npos) << shown.str() << "\n" << report.out;
+}
+
+/// The chart of that title.
+std::string chart_of(const std::string& page, const std::string& title) {
+  const std::size_t at = page.rfind("<svg", page.find("aria-label=\"" + title));
+  EXPECT_NE(at, page.npos) << title;
+  return page.substr(at, page.find("</svg>", at) - at);
+}
+
+/// The lines of curves, those of the legend after them.
+std::vector<std::string> paths_of(const std::string& chart) {
+  std::vector<std::string> paths;
+  for (std::size_t at = 0; (at = chart.find("<path d=\"", at)) != chart.npos; ++at)
+    paths.push_back(chart.substr(at + 9, chart.find("/>", at) - at - 9));
+  return paths;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; ++at) ++count;
+  return count;
+}
+
+std::string page_of(const TemporaryFolder& folder, const std::vector<MadeRow>& rows) {
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/history.csv", history_of(rows));
+  EXPECT_EQ(run_tool({"report", folder.path("out")}).status, 0);
+  return without_scripts(read_file(folder.path("out/report.html")));
+}
+
+// A line from the last strain of a stage to the first of the next would be of no motion.
+TEST(ReportCommand, PartsStrainsWhereAStageBeginsThemAnew) {
+  const TemporaryFolder folder;
+  const std::string page = page_of(folder, {{"place", 0, 0, 0.0, 0.0},
+                                            {"press", 50, 50, 0.05, 1.0},
+                                            {"press", 120, 120, 0.1, 7.25},
+                                            {"shear", 150, 30, 0.01, 31.0},
+                                            {"shear", 400, 280, 0.02, 28.5}});
+  const auto strains = paths_of(chart_of(page, "Strains, from the start of each stage"));
+  ASSERT_EQ(strains.size(), 4u) << "two curves, and the legend's two lines";
+  const std::string& axial = strains.front();
+  ASSERT_EQ(count_of(axial, "M"), 3u) << "place, press and shear: " << axial;
+  // Each begins at the height of no strain, that of the first point.
+  const auto height = [&](std::size_t at) {
+    return axial.substr(axial.find(' ', at),
+                        axial.find_first_of("ML\"", at + 1) - axial.find(' ', at));
+  };
+  for (std::size_t at = 0; (at = axial.find('M', at)) != axial.npos; ++at)
+    EXPECT_EQ(height(at), height(0)) << axial;
+  const auto stress = paths_of(chart_of(page, "Stress and friction angle"));
+  EXPECT_EQ(count_of(stress.front(), "M"), 1u) << "what goes on is one line";
+}
+
+TEST(ReportCommand, DrawsAFrictionAngleOnlyWhereThereIsAContact) {
+  const TemporaryFolder folder;
+  const std::string page = page_of(folder, {{"place", 0, 0, 0.0, 90.0, 0},
+                                            {"press", 50, 50, 0.05, 90.0, 0},
+                                            {"press", 120, 120, 0.1, 7.25},
+                                            {"press", 150, 150, 0.11, 31.0},
+                                            {"press", 400, 400, 0.2, 90.0, 0}});
+  const auto lines = paths_of(chart_of(page, "Stress and friction angle"));
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(count_of(lines[0], "L"), 4u) << "the stress, at all times";
+  EXPECT_EQ(count_of(lines[1], "M"), 1u) << lines[1];
+  EXPECT_EQ(count_of(lines[1], "L"), 1u) << lines[1];
+  const auto words = lines_of(run_tool({"report", folder.path("out")}).out);
+  EXPECT_NE(words[1].find("  -  "), words[1].npos) << words[1];
+}
+
+TEST(ReportCommand, ItsLegendsShowTheLinesAsTheyAreDrawn) {
+  const TemporaryFolder folder;
+  const std::string page =
+      page_of(folder, {{"place", 0, 0, 0.0, 1.0}, {"press", 120, 120, 0.1, 7.25}});
+  for (const char* title : {"Stress and friction angle", "Coordination and porosity"}) {
+    const auto lines = paths_of(chart_of(page, title));
+    ASSERT_EQ(lines.size(), 4u) << title;
+    const auto pen = [](const std::string& line) { return line.substr(line.find('"')); };
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(pen(lines[k]), pen(lines[k + 2])) << title;
+    EXPECT_NE(pen(lines[1]).find("stroke-dasharray"), std::string::npos);
+    EXPECT_EQ(pen(lines[0]).find("stroke-dasharray"), std::string::npos);
+  }
 }
 
 TEST(ReportCommand, OfARunThatIsNotCompleteSaysSo) {

@@ -66,6 +66,7 @@ struct Derived {
   Wide step;                ///< (T) and (E) of the value
   Wide rest;                ///< half of what the error of the rest may gain: (B)
   Wide ball;                ///< gap + rho, or less
+  Wide size;                ///< |f|
   Wide sum() const { return value + step + rest; }
 };
 
@@ -99,6 +100,15 @@ Newton newton_at(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) {
 Vec3 stepped(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n) {
   const Newton at = newton_at(a, b, n);
   return (n + at.k.inverse() * at.rest).normalized();
+}
+
+/// The last step of a lane that comes to `n` by one from `before`: that step's matrix is taken
+/// again.
+Vec3 last_step(const Ellipsoid& a, const Ellipsoid& b, const Vec3& before, const Vec3& n) {
+  const double size = (b.centre() - a.centre()).cwiseAbs().maxCoeff() + a.largest_semi_axis() +
+                      b.largest_semi_axis();
+  const Mat3 k = newton_at(a, b, before).k + (size - 1) * before * before.transpose();
+  return k.inverse() * newton_at(a, b, n).rest;
 }
 
 Derived derived(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, const Gap& gap,
@@ -140,7 +150,8 @@ Derived derived(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, const Gap
           kU * (by_mixed ? mixed : std::min(mixed, in_double)),
           of_step,
           0.5L * (0.5625L * left2 + 4.5L * error * error) / ball,
-          ball};
+          ball,
+          size};
 }
 
 /// The first tier of a batch: answers that are not its own are `local`.
@@ -193,7 +204,14 @@ void expect_bounds(const Followed& f, const Accuracy& accuracy, bool cold) {
         ++lanes;
         Vec3 n = cold ? gap.normal : f.previous[i].normalized();
         if (!cold) n = stepped(f.pairs.a[i], f.pairs.b[i], n);
-        const Derived terms = derived(f.pairs.a[i], f.pairs.b[i], n, gap, by_centres, !cold);
+        Derived terms = derived(f.pairs.a[i], f.pairs.b[i], n, gap, by_centres, !cold);
+        if (!cold && terms.turn > 0x1p-19L) {
+          const Vec3 before = f.previous[i].normalized();
+          const double along = n.dot(last_step(f.pairs.a[i], f.pairs.b[i], before, n));
+          EXPECT_LE(std::abs(along), 0x1.02p-20) << i;
+          // A tenth less, for the normal in float.
+          terms.step += 0.45L * terms.size * along * along;
+        }
         // Inverses are rough to 2^-11.
         if (gap.gap_error < terms.sum() * (1 - 0x1p-10L)) ++below;
         // Of a step this long the normal in float and the length after it are right to 2^-8.
@@ -299,6 +317,27 @@ TEST(MixedBounds, HaveTheSecondOrderOfTheRestWhereTheBallIsSmall) {
     f.place(draw, a, b, draw.direction(), -rho * (1 - draw.power(-10, -7.5)), draw.power(-9, -7.7));
   }
   expect_bounds(f, Accuracy::within(0x1p-6), false);
+}
+
+// A body below 2^-40 L is left to the next tier, whatever its neighbours are.
+TEST(MixedLanes, LeaveBodiesFarSmallerThanTheirPairToTheDoubles) {
+  Followed f{{"small", {}, {}}, {}};
+  Draw draw{std::mt19937_64(kSeed + 8)};
+  const Ellipsoid large(Vec3::Zero(), Vec3(1, 0.9, 0.8));
+  for (std::size_t i = 0; i < 64; ++i) {
+    // L is 2.5.
+    const double size = 2.5 * 0x1p-40 * (i % 2 == 0 ? draw.real(0.55, 0.95) : draw.real(1.05, 1.9));
+    f.place(draw, large, Ellipsoid(Vec3::Zero(), size * Vec3(1, 0.9, 0.8)), Vec3(1, 0, 0), 0.5, 0);
+  }
+  const Indexed in(f.pairs);
+  at_every_level([&] {
+    const BodyArray array(in.bodies);
+    const PairList apart{in.pairs, in.separations};
+    const Columns answers =
+        first_tier({"follow_gaps", array, apart}, f.previous, Accuracy::standard(), true);
+    for (std::size_t i = 0; i < 64; ++i)
+      EXPECT_EQ(answers.status[i] == GapStatus::ok, i % 2 == 1) << i;
+  });
 }
 
 // (R'): plates that lie on each other along axes, where the step is exactly 0, about as deep as the

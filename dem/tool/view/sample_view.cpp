@@ -102,8 +102,11 @@ std::string note(const std::string& text) { return "<p class=\"note\">" + text +
 
 }  // namespace
 
-std::string sample_view(const fs::path& directory) {
-  const std::string head = "<section class=\"sample\"><h2>Sample</h2>\n", end = "</section>\n";
+std::string sample_view(const fs::path& directory, const Units& units) {
+  const std::string head = "<section class=\"sample\" data-length=\"" + units.length +
+                           "\" data-stress=\"" + units.stress + "\" data-time=\"" + units.time +
+                           "\" data-force=\"" + units.force + "\"><h2>Sample</h2>\n",
+                    end = "</section>\n";
   const std::vector<Listed> all = listed_frames(directory);
   if (all.empty())
     return head +

@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include <tangency/dem/scene/units.hpp>
+
 namespace tangency::inline v0::dem {
 
 /// Bytes of frames that a page holds at most, before base64 makes a third more of them. Chosen: a
@@ -21,7 +23,8 @@ inline constexpr std::size_t kMostFrameBytes = 24'000'000;
 /// so, and then no program. Force chains are those of the frames; the last frame has those of
 /// final.state, where no frame has any and both are of one cycle.
 /// @param directory  of a run
-std::string sample_view(const std::filesystem::path& directory);
+/// @param units      that numbers are named with; empty names where there are none
+std::string sample_view(const std::filesystem::path& directory, const Units& units);
 
 /// Style of the view, for the head of its page, and its programs, which sample_view() brings.
 std::string_view view_style();

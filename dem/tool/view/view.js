@@ -29,6 +29,9 @@ class SampleView {
     this.listen();
   }
 
+  /** A number with its unit, where the scene has one for it. @param of  "time", "force" and so on */
+  named(x, of) { return [shown(x), this.section.dataset[of]].filter(Boolean).join(" "); }
+
   makeControls() {
     const { section } = this, range = (properties) => make("input", { type: "range", ...properties });
     this.canvas = make("canvas", { ariaLabel: "The sample in space" });
@@ -64,7 +67,7 @@ class SampleView {
     Object.assign(this, { place, frame });
     const { cycle, time } = this.frames[place];
     this.slider.value = place;
-    this.when.textContent = `cycle ${cycle}, time ${shown(time)} s`;
+    this.when.textContent = `cycle ${cycle}, time ${this.named(time, "time")}`;
     if (first) {
       this.colour.append(...frame.columns.map((name) => new Option(name)));
       this.colour.value = frame.columns.includes("contacts") ? "contacts" : frame.columns[0];
@@ -92,7 +95,7 @@ class SampleView {
     const lines = await frame.lines();
     this.withChains.disabled = lines === null;
     this.withChains.parentElement.title = lines === null ? "This frame has no contacts: contact_frames = true in [output] writes them" : "";
-    this.widest.textContent = lines === null ? "no contacts in this frame" : `widest: ${shown(lines.largest)} N, thickness by its root`;
+    this.widest.textContent = lines === null ? "no contacts in this frame" : `widest: ${this.named(lines.largest, "force")}, thickness by its root`;
     this.renderer.setChains(lines?.numbers ?? []);
     await this.showValues();
   }
