@@ -85,7 +85,13 @@ class Run:
                 names = None
             elif names and len(words) == len(names) and re.fullmatch(r"\d+", words[0]):
                 self.rows.append(dict(zip(names, map(float, words))))
-        last = lambda pattern: float(re.findall(pattern, text)[-1])
+
+        def last(pattern):
+            found = re.findall(pattern, text)
+            if not found:
+                fail(f"no {pattern!r} in what the program printed: is it LAMMPS? {text[-200:]}")
+            return float(found[-1])
+
         self.steps = last(r"Loop time of \S+ on \d+ procs for (\d+) steps")
         self.seconds = last(r"Loop time of (\S+) on")
         self.pair = last(r"\nPair *\|[^|]*\| *(\S+)")
@@ -102,7 +108,6 @@ class Sample:
 
     def __init__(self, simulator, folder):
         self.folder = folder
-        os.makedirs(folder, exist_ok=True)
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
         scene = os.path.join(root, "dem", "scenes", "assembly-1000.toml")
         call([simulator, "run", os.path.abspath(scene), "--out", "sample", "--quiet", "--replace"], folder)
@@ -202,7 +207,7 @@ def check_answers(sample, programs, styles_of):
 
 def cost(words):
     sample = Sample(words.simulator, words.folder)
-    programs = {f"{k + 1}": os.path.abspath(program) for k, program in enumerate(words.program)}
+    programs = {f"{k + 1}": program for k, program in enumerate(words.program)}
     for label, program in programs.items():
         version = re.search(r"\d+ \w+ \d{4}[^-\n]*", call([program, "-help"], words.folder))
         print(f"program {label}: {os.path.basename(program)}, LAMMPS {version[0].strip() if version else '?'}")
@@ -231,7 +236,7 @@ def cost(words):
 
 def ranks(words):
     sample = Sample(words.simulator, words.folder)
-    program = os.path.abspath(words.program[0])
+    program = words.program[0]
     text = HEAD.format(style="ellipsoid", data="sample.data")
     text += f"replicate {words.copies} {words.copies} {words.copies}\n"
     text += TANGENCY.format(words="", friction=FRICTION) + STRAIN
@@ -256,6 +261,12 @@ def ranks(words):
     print(f"efficiency of {words.ranks} ranks: {least[1].seconds / least[words.ranks].seconds / words.ranks:.3f}")
 
 
+def program_at(word):
+    if not os.path.isfile(word) or not os.access(word, os.X_OK):
+        raise argparse.ArgumentTypeError(f"{word}: the path of a program is allowed")
+    return os.path.abspath(word)
+
+
 def positive(word):
     value = int(word)
     if value < 1:
@@ -266,14 +277,18 @@ def positive(word):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("cost", "ranks"))
-    parser.add_argument("simulator", type=os.path.abspath)
+    parser.add_argument("simulator", type=program_at)
     parser.add_argument("folder")
-    parser.add_argument("program", nargs="+")
+    parser.add_argument("program", nargs="+", type=program_at)
     parser.add_argument("--steps", type=positive, default=None)
     parser.add_argument("--rounds", type=positive, default=5)
     parser.add_argument("--copies", type=positive, default=4)
     parser.add_argument("--ranks", type=positive, default=2)
     words = parser.parse_args()
+    try:
+        os.makedirs(words.folder, exist_ok=True)
+    except OSError as error:
+        parser.error(f"folder: {words.folder}: {error.strerror}")
     if words.what == "ranks" and (len(words.program) > 1 or words.ranks < 2):
         parser.error("ranks: one PROGRAM, and --ranks of 2 or more, are allowed")
     if words.steps is None:

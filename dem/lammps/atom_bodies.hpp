@@ -3,6 +3,7 @@
 /// The ellipsoids of a rank as the simulator's functions read them.
 #pragma once
 
+#include <atom.h>
 #include <atom_vec_ellipsoid.h>
 #include <lammps.h>
 #include <pointers.h>
@@ -47,6 +48,10 @@ class AtomBodies : protected LAMMPS_NS::Pointers {
 
   /// The ellipsoids of a LAMMPS; null where its atom style has none.
   static LAMMPS_NS::AtomVecEllipsoid* ellipsoids(LAMMPS_NS::LAMMPS* lammps);
+  /// Why an atom is no body that can be asked about, to be said behind its number; null where it is
+  /// one.
+  static const char* fault_of(const LAMMPS_NS::Atom& atoms, const LAMMPS_NS::AtomVecEllipsoid& from,
+                              int i);
   /// The angular velocity that an angular momentum is of.
   static Vec3 spin_of(const Vec3& momentum, const Quaternion& turn, double mass, const Vec3& axes);
   /// The largest reach of each type over all ranks, length; entry 0 is of no type.
@@ -55,7 +60,6 @@ class AtomBodies : protected LAMMPS_NS::Pointers {
  private:
   void place();
   void take(std::size_t body, const LAMMPS_NS::AtomVecEllipsoid& from);
-  [[noreturn]] void refuse(int i, const char* what);
 
   std::vector<std::uint32_t> body_;  ///< of each atom
   std::vector<int> atom_;            ///< of each body, the one that it is made from

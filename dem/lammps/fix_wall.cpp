@@ -120,9 +120,8 @@ void FixWall::collect() {
   const LAMMPS_NS::AtomVecEllipsoid& from = *AtomBodies::ellipsoids(lmp);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0 || atom->ellipsoid[i] < 0) continue;
-    if (!is_ellipsoid(from, atom->ellipsoid[i]))
-      error->one(FLERR,
-                 std::string(kCommand) + ": atom " + std::to_string(atom->tag[i]) + kNoEllipsoid);
+    if (const char* const fault = AtomBodies::fault_of(*atom, from, i))
+      error->one(FLERR, std::string(kCommand) + ": atom " + std::to_string(atom->tag[i]) + fault);
     const Body& body = body_at(from, atom->ellipsoid[i]);
     const Vec3 axes = Vec3::Map(body.shape), place = Vec3::Map(atom->x[i]);
     if (!(cell_.planes[0].height_of(place) < axes.maxCoeff())) {

@@ -247,6 +247,11 @@ class Check:
             self.refuse("refused", script.replace(servo, line), message)
         self.refuse("refused", script.replace(servo, "").replace(good, good + "\n" + servo),
                     "stands before fix tangency/servo")
+        # Of numbers that are none the wall knows without our pair style, too.
+        wall = ("variable big atom 1e300*1e300\nset atom 1 angmom v_big 0.0 0.0\n"
+                "fix wall all wall/tangency plane 0 0 -1000 0 0 1 law hooke 1e8\n")
+        self.refuse("refused", script.replace("boundary p p p", "boundary p p f").replace(servo, wall),
+                    "fix wall/tangency: atom 1 has a place, a turn or a motion")
 
     def refuse(self, name, script, message):
         self.write(f"{name}/in.wrong", script)

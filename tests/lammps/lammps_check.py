@@ -332,11 +332,14 @@ class Check:
             contact, coefficients = LAWS[law]
             state, text = self.strain(contact, 300)
             there = table(self.tell("contacts", state))
-            for ranks in (1, 4):
+            for ranks, newton in ((1, "on"), (4, "on"), (4, "off")):
                 dump = LOCAL.format(columns=" ".join(f"p{k}" for k in range(1, LOCAL_COLUMNS + 1)),
                                     all=" ".join(f"c_local[{k}]" for k in range(1, LOCAL_COLUMNS + 1)))
-                self.lammps("columns", text + dump + "run 300\n", ranks, law=coefficients, style="accuracy standard")
-                self.compare_columns(f"{law}, {ranks} ranks", there)
+                self.lammps("columns", text + dump + "run 300\n", ranks, law=coefficients, style="accuracy standard",
+                            newton=newton)
+                p = self.compare_columns(f"{law}, {ranks} ranks, newton {newton}", there)
+                if law == "linear":
+                    self.compare_springs(p)
 
     def compare_columns(self, what, there):
         with open(os.path.join(self.folder, "columns.local"), encoding="ascii") as file:
@@ -362,6 +365,14 @@ class Check:
         require(not slides.any() and 0 < there["sliding"].sum() < len(p),
                 f"{what}: {slides.sum()} contacts slide in one program alone, of {there['sliding'].sum():.0f}")
         print(f"pair/local, {what}: the same {there['sliding'].sum():.0f} contacts slide", flush=True)
+        return p
+
+    def compare_springs(self, p):
+        """What the table has not: of linear springs stiffness and energies follow from their forces."""
+        within("pair/local, size of the shear force", off(p[:, 3], np.linalg.norm(p[:, :3], axis=1)), 1e-12)
+        within("pair/local, normal stiffness", off(p[:, 15], np.full(len(p), STIFFNESS)), 1e-12)
+        within("pair/local, normal energy", off(p[:, 16], 0.5 * p[:, 4]**2 / STIFFNESS), 1e-12)
+        within("pair/local, shear energy", off(p[:, 17], 0.5 * p[:, 3]**2 / STIFFNESS), 1e-12)
 
     # dem/lammps/pair_tangency.hpp (1)
     def check_ranks(self):

@@ -302,7 +302,9 @@ class Errors(Refusals):
                      [BALL, BALL, BALL[:9]], rows[:3])
         self.refused("b: row 1: 1 numbers: must be 10, as many as of row 0", 1, tangency.relations, rows[:2], (BALL, 7))
         for ask in (tangency.contacts, tangency.relations):
-            self.refused("columns = 'gap': must be a list of names, as ['gap']", None, ask, rows, rows, columns="gap")
+            for columns in ("gap", b"gap", 3):
+                self.refused(f"columns = {columns!r}: must be a list of names, as ['gap']", None, ask, rows, rows,
+                             columns=columns)
         broken = np.zeros(2, [(name, "f8") for name in NAMES if name != "r3"])
         self.refused("a: there is no column r3", None, tangency.contacts, broken, rows[:2])
 

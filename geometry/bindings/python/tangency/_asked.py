@@ -46,9 +46,12 @@ def accuracy_pointer(accuracy: str | float, up_to: float | None = None) -> tuple
 
 def names_of(columns: Iterable[str] | None) -> tuple[str, ...] | None:
     """Names that may be read more than once. A single text is refused: it would be taken for its letters."""
-    if isinstance(columns, str):
-        raise TangencyError(f"columns = {columns!r}: must be a list of names, as [{columns!r}]")
-    return None if columns is None else tuple(columns)
+    if columns is None:
+        return None
+    if isinstance(columns, (str, bytes)) or not isinstance(columns, Iterable):
+        example = f"[{columns!r}]" if isinstance(columns, str) else "['gap']"
+        raise TangencyError(f"columns = {columns!r}: must be a list of names, as {example}")
+    return tuple(columns)
 
 
 def columns_for(kind: type[Answer], count: int, columns: Iterable[str] | None, out: Answer | None = None) -> Answer:

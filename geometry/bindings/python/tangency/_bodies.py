@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -68,9 +69,12 @@ def table_of_row(given: Any) -> Any:
     """A row of a structured array or of a data frame as a table of one row: its columns may stand in any order."""
     if isinstance(given, np.void) and given.dtype.names is not None:
         return np.asarray(given).reshape(1)
-    to_frame = getattr(given, "to_frame", None)
-    if callable(to_frame) and all(isinstance(name, str) for name in given.index):
-        return to_frame().T
+    to_frame, index = getattr(given, "to_frame", None), getattr(given, "index", None)
+    if callable(to_frame) and isinstance(index, Iterable):  # of pandas: its indices have no index themselves
+        names = list(index)
+        if names and all(isinstance(name, str) for name in names):
+            # Beside a column of text the row holds objects, numbers among them.
+            return to_frame().T.infer_objects()
     return given
 
 
@@ -91,6 +95,9 @@ def _rows_of_columns(given: Any, columns: list[str], names: tuple[str, ...], arg
     if missing:
         either = f"{names[0]} or " if missing[0] == f"{argument}.{names[0]}" else ""
         raise TangencyError(f"{argument}: there is no column {either}{missing[0]}")
+    twice = [name for name in wanted if columns.count(name) > 1]
+    if twice:
+        raise TangencyError(f"{argument}: column {twice[0]}: named twice: must be there once")
     if isinstance(given, np.ndarray) and not isinstance(given, np.ma.MaskedArray) and given.ndim == 1:
         view = _view_of_neighbours(given, wanted)
         if view is not None:
