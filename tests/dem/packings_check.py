@@ -14,9 +14,9 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 from checks import require  # noqa: E402
 
-# Aspect ratio, volume fraction, contacts a body without rattlers: of 1,000 bodies, seed 1
-# (docs/samples.md).
-LARGE = ((0.6, 0.704, 9.81), (1.0, 0.637, 6.13), (1.6, 0.709, 9.90), (2.0, 0.700, 9.98))
+# Aspect ratio, volume fraction, contacts a body without rattlers: of 1,000 bodies, means
+# of three seeds (docs/samples.md).
+LARGE = ((0.6, 0.706, 9.81), (1.0, 0.637, 6.13), (1.6, 0.710, 9.91), (2.0, 0.700, 10.01))
 # Chosen: 0.64, the one published number of spheres, and 0.68 to 0.71 of the densest spheroids are
 # told apart, and so are isostatic spheres (6) and spheroids (10).
 FRACTION_WITHIN, CONTACTS_WITHIN = 0.015, 0.5
