@@ -50,7 +50,7 @@ struct PoseColumns {
 enum class Questions {
   any,
   /// None in single precision: no Accuracy::fast(), or any other `of_size` that is not below its,
-  /// and no cutoff; a call that asks for one ends the process. A refresh is a fifth quicker.
+  /// and no cutoff; a call that asks for one ends the process. A refresh takes a sixth less.
   in_double,
 };
 
@@ -75,7 +75,7 @@ class MovingBodies {
   /// Owns copies.
   MovingBodies(const VectorColumn& semi_axes, const PoseColumns& poses);
   ~MovingBodies();
-  /// Of bodies that look at columns, the copy looks at the same; of those that own them, it owns
+  /// The copy of bodies that look at columns is empty, that of bodies that own their numbers owns
   /// its own.
   MovingBodies(const MovingBodies&);
   /// As the constructor does.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -82,6 +84,45 @@ TEST(Ball, ErrorsAreCarriedThroughWhatCancels) {
     // A root and a quotient are good to a hundred binary digits.
     const Ball v = root(a / b).ball;
     EXPECT_LT((v - v.middle()).most(), 0x1p-98L * v.value());
+  }
+}
+
+// Operands at the ends of wide balls, where bounds are all but reached.
+TEST(Ball, AResultEnclosesWhateverItsOperandsMayBe) {
+  Numbers numbers;
+  std::mt19937_64 engine(kSeed + 1);
+  std::uniform_int_distribution<int> digits(1, 40), ends(0, 1);
+  std::array<double, 6> worst{};
+  for (int i = 0; i < 4000; ++i) {
+    const auto wide = [&](double share, int end) {
+      const Both v = numbers.next();
+      const double error = share * static_cast<double>(v.ball.value());
+      return Both{v.ball + Ball(0, error), v.exact + end * Real(error)};
+    };
+    const auto operand = [&] {
+      return wide(std::ldexp(1.0, -digits(engine)), 2 * ends(engine) - 1);
+    };
+    const Both a = operand(), b = operand();
+    const Both minus{-a.ball, -a.exact};
+    const std::array results{a + b, a - b, a * b, minus * b, minus / b, root(a)};
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const double share = share_of_error(results[k]);
+      EXPECT_LE(share, 1) << "seed " << kSeed << ", pair " << i << ", result " << k;
+      worst[k] = std::max(worst[k], share);
+    }
+  }
+  // A root's bound takes the root at the lower end for 0.
+  EXPECT_GT(worst.back(), 0.55);
+  worst.back() = 1;
+  for (const double share : worst) EXPECT_GT(share, 0.95);
+}
+
+TEST(Ball, WhatUnderflowsIsInTheError) {
+  for (const int exponent : {-500, -520, -535, -600}) {
+    const double v = std::ldexp(1.75, exponent);
+    const Both tiny{Ball(v), Real(v)};
+    for (const Both& product : {tiny * tiny, tiny * tiny * tiny, tiny * tiny / tiny - tiny})
+      EXPECT_LE(share_of_error(product), 1) << exponent;
   }
 }
 

@@ -47,13 +47,15 @@ struct Off {
   double off, half;
 };
 
-Off off_by(const GapBracket& bracket) {
+// Nothing where an end of the gap is not proven.
+std::optional<Off> off_by(const GapBracket& bracket) {
+  if (!(bracket.most_excess - bracket.least_excess < kInfinity)) return std::nullopt;
   const long double middle =
       bracket.least_excess + (bracket.most_excess - bracket.least_excess) / 2;
   const auto off = static_cast<double>(-middle);
   const long double half = std::max(bracket.most_excess + off, -off - bracket.least_excess);
   // A unit more for the roundings here.
-  return {off, static_cast<double>(half) * (1 + 0x1p-50)};
+  return Off{off, static_cast<double>(half) * (1 + 0x1p-50)};
 }
 
 Off off_by(const PairTruth& truth, double answered) {
@@ -138,7 +140,7 @@ void judge_gap(const EllipsoidPair& pair, const Answer& answer, const GapBracket
     return part.most() <= limits.gap_error || part.least() > limits.gap_error;
   };
   std::optional<GapPart> part;
-  if (bracket.most_excess < kInfinity) part.emplace(answer, off_by(bracket), bracket.size);
+  if (const auto off = off_by(bracket)) part.emplace(answer, *off, bracket.size);
   if (!part || !settled(*part)) {
     const auto truth = full_truth(pair, counts);
     if (!truth) return void(verdict.open = true);
@@ -155,7 +157,7 @@ void judge_certificate(const EllipsoidPair& pair, const Answer& answer, const Ga
   std::optional<GapPart> part;
   // From above alone a local bound needs no upper end of the gap.
   if (answer.is_local && -bracket.least_excess <= *answer.gap_error) return;
-  if (bracket.most_excess < kInfinity) part.emplace(answer, off_by(bracket), bracket.size);
+  if (const auto off = off_by(bracket)) part.emplace(answer, *off, bracket.size);
   if (!part || (part->may_be_broken() && !part->is_broken())) {
     const auto truth = full_truth(pair, counts);
     if (!truth) return void(verdict.open = true);

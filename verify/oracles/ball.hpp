@@ -20,20 +20,24 @@
 #pragma once
 
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace tangency::inline v0::verify {
 
+static_assert(FLT_EVAL_METHOD == 0, "sums and products of doubles are rounded to doubles");
+
 class Ball {
  public:
   Ball() = default;
-  /// Of a double, or of 64 binary digits: exact.
+  /// Of a double, or of 64 binary digits and at least 2^-1000: exact. Of more digits, what two
+  /// doubles do not hold is in the error.
   Ball(long double value, double error = 0)
       : high_(static_cast<double>(value)),
         low_(static_cast<double>(value - high_)),
-        error_(error) {}
+        error_(error + lost(low_)) {}
 
   /// The middle, to the last bits of a long double.
   long double value() const { return static_cast<long double>(high_) + low_; }
@@ -97,6 +101,10 @@ class Ball {
 
   Ball(double high, double low, double error, Parts) : high_(high), low_(low), error_(error) {}
 
+  // Of a long double, beside the low part.
+  static double lost(double low) {
+    return std::numeric_limits<long double>::digits > 64 ? 2 * kUnit * std::abs(low) : 0;
+  }
   static Ball unknown() { return {0, 0, std::numeric_limits<double>::infinity(), Parts()}; }
   static Ball rounded(double high, double low, double error) {
     return {high, low, (error + kRounding * std::abs(high)) * kUp + kLeast, Parts()};

@@ -18,9 +18,8 @@
 ///      inside both is known.
 ///  (5) A is not in B, if h_A(m) - h_B(m) > m.d for some m; overlap, if the interiors meet and
 ///      neither is in the other.
-///  (6) deeper pairs: gap <= -t, if a ball of radius t about d lies in an ellipsoid that lies in A
-///  - B
-///      (inner_ellipsoid.hpp).
+///  (6) deeper pairs: gap <= -t, if a ball of radius t about d lies in an ellipsoid that lies in
+///      the difference of both bodies (inner_ellipsoid.hpp).
 ///
 /// Identity: lower <= gap <= upper, and `relation` is that of exact_relation(), for all bodies.
 /// Assumes rounding to nearest.
