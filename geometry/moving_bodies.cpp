@@ -136,8 +136,8 @@ void MovingBodies::own() {
   if (owns_) return;
   own_axes_.assign(semi_axes_.begin(), semi_axes_.end());
   own_turns_.assign(orientations_.begin(), orientations_.end());
-  owns_ = true;
   floats_.resize(size());
+  owns_ = true;  // from here on nothing allocates
   look_at_own();
   fill(0, size());
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <random>
 #include <span>
 #include <utility>
@@ -48,8 +47,14 @@ struct Numbers {
 
 /// All rows that the lanes read, as bytes.
 std::vector<std::byte> rows(const MovingBodies& bodies) {
-  std::vector<std::byte> all(bodies.size() * sizeof(detail::LaneBody));
-  if (!all.empty()) std::memcpy(all.data(), bodies.lanes(), all.size());
+  std::vector<std::byte> all;
+  const auto add = [&](const auto* kind) {
+    const auto bytes = std::as_bytes(std::span(kind, bodies.size()));
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  };
+  add(bodies.lanes());
+  add(bodies.rows());
+  add(bodies.floats());
   return all;
 }
 
