@@ -16,43 +16,19 @@
 #include <tangency/geometry/batch/lane_block.hpp>
 #include <tangency/geometry/body_array.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
+#include <tangency/tests/geometry/followed_pairs.hpp>
 
 namespace tangency {
 namespace {
 
 using detail::LaneBlock;
-using testing::Family;
+using testing::Draw;
+using testing::FollowedPairs;
 using testing::Indexed;
 using testing::kSeed;
 
 constexpr std::size_t kBlock = LaneBlock::kPairs;
 constexpr double kToNearest = 0x1p-24, kInAnyMode = 0x1p-23;
-
-struct Draw {
-  double real(double from, double to) {
-    return from + (to - from) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  }
-  double power(double from, double to) { return std::exp2(real(from, to)); }
-  Vec3 direction() { return Vec3(real(-1, 1), real(-1, 1), real(-1, 1)).normalized(); }
-  Ellipsoid body(const Vec3& axes) {
-    return {Vec3::Zero(), axes, {real(-1, 1), real(-1, 1), real(-1, 1), real(0.1, 1)}};
-  }
-  std::mt19937_64 random;
-};
-
-/// A block of pairs, and normals to follow.
-struct Pairs {
-  Family of{"", {}, {}};
-  std::vector<Vec3> normals;
-
-  /// At gap `gap` along n, followed from a normal that is `turn` away.
-  void place(Draw& draw, const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, double gap,
-             double turn) {
-    of.a.push_back(a);
-    of.b.push_back(b.moved_to(a.support_point(n) + b.support_point(n) + gap * n));
-    normals.push_back(n + turn * n.cross(draw.direction()).normalized());
-  }
-};
 
 /// What is derived of a pair at a normal. Lengths are the caller's.
 struct Derived {
@@ -84,8 +60,8 @@ Derived derived(const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, double u)
 
 /// Of pairs that are settled at the normal that is given, whatever their error is.
 /// @param rounded  what the roundings of the ball may do to a bound, relative
-void expect_bounds(const Pairs& pairs, double rounded) {
-  const Indexed in(pairs.of);
+void expect_bounds(const FollowedPairs& followed, double rounded) {
+  const Indexed in(followed.pairs);
   ASSERT_EQ(in.pairs.size(), kBlock);
   testing::at_every_level([&] {
     const BodyArray array(in.bodies);
@@ -95,7 +71,7 @@ void expect_bounds(const Pairs& pairs, double rounded) {
     block.floats_a = block.floats_b = array.floats();
     block.pairs = in.pairs.data();
     block.count = LaneBlock::kPairs;
-    block.normals = pairs.normals[0].data();
+    block.normals = followed.previous[0].data();
     block.tolerance_of_size = 1.0;
     block.gap = gap.data();
     block.gap_error = gap_error.data();
@@ -105,8 +81,8 @@ void expect_bounds(const Pairs& pairs, double rounded) {
     std::size_t at_once = 0;
     for (std::size_t i = 0; i < kBlock; ++i) {
       if ((settled >> i & 1) == 0) continue;
-      const Vec3 n = pairs.normals[i].normalized();
-      const Ellipsoid &a = pairs.of.a[i], &b = pairs.of.b[i];
+      const Vec3 n = followed.previous[i].normalized();
+      const Ellipsoid &a = followed.pairs.a[i], &b = followed.pairs.b[i];
       const Derived of = derived(a, b, normal[i], kToNearest);
       EXPECT_LE(of.thin, 128 * (1 + 0x1p-10)) << i;
       if ((normal[i] - n).norm() > 0x1p-21) continue;  // a step further
@@ -123,72 +99,72 @@ void expect_bounds(const Pairs& pairs, double rounded) {
 }
 
 TEST(FloatBounds, HaveTheRoundingsOfTheValueNearAndFar) {
-  Pairs pairs;
+  FollowedPairs followed;
   Draw draw{std::mt19937_64(kSeed)};
-  while (pairs.normals.size() < kBlock) {
+  while (followed.previous.size() < kBlock) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
     const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
-    const double gap = draw.power(-8, pairs.normals.size() % 2 == 0 ? -2 : 10);
-    pairs.place(draw, a, b, draw.direction(), gap, 0);
+    const double gap = draw.power(-8, followed.previous.size() % 2 == 0 ? -2 : 10);
+    followed.place(draw, a, b, draw.direction(), gap, 0);
   }
-  expect_bounds(pairs, 0x1p-8);
+  expect_bounds(followed, 0x1p-8);
 }
 
 // Along the thin axis of A, W/h of it is up to 3 * 2^7; a/h of every third is above the limit.
 TEST(FloatBounds, HaveTheRoundingsOfTheValueOnFaces) {
-  Pairs pairs;
+  FollowedPairs followed;
   Draw draw{std::mt19937_64(kSeed + 1)};
-  while (pairs.normals.size() < kBlock) {
-    const double thin = draw.power(pairs.normals.size() % 3 == 0 ? -8 : -7, -5);
+  while (followed.previous.size() < kBlock) {
+    const double thin = draw.power(followed.previous.size() % 3 == 0 ? -8 : -7, -5);
     const Ellipsoid a = draw.body({1, draw.real(0.5, 1), thin});
     const Ellipsoid b = draw.body({draw.real(0.1, 0.2), draw.real(0.1, 0.2), draw.real(0.1, 0.2)});
-    pairs.place(draw, a, b, a.rotation().col(2), draw.power(-6, 0), 0);
+    followed.place(draw, a, b, a.rotation().col(2), draw.power(-6, 0), 0);
   }
-  expect_bounds(pairs, 0x1p-8);
+  expect_bounds(followed, 0x1p-8);
 }
 
 TEST(FloatBounds, HaveWhatABetterNormalMayGain) {
-  Pairs pairs;
+  FollowedPairs followed;
   Draw draw{std::mt19937_64(kSeed + 2)};
-  while (pairs.normals.size() < kBlock) {
+  while (followed.previous.size() < kBlock) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
     const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
-    pairs.place(draw, a, b, draw.direction(), draw.power(-3, 0), draw.power(-9, -6));
+    followed.place(draw, a, b, draw.direction(), draw.power(-3, 0), draw.power(-9, -6));
   }
-  expect_bounds(pairs, 0x1p-6);
+  expect_bounds(followed, 0x1p-6);
 }
 
 // (r): of balls, whose rest has the roundings of L, and of slightly thin bodies, whose row sums
 // over h are larger.
 TEST(FloatBounds, HaveTheErrorOfTheRestWhereTheBallIsSmall) {
-  Pairs pairs;
+  FollowedPairs followed;
   Draw draw{std::mt19937_64(kSeed + 3)};
-  while (pairs.normals.size() < kBlock) {
-    const bool round = pairs.normals.size() % 2 == 0;
+  while (followed.previous.size() < kBlock) {
+    const bool round = followed.previous.size() % 2 == 0;
     const auto axes = [&] {
       return round ? Vec3(1, 1, 1) : Vec3(1, draw.power(1, 2), draw.power(1, 2));
     };
     const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
     const double rho = a.least_radius() + b.least_radius();
     const double ball = round ? draw.power(-18, -17) : draw.power(-16, -14);
-    pairs.place(draw, a, b, draw.direction(), -rho * (1 - ball), 0);
+    followed.place(draw, a, b, draw.direction(), -rho * (1 - ball), 0);
   }
-  expect_bounds(pairs, 0x1p-5);
+  expect_bounds(followed, 0x1p-5);
 }
 
 // (o): a pair that is apart by less than (v) of any mode is not said to be.
 TEST(FloatBounds, OfYesAndNoAreThoseOfEveryRoundingMode) {
-  Pairs pairs;
+  FollowedPairs followed;
   Draw draw{std::mt19937_64(kSeed + 4)};
-  while (pairs.normals.size() < kBlock) {
+  while (followed.previous.size() < kBlock) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
     const Ellipsoid a = draw.body(axes()), b = draw.body(axes());
     const Vec3 n = draw.direction();
     const Ellipsoid touching = b.moved_to(a.support_point(n) + b.support_point(n));
     const double gap = draw.real(0.6, 0.9) * derived(a, touching, n, kInAnyMode).value;
-    pairs.place(draw, a, b, n, gap, 0);
+    followed.place(draw, a, b, n, gap, 0);
   }
-  const Indexed in(pairs.of);
+  const Indexed in(followed.pairs);
   testing::at_every_level([&] {
     const BodyArray array(in.bodies);
     LaneBlock block{};

@@ -19,45 +19,21 @@
 #include <tangency/geometry/gap_batch.hpp>
 #include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
+#include <tangency/tests/geometry/followed_pairs.hpp>
 
 namespace tangency {
 namespace {
 
 using testing::at_every_level;
 using testing::Columns;
-using testing::Family;
+using testing::Draw;
+using testing::FollowedPairs;
 using testing::Indexed;
 using testing::kSeed;
 using testing::same_bits;
 
 using Wide = long double;
 constexpr Wide kU = kUnitRoundoff;
-
-struct Draw {
-  double real(double from, double to) {
-    return from + (to - from) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  }
-  double power(double from, double to) { return std::exp2(real(from, to)); }
-  Vec3 direction() { return Vec3(real(-1, 1), real(-1, 1), real(-1, 1)).normalized(); }
-  Ellipsoid body(const Vec3& axes) {
-    return {Vec3::Zero(), axes, {real(-1, 1), real(-1, 1), real(-1, 1), real(0.1, 1)}};
-  }
-  std::mt19937_64 random;
-};
-
-/// Pairs, and normals that have turned from their true ones.
-struct Followed {
-  Family pairs;
-  std::vector<Vec3> previous;
-
-  /// At gap `gap` along n, followed from a normal that is `turn` away.
-  void place(Draw& draw, const Ellipsoid& a, const Ellipsoid& b, const Vec3& n, double gap,
-             double turn) {
-    pairs.a.push_back(a);
-    pairs.b.push_back(b.moved_to(a.support_point(n) + b.support_point(n) + gap * n));
-    previous.push_back(n + turn * n.cross(draw.direction()).normalized());
-  }
-};
 
 /// What is derived of a lane that evaluates at `n` and steps to the answer's normal.
 struct Derived {
@@ -179,7 +155,7 @@ Columns first_tier(detail::PairTask task, const std::vector<Vec3>& previous,
   return answers;
 }
 
-void expect_bounds(const Followed& f, const Accuracy& accuracy, bool cold) {
+void expect_bounds(const FollowedPairs& f, const Accuracy& accuracy, bool cold) {
   const Indexed in(f.pairs);
   std::vector<Vec3> axes;
   std::vector<Quaternion> turns;
@@ -239,7 +215,7 @@ void expect_bounds(const Followed& f, const Accuracy& accuracy, bool cold) {
 }
 
 /// Lanes of a coarse tolerance, which answer at the normal that they are given: s = 0, e = r.
-void expect_bounds_without_a_step(const Followed& f, const Accuracy& accuracy) {
+void expect_bounds_without_a_step(const FollowedPairs& f, const Accuracy& accuracy) {
   const Indexed in(f.pairs);
   std::vector<Vec3> axes;
   std::vector<Quaternion> turns;
@@ -275,7 +251,7 @@ void expect_bounds_without_a_step(const Followed& f, const Accuracy& accuracy) {
 constexpr std::size_t kCount = 300;
 
 TEST(MixedBounds, HaveTheRoundingsOfTheValue) {
-  Followed f{{"near and far", {}, {}}, {}};
+  FollowedPairs f{{"near and far", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
@@ -286,7 +262,7 @@ TEST(MixedBounds, HaveTheRoundingsOfTheValue) {
 }
 
 TEST(MixedBounds, HaveTheThirdOrderOfAStep) {
-  Followed f{{"wide steps", {}, {}}, {}};
+  FollowedPairs f{{"wide steps", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 1)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
@@ -297,7 +273,7 @@ TEST(MixedBounds, HaveTheThirdOrderOfAStep) {
 }
 
 TEST(MixedBounds, HaveTheErrorOfAStepInFloatFarAway) {
-  Followed f{{"far away", {}, {}}, {}};
+  FollowedPairs f{{"far away", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 2)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
@@ -308,7 +284,7 @@ TEST(MixedBounds, HaveTheErrorOfAStepInFloatFarAway) {
 }
 
 TEST(MixedBounds, HaveTheSecondOrderOfTheRestWhereTheBallIsSmall) {
-  Followed f{{"edge", {}, {}}, {}};
+  FollowedPairs f{{"edge", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 3)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(1, 2), draw.power(1, 2)); };
@@ -321,7 +297,7 @@ TEST(MixedBounds, HaveTheSecondOrderOfTheRestWhereTheBallIsSmall) {
 
 // A body below 2^-40 L is left to the next tier, whatever its neighbours are.
 TEST(MixedLanes, LeaveBodiesFarSmallerThanTheirPairToTheDoubles) {
-  Followed f{{"small", {}, {}}, {}};
+  FollowedPairs f{{"small", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 8)};
   const Ellipsoid large(Vec3::Zero(), Vec3(1, 0.9, 0.8));
   for (std::size_t i = 0; i < 64; ++i) {
@@ -343,7 +319,7 @@ TEST(MixedLanes, LeaveBodiesFarSmallerThanTheirPairToTheDoubles) {
 // (R'): plates that lie on each other along axes, where the step is exactly 0, about as deep as the
 // ball allows.
 TEST(MixedBounds, HaveTheRoundingsOfTheRestOfPlatesWhereTheBallIsSmall) {
-  Followed f{{"plates", {}, {}}, {}};
+  FollowedPairs f{{"plates", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 5)};
   while (f.previous.size() < kCount) {
     const auto plate = [&] {
@@ -359,7 +335,7 @@ TEST(MixedBounds, HaveTheRoundingsOfTheRestOfPlatesWhereTheBallIsSmall) {
 
 // (T): each step here is beyond one of its limits, or near it.
 TEST(MixedBounds, HoldForNoStepThatIsLongerThanTheyAreDerivedFor) {
-  Followed f{{"longest steps", {}, {}}, {}};
+  FollowedPairs f{{"longest steps", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 6)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
@@ -371,7 +347,7 @@ TEST(MixedBounds, HoldForNoStepThatIsLongerThanTheyAreDerivedFor) {
 
 // (F): of what the ball is the difference of, 2^-21.
 TEST(MixedBounds, HaveTheRoundingsOfTheBallWhereItIsSmallest) {
-  Followed f{{"smallest balls", {}, {}}, {}};
+  FollowedPairs f{{"smallest balls", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 4)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 1), draw.power(0, 1)); };
@@ -385,7 +361,7 @@ TEST(MixedBounds, HaveTheRoundingsOfTheBallWhereItIsSmallest) {
 
 // (L): every second pair is far away, the others are about as deep as the ball allows.
 TEST(MixedBounds, HaveAllOfTheRestWhereNoStepIsTaken) {
-  Followed f{{"no step", {}, {}}, {}};
+  FollowedPairs f{{"no step", {}, {}}, {}};
   Draw draw{std::mt19937_64(kSeed + 7)};
   while (f.previous.size() < kCount) {
     const auto axes = [&] { return Vec3(1, draw.power(0, 2), draw.power(0, 2)); };
