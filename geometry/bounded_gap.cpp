@@ -60,10 +60,9 @@ Vec3 first_normal(const Pair& pair) {
   if (pair.a.moderate() && pair.b.moderate() && reach >= detail::kSmallestModerate) {
     const detail::PerramWertheimForm form(pair.a, pair.b, pair.d);
     const Vec3 along = form.normal_direction(form.maximise(detail::kPerramWertheimSteps));
-    const double largest = along.cwiseAbs().maxCoeff();
     // Of flat and long bodies its square, or all of it, may underflow.
-    if (largest > 0.0 && along.allFinite())
-      return scaled_by_power(along, -exponent_of(largest)).normalized();
+    if (along.allFinite() && !along.isZero(0.0))
+      return scaled_by_power(along, -exponent_of(along)).normalized();
   }
   return (pair.d / reach).normalized();
 }

@@ -25,6 +25,8 @@ constexpr double kLegendLine = 16, kSample = 22, kLetter = 6.6;
 constexpr double kLeastSpan = 0.04;
 /// The same upwards. Chosen: below it is rounding, and ticks could not be told apart.
 constexpr double kLeastSpanUp = 1e-9;
+/// Numbers between these are shown whole. Chosen: a tick has at most five digits.
+constexpr double kShownWholeFrom = 1e-2, kShownWholeBelow = 1e4;
 /// Ticks of an axis, at most about as many as this.
 constexpr double kTicksAcross = 5, kTicksUp = 6;
 /// Pieces that a long curve is thinned to, its lowest and highest value of each kept.
@@ -98,7 +100,7 @@ class Axis {
   /// Three times a whole number: the power of ten that numbers are shown without, so that they are
   /// short.
   int exponent() const {
-    if (logarithmic_ || (largest() < 1e4 && largest() >= 1e-2)) return 0;
+    if (logarithmic_ || (largest() >= kShownWholeFrom && largest() < kShownWholeBelow)) return 0;
     return 3 * static_cast<int>(std::floor(std::log10(largest()) / 3.0));
   }
   double largest() const { return std::max(std::abs(low_), std::abs(high_)); }

@@ -120,14 +120,12 @@ ReportedRun::Micro ReportedRun::micro(const StageRows& stage,
   tables::Reader reader((directory_ / "micro.csv").string());
   const tables::Header& header = reader.header();
   const tables::Column cycle = header.require("cycle"), of_stage = header.require("stage_cycle");
-  const tables::Column strain = header.require("axial_strain");
+  const tables::Column strain = header.require("axial_strain"), name = header.require("stage");
   std::vector<tables::Column> columns;
-  for (const std::string_view name : names) columns.push_back(header.require(name));
+  for (const std::string_view wanted : names) columns.push_back(header.require(wanted));
   const double begin = value("cycle", stage.first) - value("stage_cycle", stage.first);
   tables::for_each_row(reader, [&](const tables::RowCursor& row) {
-    if (row.text(header.require("stage")) != stage.name ||
-        row.number(cycle) - row.number(of_stage) != begin)
-      return;
+    if (row.text(name) != stage.name || row.number(cycle) - row.number(of_stage) != begin) return;
     micro.strain.push_back(row.number(strain));
     for (std::size_t k = 0; k < columns.size(); ++k)  // an empty cell is not defined
       micro.values[k].push_back(row.text(columns[k]).empty() ? kNone : row.number(columns[k]));
