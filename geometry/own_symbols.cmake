@@ -9,8 +9,9 @@ cmake_minimum_required(VERSION 3.25)
 # constructor's or destructor's variants, by which linkers merge them (n).
 execute_process(COMMAND "${NM}" --defined-only --format=posix "${LIBRARY}"
                 OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "_Z[^\n ]+ [WVun] " names "${symbols}")
-list(TRANSFORM names REPLACE " .*" "")
+# A whole name: counters of coverage have the names of functions within theirs.
+string(REGEX MATCHALL "\n_Z[^\n ]+ [WVun] " names "\n${symbols}")
+list(TRANSFORM names REPLACE "\n([^ ]+) .*" "\\1")
 list(REMOVE_DUPLICATES names)
 # Type descriptions are compared across the program when an exception is caught. What is private to
 # the library has no other copy, and the tests call it.

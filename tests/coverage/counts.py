@@ -63,13 +63,18 @@ def branch_counts(branches):
     return counts
 
 
-def counted(file, source):
-    """Counts of one file of the export, whose lines are these."""
-    lines = line_counts(file["segments"])
-    missed_lines = [line for line, count in lines.items() if count == 0]
+def counted(files, source):
+    """Counts of one file, whose lines are these: the export has it once for each name by which it was
+    compiled."""
+    lines = {}
+    for file in files:
+        for line, count in line_counts(file["segments"]).items():
+            lines[line] = max(count, lines.get(line, 0))
+    missed_lines = [line for line, count in sorted(lines.items()) if count == 0]
     branches = 0
     missed = []
-    for (line, *_), ways in sorted(branch_counts(file.get("branches", [])).items()):
+    every = [branch for file in files for branch in file.get("branches", [])]
+    for (line, *_), ways in sorted(branch_counts(every).items()):
         if NEVER.search(source[line - 1]):
             continue
         branches += 2

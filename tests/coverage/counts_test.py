@@ -29,17 +29,24 @@ class Counts(unittest.TestCase):
         self.assertEqual({1: 5, 2: 5, 3: 0, 4: 0, 5: 5, 6: 5, 7: 5, 8: 5, 9: 5}, line_counts(SEGMENTS))
 
     def test_what_is_not_run_is_named_by_line_and_by_the_way_that_is_not_taken(self):
-        counts = counted({"segments": SEGMENTS, "branches": BRANCHES}, SOURCE)
+        counts = counted([{"segments": SEGMENTS, "branches": BRANCHES}], SOURCE)
         self.assertEqual([3, 4], counts.missed_lines)
         self.assertEqual([(2, "true"), (8, "true")], counts.missed_branches)
         self.assertEqual((9, 7), (counts.lines, counts.lines_run))
 
     def test_the_failing_side_of_an_assertion_is_no_branch(self):
-        self.assertEqual(4, counted({"segments": SEGMENTS, "branches": BRANCHES}, SOURCE).branches)
+        self.assertEqual(4, counted([{"segments": SEGMENTS, "branches": BRANCHES}], SOURCE).branches)
 
     def test_a_branch_counts_once_for_all_templates_and_instruction_sets(self):
         again = BRANCHES + [[2, 7, 2, 12, 3, 0, 0, 0, 4]]
-        counts = counted({"segments": SEGMENTS, "branches": again}, SOURCE)
+        counts = counted([{"segments": SEGMENTS, "branches": again}], SOURCE)
+        self.assertEqual((4, [(8, "true")]), (counts.branches, counts.missed_branches))
+
+    def test_a_header_that_was_compiled_by_two_names_is_one_file(self):
+        other = [segment[:2] + [7] + segment[3:] if segment[:2] == [2, 14] else segment for segment in SEGMENTS]
+        taken = [[2, 7, 2, 12, 3, 0, 0, 0, 4]]
+        counts = counted([{"segments": other, "branches": taken}, {"segments": SEGMENTS, "branches": BRANCHES}], SOURCE)
+        self.assertEqual((9, []), (counts.lines, counts.missed_lines))
         self.assertEqual((4, [(8, "true")]), (counts.branches, counts.missed_branches))
 
     def test_only_code_of_the_folders_asked_for_is_counted(self):

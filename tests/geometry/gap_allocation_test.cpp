@@ -72,7 +72,8 @@ std::vector<Bodies> all_pairs() {
 
 TEST(Allocation, IsSeenByTheCounter) {
   const long before = allocations;
-  delete new int(1);
+  // A call of the function: what a new-expression allocates a compiler may leave out.
+  ::operator delete(::operator new(sizeof(int)));
   EXPECT_EQ(allocations, before + 1);
 }
 

@@ -123,7 +123,7 @@ TEST(TimeBatch, SolidsAreApartUntilTimeAndOverlapAtLatest) {
   const Times found = ask(s, s.pairs);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
     const auto [a, b] = s.pairs[i];
-    const auto gap_at = [&](double t) {
+    const auto gap_at = [&, a = a, b = b](double t) {
       return signed_gap(moved(s.bodies[a], s.motions[a], t), moved(s.bodies[b], s.motions[b], t));
     };
     if (found.status[i] == Status::touching_at_start) {

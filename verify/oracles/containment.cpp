@@ -322,7 +322,7 @@ MarginTruth margin(const Nest<N>& pair) {
   const auto [values, vectors] = jacobi_eigen(w);
   for (std::size_t i = 0; i < N; ++i) e[i] = dot(vectors[i], centre);
   const auto largest = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
-  const auto length2 = [&](const Real& v) {
+  const auto length2 = [&, &values = values](const Real& v) {
     Real sum = 0;
     for (std::size_t i = 0; i < N; ++i)
       sum += (e[i] * v / (v - values[i])) * (e[i] * v / (v - values[i]));
