@@ -100,7 +100,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   void make_history();
   void require_host();
   void require_one_law();
-  void require_room();
+  void require_room(double cutoff);
   Step step();
   void collect(const Step& step);
   void finish(PairBlock& block, const Step& step, double weight);
