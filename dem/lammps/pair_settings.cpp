@@ -112,7 +112,7 @@ void PairTangency::init_style() {
   require_one_law();
   reach_ = AtomBodies::reach_by_type(lmp);
   // LAMMPS copies atoms for their images before the first list: a skin of many boxes fills memory.
-  require_room(2.0 * *std::max_element(reach_.begin(), reach_.end()));
+  require_room(longest_cutoff());
   neighbor->request(this, instance_me);
   make_history();
 }
@@ -135,6 +135,17 @@ double PairTangency::init_one(int i, int j) {
     error->all(FLERR, "Pair style tangency: pair_coeff " + std::to_string(i) + " " +
                           std::to_string(j) + " is missing: laws are not mixed");
   return reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)];
+}
+
+/// Of the pairs of types that are of this style.
+double PairTangency::longest_cutoff() const {
+  double longest = 0.0;
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j)
+      if (setflag[i][j] != 0)
+        longest = std::max(
+            longest, reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)]);
+  return longest;
 }
 
 void PairTangency::require_room(double cutoff) {

@@ -100,6 +100,7 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   void make_history();
   void require_host();
   void require_one_law();
+  double longest_cutoff() const;
   void require_room(double cutoff);
   Step step();
   void collect(const Step& step);
