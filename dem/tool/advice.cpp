@@ -18,6 +18,11 @@ namespace {
 /// mean was 455 at a gain of 0.5, 99 at 0.05 and 34 at 0.005, and it swung by 224, 27 and 19.
 constexpr double kFlow = 0.005, kGainOfFlow = 0.05;
 
+/// Of the gain times what springs and dampers answer to a strain, over what springs do: above the
+/// first the servo rings, the second is advised. Measured on a sheared sample of a sieve curve from
+/// D to 2.5 D (docs/choosing.md): it holds at 1.15 and less, and rings at 1.4 and more.
+constexpr double kRings = 1.25, kQuiet = 0.5;
+
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
@@ -167,6 +172,21 @@ std::optional<double> gain_of_flow(const Scene& scene, const Drive& stage) {
   return flows ? std::optional(kGainOfFlow) : std::nullopt;
 }
 
+std::optional<double> gain_of_dampers(const Simulation& simulation, const Drive& stage) {
+  // Without a rate of damping contacts have no dampers meanwhile.
+  const Servo& servo = stage.loading.servo;
+  if (stage.loading.targets.empty() || !stage.damping || servo.published_gain > 0.0)
+    return std::nullopt;
+  double ratio = 0.0;
+  for (const ContactLaw& law : simulation.scene().laws.law)
+    ratio = std::max(ratio, law.damping_ratio);
+  const std::vector<double>& mass = simulation.state().particles.mass;
+  const auto [least, most] = std::minmax_element(mass.begin(), mass.end());
+  const double answer = 1.0 + 2.0 * ratio * std::sqrt(*most / *least) / stage.time_step_factor;
+  if (ratio == 0.0 || servo.gain * answer <= kRings) return std::nullopt;
+  return std::stod(tables::rounded_text(kQuiet / answer, 1));
+}
+
 std::string advice_on_servo(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const Drive& stage = *simulation.stage().drive;
@@ -179,6 +199,8 @@ std::string advice_on_servo(const Simulation& simulation) {
   if (servo.max_strain_rate < 0.5 * fast)
     return changed("max_strain_rate", servo.max_strain_rate, fast);
   if (servo.published_gain > 0.0) return "leave published_gain out, whose servo rings";
+  if (const auto quiet = gain_of_dampers(simulation, stage))
+    return changed("servo_gain", servo.gain, *quiet);
   const std::optional<double> of_flow = gain_of_flow(scene, stage);
   const double gain = of_flow.value_or(Servo().gain);
   if (servo.gain < 0.5 * gain || (of_flow && servo.gain > 2.0 * gain))

@@ -42,6 +42,12 @@ std::string advice_on_servo(const Simulation& simulation);
 /// holds no stress.
 std::optional<double> gain_of_flow(const Scene& scene, const Drive& stage);
 
+/// The servo_gain with which dampers at contacts (restitution) do not make the servo ring, where
+/// the stage's gain is so large that they do; else none. In a step a damper answers a strain by 2
+/// zeta sqrt(m_max / m_min) / time_step_factor times what the spring does, and the servo knows of
+/// the spring alone.
+std::optional<double> gain_of_dampers(const Simulation& simulation, const Drive& stage);
+
 /// "lower time_step_factor to 0.2", a share of what it is.
 std::string advice_on_step(const Simulation& simulation, double share);
 

@@ -287,15 +287,22 @@ class Checker {
     return changes;
   }
 
-  /// Of a flow that is meant: of one that is not a slower rate is advised.
+  /// Of dampers, and of a flow that is meant: of one that is not a slower rate is advised.
   void check_gain(const StageForecast& seen) {
     const Stage& stage = stage_of(seen);
     const Servo& servo = stage.drive->loading.servo;
+    const auto advise = [&](double gain, const std::string& reason) {
+      add(&stage, "servo_gain", reason,
+          {{path_of(scene_, seen.stage, "servo_gain"), tables::to_text(servo.gain),
+            tables::to_text(gain)}});
+    };
+    if (const auto quiet = gain_of_dampers(simulation_, *stage.drive))
+      return advise(*quiet,
+                    "its servo would ring against the dampers of its contacts "
+                    "(restitution), and not hold its stress");
     const auto gain = gain_of_flow(scene_, *stage.drive);
     if (!gain || servo.gain <= 2.0 * *gain || !scene_.intends(stage, "inertial_number")) return;
-    add(&stage, "servo_gain", "its servo would throw a flow about, and hold no stress",
-        {{path_of(scene_, seen.stage, "servo_gain"), tables::to_text(servo.gain),
-          tables::to_text(*gain)}});
+    advise(*gain, "its servo would throw a flow about, and hold no stress");
   }
 
   void check_step(const StageForecast& seen) {

@@ -37,7 +37,8 @@ Advice names keys by their path, as --set takes them, and values with which it i
   cell                   the run would end for a cell that is too thin
   gravity                along an axis without walls
   memory                 more than 0.8 of this machine's
-  servo_gain             of a simple shear above 0.005 that is meant: more than 0.1
+  servo_gain             of a stage whose contacts have a restitution: so large that the servo rings;
+                         of a simple shear above 0.005 that is meant: more than 0.1
 What is meant as it is, a scene or a stage names in a list: intended = ["inertial_number"]. Then
 neither check nor a run speaks of it; cycles, cell, memory and servo_gain cannot be meant.
 Walls that go 0.1 of the smallest semi-axis in a time step are refused, by check and by run. With
