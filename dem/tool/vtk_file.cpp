@@ -17,9 +17,11 @@
 namespace tangency::inline v0::dem {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the arrays are little-endian");
-
 using tables::to_text;
+
+/// Of the machine, and of the arrays that it writes; a reader turns them where its own is another.
+constexpr const char* kByteOrder =
+    std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
 /// Bytes. Chosen: some 40 of a million particles' positions, which threads share; a smaller one
 /// would compress worse.
@@ -127,8 +129,9 @@ std::string VtkPolyData::text() const {
   };
   const std::string tensors = tensors_.empty() ? "" : " Tensors=\"" + tensors_ + "\"";
   return "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
+         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" +
+         std::string(kByteOrder) +
+         "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
          element("FieldData", "", whole) + "<Piece NumberOfPoints=\"" + to_text(points_) +
          "\" NumberOf" + (lines ? "Lines" : "Verts") + "=\"" +
          to_text(lines ? points_ / 2 : points_) + "\">\n" + element("PointData", tensors, points) +

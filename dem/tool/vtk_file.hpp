@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Files of VTK's XML format PolyData, .vtp, as ParaView reads them: the arrays follow the XML text
-/// as raw bytes, little-endian, each in blocks compressed by zlib.
+/// as raw bytes in the order of the machine, which the file names, each in blocks compressed by
+/// zlib.
 ///
 /// (1) A file's bytes depend on what was added alone, not on the number of threads.
 #pragma once
