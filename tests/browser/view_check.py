@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sample in a report's page, in headless Chromium: what is drawn is what the frame says, and it keeps up with a hand.
 
