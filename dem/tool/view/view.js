@@ -121,11 +121,12 @@ class SampleView {
   }
 
   fit() {
-    const { frame } = this, cell = frame.cell;
-    const across = Math.hypot(...[0, 1, 2].map((k) => cell[k] + cell[3 + k] + cell[6 + k]));
+    const { frame } = this, cell = frame.cell, { clientWidth, clientHeight } = this.canvas;
+    const diagonal = (p, q) => Math.hypot(...[0, 1, 2].map((k) => cell[k] + p * cell[3 + k] + q * cell[6 + k]));
+    const across = Math.max(diagonal(1, 1), diagonal(1, -1), diagonal(-1, 1), diagonal(-1, -1));
     const largest = frame.axes.reduce((most, r) => Math.max(most, r), 0);
     this.middle = frame.middle;
-    this.half = 0.52 * across + largest;  // of the picture's height, length
+    this.half = (0.52 * across + largest) * Math.max(1, clientHeight / clientWidth);  // of the picture's height, length
     this.reach = 4 * (across + largest);
   }
 
