@@ -138,6 +138,10 @@ logarithmic and count from the start of the stage:
   mechanical_coordination
                         mean number of contacts of the particles that have two or more, under
                         gravity one or more
+  shear_strain_xy shear_strain_yz shear_strain_zx
+                        in a simple shear how far layers have moved over how high they lie; else the
+                        sum of the tangents by which lines along the two axes lean; of the sign
+                        of s_xy, s_yz, s_zx
 
 A scene with a [sweep] has a run for each combination of its values, in DIR/KEY=VALUE_KEY=VALUE:
   scene.toml         in each folder: the whole scene of that run
