@@ -155,6 +155,15 @@ Mat3 Cell::logarithmic_strain() const {
   return stretch.eigenvectors() * strains.asDiagonal() * stretch.eigenvectors().transpose();
 }
 
+Vec3 Cell::shear_strain() const {
+  if (is_box() && reference_edges.isDiagonal(0.0)) return Vec3::Zero();
+  const Mat3 moved = edges * reference_edges.inverse();
+  const auto closed = [&](int a, int b) {
+    return moved(a, b) / moved(b, b) + moved(b, a) / moved(a, a);
+  };
+  return {closed(0, 1), closed(1, 2), closed(2, 0)};
+}
+
 double Cell::least_stretch_since(const Mat3& before) const {
   if (is_box() && before.isDiagonal(0.0))
     return edges.diagonal().cwiseQuotient(before.diagonal()).minCoeff();

@@ -84,6 +84,11 @@ struct Cell {
   /// Logarithmic (Hencky) strain from the reference, ln(F F') / 2, extension positive.
   Mat3 logarithmic_strain() const;
 
+  /// How far right angles have closed since the reference: of xy, yz and zx each the sum of the two
+  /// tangents by which lines that lay along the axes lean towards one another. In a simple shear it
+  /// is how far layers have moved over how high they lie; 0 of what has stayed a box.
+  Vec3 shear_strain() const;
+
   /// What makes the edges of a cell in simple shear the least skewed ones: where one is off its
   /// axis by more than half of another. The lattice stays. None of a cell whose edges along x and y
   /// are not along x and in the plane of x and y, as a shear_rate makes them.

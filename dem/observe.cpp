@@ -209,6 +209,7 @@ Observation observe(const Particles& particles, const Cell& cell, const Contacts
   const int axial = cell.dimensions - 1;
   seen.axial_strain = 0.0 - strain(axial, axial);  // not -0 of an unstrained cell
   seen.volumetric_strain = strain.trace();
+  seen.shear_strain = Vec3::Zero() - cell.shear_strain();  // alike
   seen.stress = stress_of(contacts, cell);
   seen.asymmetry = asymmetry_of(contacts, cell);
   const ContactTotals totals = contacts.totals();
@@ -278,7 +279,10 @@ std::vector<Field> history_fields(std::int64_t cycle, double time, const std::st
           {"viscous_loss", seen.account.viscous},
           {"p", seen.stress.mean()},
           {"q", deviator_of(s, seen.stress.dimensions)},
-          {"mechanical_coordination", seen.balance.mechanical_coordination}};
+          {"mechanical_coordination", seen.balance.mechanical_coordination},
+          {"shear_strain_xy", seen.shear_strain[0]},
+          {"shear_strain_yz", seen.shear_strain[1]},
+          {"shear_strain_zx", seen.shear_strain[2]}};
 }
 
 }  // namespace tangency::inline v0::dem

@@ -134,6 +134,7 @@ struct Observation {
   double energy_error = 0.0;
   double asymmetry = 0.0;               ///< asymmetry_of()
   Mat3 boundary_stress = Mat3::Zero();  ///< of a Simulation; else 0
+  Vec3 shear_strain = Vec3::Zero();     ///< xy, yz, zx of the cell, of the sign of their stresses
 };
 /// What a state is like; it changes nothing.
 Observation observe(const Particles& particles, const Cell& cell, const Contacts& contacts,

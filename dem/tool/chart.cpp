@@ -200,7 +200,7 @@ std::string bands_of(const Chart& chart, const Axis& x) {
     const double wide = 6.5 * static_cast<double>(band.name.size());
     const double middle = 0.5 * (from + to);
     if (middle - 0.5 * wide < last_label || to - from < 0.6 * wide) continue;
-    svg += label(middle, kTop + 13, "text-anchor=\"middle\" class=\"stage\"", band.name);
+    svg += label(middle, kTop - 4, "text-anchor=\"middle\" class=\"stage\"", band.name);
     last_label = middle + 0.5 * wide;
   }
   return svg;

@@ -11,8 +11,8 @@
 
 namespace tangency::inline v0::dem {
 
-/// All columns after cycle, time, stage, stage_cycle and axial_strain, in their order; numbers that
-/// are not defined are NaN.
+/// All columns between cycle, time, stage, stage_cycle, axial_strain and the shear strains at the
+/// end, in their order; numbers that are not defined are NaN.
 std::vector<Field> micro_fields(const MicroSummary& summary);
 
 }  // namespace tangency::inline v0::dem

@@ -100,6 +100,8 @@ branch length, E long axes, lambda contact vectors:
   a_axial_r_rot         of <P2> a^E over sides: what the bodies' axes explain of a^r
   chi_squared chi_degrees chi_p
                         are local normals independent of how bodies lie?
+  shear_strain_xy shear_strain_yz shear_strain_zx
+                        as in history.csv
 
 Columns of a histogram, one row a class, in space: class, dx dy dz (its middle), area (solid
 angle), sides (contacts seen from both bodies), E (their density), fn, ft, zn, zt, length

@@ -2,9 +2,9 @@
 #include <tangency/dem/tool/report.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/dem/tool/chart.hpp>
@@ -37,8 +37,8 @@ th:first-child, td:first-child { text-align: left; }
 .parts { display: flex; gap: 2em; align-items: flex-start; }
 @media (max-width: 70em) { .parts { flex-wrap: wrap; } }
 .parts > * { min-width: 0; max-width: 100%; }
-.charts { display: flex; flex-wrap: wrap; gap: 1em; flex: 1 1 440px; }
-.charts svg { flex: 1 1 350px; max-width: 560px; min-width: 0; }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(350px, 100%), 1fr)); gap: 1em; align-items: start; flex: 1 1 440px; }
+.charts svg { width: 100%; max-width: 560px; }
 .wide { overflow-x: auto; }
 svg { max-width: 100%; height: auto; }
 svg text { font: 12px sans-serif; fill: #222; }
@@ -57,25 +57,34 @@ struct Headed {
   std::string name, unit;
 };
 
-/// The table's columns.
-constexpr std::size_t kColumns = 9;
-std::array<Headed, kColumns> heads(const Units& units) {
-  return {{{"stage", ""},
-           {"cycles", ""},
-           {"mean stress", units.stress},
-           {"friction angle", "deg"},
-           {"coordination", ""},
-           {"porosity", ""},
-           {"inertial fraction", ""},
-           {"axial strain", ""},
-           {"energy error", "of the work done"}}};
-}
-using Heads = std::array<Headed, kColumns>;
-using Line = std::array<std::string, kColumns>;
-
-/// A line of the table for each stage, of its last row.
-std::vector<Line> lines_of(const ReportedRun& run) {
+/// A table of texts.
+using Line = std::vector<std::string>;
+struct Table {
+  std::vector<Headed> heads;
   std::vector<Line> lines;
+};
+
+/// Does any stage end in a sheared cell?
+bool has_shear(const ReportedRun& run) {
+  return std::any_of(run.stages().begin(), run.stages().end(), [&](const StageRows& stage) {
+    return run.largest_shear(stage.end - 1) != 0.0;
+  });
+}
+
+/// A line for each stage, of its last row.
+Table table_of(const ReportedRun& run) {
+  Table table{{{"stage", ""},
+               {"cycles", ""},
+               {"mean stress", run.units().stress},
+               {"friction angle", "deg"},
+               {"coordination", ""},
+               {"porosity", ""},
+               {"inertial fraction", ""},
+               {"axial strain", ""}},
+              {}};
+  const bool shears = has_shear(run);
+  if (shears) table.heads.push_back({"shear strain", "largest component"});
+  table.heads.push_back({"energy error", "of the work done"});
   for (const StageRows& stage : run.stages()) {
     const std::size_t end = stage.end - 1;
     const auto of = [&](const char* name, const char* format = "%.4g") {
@@ -83,23 +92,30 @@ std::vector<Line> lines_of(const ReportedRun& run) {
     };
     const double angle = run.friction_angle({stage.name, end, stage.end}).front();
     const double work = run.work_done(end);
-    lines.push_back({stage.name, of("stage_cycle", "%.0f"), of("mean_stress"),
-                     std::isfinite(angle) ? shown(angle, "%.2f") : "-",
-                     of("coordination_number", "%.3f"), of("porosity"),
-                     of("inertial_fraction", "%.2g"), of("axial_strain"),
-                     work > 0.0 ? shown(run.value("energy_error", end) / work, "%.1e") : "-"});
+    Line line{stage.name,
+              of("stage_cycle", "%.0f"),
+              of("mean_stress"),
+              std::isfinite(angle) ? shown(angle, "%.2f") : "-",
+              of("coordination_number", "%.3f"),
+              of("porosity"),
+              of("inertial_fraction", "%.2g"),
+              of("axial_strain")};
+    if (shears) line.push_back(shown(run.largest_shear(end)));
+    line.push_back(work > 0.0 ? shown(run.value("energy_error", end) / work, "%.1e") : "-");
+    table.lines.push_back(std::move(line));
   }
-  return lines;
+  return table;
 }
 
-std::string text_of(const Heads& heads, const std::vector<Line>& lines) {
+std::string text_of(const Table& table) {
   Line head;
-  std::array<std::size_t, kColumns> wide{};
-  for (std::size_t k = 0; k < kColumns; ++k) {
-    head[k] = with_unit(heads[k].name, heads[k].unit);
-    wide[k] = head[k].size();
-    for (const Line& line : lines) wide[k] = std::max(wide[k], line[k].size());
+  std::vector<std::size_t> wide;
+  for (const Headed& one : table.heads) {
+    head.push_back(with_unit(one.name, one.unit));
+    wide.push_back(head.back().size());
   }
+  for (const Line& line : table.lines)
+    for (std::size_t k = 0; k < line.size(); ++k) wide[k] = std::max(wide[k], line[k].size());
   std::string text;
   const auto put = [&](const Line& line) {
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -109,15 +125,15 @@ std::string text_of(const Heads& heads, const std::vector<Line>& lines) {
     text += '\n';
   };
   put(head);
-  for (const Line& line : lines) put(line);
+  for (const Line& line : table.lines) put(line);
   return text;
 }
 
-std::string table_of(const Heads& heads, const std::vector<Line>& lines) {
+std::string html_of(const Table& table) {
   std::string text = "<div class=\"wide\"><table><tr>";
-  for (const Headed& head : heads)
+  for (const Headed& head : table.heads)
     text += "<th>" + head.name + (head.unit.empty() ? "" : "<br>" + head.unit) + "</th>";
-  for (const Line& line : lines) {
+  for (const Line& line : table.lines) {
     text += "</tr>\n<tr>";
     for (const std::string& cell : line) text += "<td>" + escaped(cell) + "</td>";
   }
@@ -151,11 +167,10 @@ std::string page_of(const ReportedRun& run, const fs::path& directory) {
   page += "<h1>" + escaped(directory.string()) + "</h1>\n<p>";
   page += run.summary() ? "A complete run." : "A run that is not complete.";
   page += " Compression is positive in stress and axial strain." + units_line(run) + "</p>\n" +
-          table_of(heads(run.units()), lines_of(run));
+          html_of(table_of(run));
   page += sample_view(directory, run.units());
   page += "<div class=\"parts\"><div class=\"charts\">\n";
-  for (const StageRows& stage : run.stages())
-    if (run.shears(stage)) page += shear_charts(run, stage);
+  for (const StageRows& stage : run.stages()) page += shear_charts(run, stage);
   page += time_charts(run) + "</div>\n";
   if (run.summary())
     page += "<div class=\"wide\"><h2>Summary</h2>\n" + summary_table(*run.summary()) + "</div>";
@@ -167,7 +182,7 @@ std::string page_of(const ReportedRun& run, const fs::path& directory) {
 int report(const fs::path& directory) {
   const ReportedRun run(directory);
   write_whole(directory / "report.html", page_of(run, directory));
-  tables::OutputFile("-").write(text_of(heads(run.units()), lines_of(run)) +
+  tables::OutputFile("-").write(text_of(table_of(run)) +
                                 "Charts: " + (directory / "report.html").string() + '\n');
   return success;
 }

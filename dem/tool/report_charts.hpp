@@ -9,8 +9,10 @@
 
 namespace tangency::inline v0::dem {
 
-/// What a shear test is looked at for: principal stresses, the path of q over p, volume,
-/// coordination, and fabric where micro.csv has it; as <svg>s one after the other.
+/// What a shear test is looked at for, over the strain that it shears by: principal stresses, in a
+/// simple shear those along and across its layers, the path of q over p, volume, coordination, and
+/// fabric where micro.csv has it; as <svg>s one after the other. Nothing of a stage that keeps its
+/// cell's shape.
 std::string shear_charts(const ReportedRun& run, const StageRows& stage);
 
 /// Everything against time, stages shaded.

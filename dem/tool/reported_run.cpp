@@ -84,11 +84,29 @@ int ReportedRun::dimensions() const {
              : 3;
 }
 
-bool ReportedRun::shears(const StageRows& stage) const {
+std::optional<Distortion> ReportedRun::distortion(const StageRows& stage) const {
   const std::size_t end = stage.end - 1;
   const double sideways = value("volumetric_strain", end) + value("axial_strain", end);
   const double uniform = value("volumetric_strain", end) / dimensions();
-  return std::abs(sideways - (dimensions() - 1.0) * uniform) > kLeastDistortion;
+  double largest = std::abs(sideways - (dimensions() - 1.0) * uniform);
+  std::optional<Distortion> found;
+  if (largest > kLeastDistortion) found = {"axial_strain", "axial strain"};
+  for (const Distortion& shear : kShears) {
+    const double strain = std::abs(value(shear.strain, end));
+    if (strain <= std::max(largest, kLeastDistortion)) continue;
+    largest = strain;
+    found = shear;
+  }
+  return found;
+}
+
+double ReportedRun::largest_shear(std::size_t row) const {
+  double largest = 0.0;
+  for (const Distortion& shear : kShears) {
+    const double strain = value(shear.strain, row);
+    if (std::abs(strain) > std::abs(largest)) largest = strain;
+  }
+  return largest;
 }
 
 double ReportedRun::work_done(std::size_t row) const {
@@ -113,24 +131,23 @@ std::vector<Band> ReportedRun::bands() const {
   return bands;
 }
 
-ReportedRun::Micro ReportedRun::micro(const StageRows& stage,
-                                      const std::vector<std::string_view>& names) const {
-  Micro micro{{}, std::vector<std::vector<double>>(names.size())};
-  if (!fs::exists(directory_ / "micro.csv")) return micro;
+std::vector<std::vector<double>> ReportedRun::micro(
+    const StageRows& stage, const std::vector<std::string_view>& names) const {
+  std::vector<std::vector<double>> values(names.size());
+  if (!fs::exists(directory_ / "micro.csv")) return values;
   tables::Reader reader((directory_ / "micro.csv").string());
   const tables::Header& header = reader.header();
   const tables::Column cycle = header.require("cycle"), of_stage = header.require("stage_cycle");
-  const tables::Column strain = header.require("axial_strain"), name = header.require("stage");
+  const tables::Column name = header.require("stage");
   std::vector<tables::Column> columns;
   for (const std::string_view wanted : names) columns.push_back(header.require(wanted));
   const double begin = value("cycle", stage.first) - value("stage_cycle", stage.first);
   tables::for_each_row(reader, [&](const tables::RowCursor& row) {
     if (row.text(name) != stage.name || row.number(cycle) - row.number(of_stage) != begin) return;
-    micro.strain.push_back(row.number(strain));
     for (std::size_t k = 0; k < columns.size(); ++k)  // an empty cell is not defined
-      micro.values[k].push_back(row.text(columns[k]).empty() ? kNone : row.number(columns[k]));
+      values[k].push_back(row.text(columns[k]).empty() ? kNone : row.number(columns[k]));
   });
-  return micro;
+  return values;
 }
 
 }  // namespace tangency::inline v0::dem

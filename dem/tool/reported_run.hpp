@@ -19,6 +19,21 @@
 
 namespace tangency::inline v0::dem {
 
+/// A change of a cell's shape.
+struct Distortion {
+  std::string_view strain;  ///< its column, in history.csv and micro.csv
+  std::string_view name;    ///< "axial strain"
+  /// Of a shear strain: the columns of the shear stress and of the normal stress across the layers
+  /// of a simple shear; else empty.
+  std::string_view shear_stress = {}, normal_stress = {};
+};
+
+/// The three of them that shear.
+inline constexpr std::array<Distortion, 3> kShears{
+    {{"shear_strain_xy", "shear strain xy", "s_xy", "s_yy"},
+     {"shear_strain_yz", "shear strain yz", "s_yz", "s_zz"},
+     {"shear_strain_zx", "shear strain zx", "s_zx", "s_zz"}}};
+
 class ReportedRun {
  public:
   /// @throws OutputError    a history without a row
@@ -42,20 +57,21 @@ class ReportedRun {
   std::array<std::vector<double>, 3> principal_stresses(const StageRows& rows) const;
   /// 2, or 3; a plane assembly has no stress across its plane.
   int dimensions() const;
-  /// Does the cell change its shape in this stage?
-  bool shears(const StageRows& stage) const;
+  /// The strain by which a stage changes the shape of its cell most, that which its charts are
+  /// drawn over; nothing where the cell keeps its shape.
+  std::optional<Distortion> distortion(const StageRows& stage) const;
+  /// Of the three shear strains the one that is largest in size.
+  double largest_shear(std::size_t row) const;
   /// What the assembly was given since the run began: by its boundary, by gravity and by growth, of
   /// each the largest of any row up to there. What goes to and fro comes to nothing in the end.
   double work_done(std::size_t row) const;
   /// Stages in time.
   std::vector<Band> bands() const;
 
-  /// Rows of micro.csv in a stage: its strains, and of columns the values; none without the file.
-  struct Micro {
-    std::vector<double> strain;
-    std::vector<std::vector<double>> values;
-  };
-  Micro micro(const StageRows& stage, const std::vector<std::string_view>& names) const;
+  /// Of rows of micro.csv in a stage the values of columns, each of one length; of length 0 without
+  /// the file.
+  std::vector<std::vector<double>> micro(const StageRows& stage,
+                                         const std::vector<std::string_view>& names) const;
 
  private:
   std::filesystem::path directory_;

@@ -66,14 +66,17 @@ std::vector<Field> history_columns() { return history_fields(0, 0.0, "", 0, Obse
 
 /// Of micro.csv.
 std::vector<Field> micro_columns(const Simulation& simulation, const std::string& stage,
-                                 double axial_strain, const MicroSummary& summary) {
+                                 const Observation& seen, const MicroSummary& summary) {
   const State& state = simulation.state();
   std::vector<Field> row{{"cycle", state.cycle},
                          {"time", state.time},
                          {"stage", stage},
                          {"stage_cycle", state.stage_cycle},
-                         {"axial_strain", axial_strain}};
+                         {"axial_strain", seen.axial_strain}};
   for (Field& field : micro_fields(summary)) row.push_back(std::move(field));
+  row.push_back({"shear_strain_xy", seen.shear_strain[0]});
+  row.push_back({"shear_strain_yz", seen.shear_strain[1]});
+  row.push_back({"shear_strain_zx", seen.shear_strain[2]});
   return row;
 }
 
@@ -120,7 +123,7 @@ bool carries_on(const fs::path& directory, const RunOptions& options,
   if (!found) return false;
   if (options.resume && is_history_of(directory, *options.resume, simulation)) {
     // Read before anything is taken away: it may be of another version.
-    RunTable(directory / "micro.csv", micro_columns(simulation, "", 0.0, MicroSummary()))
+    RunTable(directory / "micro.csv", micro_columns(simulation, "", {}, MicroSummary()))
         .rows_in_file();
     return true;
   }
@@ -150,7 +153,7 @@ Results::Results(const RunOptions& options, const Simulation& simulation)
       lock_(locked(directory_)),
       carries_on_(carries_on(directory_, options, simulation)),
       history_(directory_ / "history.csv", history_columns()),
-      micro_(directory_ / "micro.csv", micro_columns(simulation, "", 0.0, MicroSummary())),
+      micro_(directory_ / "micro.csv", micro_columns(simulation, "", {}, MicroSummary())),
       frames_(directory_, carries_on_ ? simulation.state().cycle : -1,
               simulation.scene().output.frame > 0, simulation.scene().output.contact_frames),
       contacts_(directory_, carries_on_ ? simulation.state().cycle : -1,
@@ -181,9 +184,13 @@ void Results::add_last_row_of_stage(const Simulation& simulation) {
 
 namespace {
 
-/// Strains count from the first cycle of a stage.
-bool is_unstrained(const Simulation& simulation, const Moment& moment) {
-  return simulation.state().stage_cycle == 0 && moment.stage == simulation.state().stage;
+/// What a row tells: strains count from the first cycle of a stage.
+Observation observed_at(const Simulation& simulation, const Moment& moment) {
+  Observation seen = simulation.observe();
+  if (simulation.state().stage_cycle > 0 || moment.stage != simulation.state().stage) return seen;
+  seen.axial_strain = seen.volumetric_strain = 0.0;
+  seen.shear_strain.setZero();
+  return seen;
 }
 
 }  // namespace
@@ -191,19 +198,17 @@ bool is_unstrained(const Simulation& simulation, const Moment& moment) {
 void Results::add_row(const Simulation& simulation, const Moment& moment) {
   if (history_.has(moment)) return;
   const State& state = simulation.state();
-  Observation seen = simulation.observe();
-  if (is_unstrained(simulation, moment)) seen.axial_strain = seen.volumetric_strain = 0.0;
+  const Observation seen = observed_at(simulation, moment);
   const std::string& stage = simulation.scene().stages[moment.stage].name;
   history_.add(moment, history_fields(state.cycle, state.time, stage, state.stage_cycle, seen));
 }
 
 void Results::add_micro(const Simulation& simulation, const Moment& moment) {
   if (micro_.has(moment)) return;
-  const double strain = is_unstrained(simulation, moment) ? 0.0 : simulation.observe().axial_strain;
   const MicroSummary summary = micro_summary(packing_of(simulation.state(), simulation.laws()),
                                              classes_of(simulation.scene().output));
   const std::string& stage = simulation.scene().stages[moment.stage].name;
-  micro_.add(moment, micro_columns(simulation, stage, strain, summary));
+  micro_.add(moment, micro_columns(simulation, stage, observed_at(simulation, moment), summary));
 }
 
 void Results::make_up(const Simulation& simulation) {

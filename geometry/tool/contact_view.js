@@ -11,41 +11,19 @@ function draw() {
   drawing.draw(pair, { spheres: element("with-spheres").checked, answer: { gaps: { "common-normal": data.gaps[element("method").value] } } });
 }
 
-/** One picture, however often the hand has moved since the last. */
-let waiting = false;
-function changed() {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(() => ((waiting = false), draw()));
-}
+const changed = oncePerPicture(draw);
 
 function fit() {
   drawing.camera.fit(pair, ...drawing.size);
   changed();
 }
 
-/** One finger or a mouse turns; two fingers and the wheel come nearer. */
+/** One pointer turns; two pointers and the wheel come nearer. */
 function listen() {
-  const scene = element("scene"), pointers = new Map(), place = (event) => [event.offsetX, event.offsetY];
-  scene.addEventListener("pointerdown", (event) => {
-    scene.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, place(event));
+  listenToHands(element("scene"), {
+    drag: (dx, dy) => (drawing.camera.follow(dx, dy), changed()),
+    nearer: (factor) => (drawing.camera.zoom(factor), changed()),
   });
-  scene.addEventListener("pointermove", (event) => {
-    const before = pointers.get(event.pointerId), now = place(event);
-    if (!before) return;
-    const others = [...pointers.keys()].filter((id) => id !== event.pointerId).map((id) => pointers.get(id));
-    if (others.length === 0) drawing.camera.follow(now[0] - before[0], now[1] - before[1]);
-    const span = (p) => Math.hypot(p[0] - others[0][0], p[1] - others[0][1]);
-    if (others.length === 1 && span(before) > 0) drawing.camera.zoom(span(now) / span(before));
-    pointers.set(event.pointerId, now);
-    changed();
-  });
-  for (const end of ["pointerup", "pointercancel"]) scene.addEventListener(end, (event) => pointers.delete(event.pointerId));
-  scene.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    drawing.camera.zoom(Math.exp(-event.deltaY / 600)), changed();
-  }, { passive: false });
   for (const name of ["method", "with-spheres"]) element(name).addEventListener("change", changed);
   element("fit").addEventListener("click", fit);
   window.addEventListener("resize", changed);

@@ -77,6 +77,10 @@ class Browser:
         path.parent.mkdir(parents=True, exist_ok=True)
         self.driver.save_screenshot(str(path))
 
+    def cut_by(self, selector):
+        """Pixels of what the element holds that lie beyond its right edge."""
+        return self.run("const e = document.querySelector(given[0]); return e.scrollWidth - e.clientWidth", selector)
+
     def complaints(self):
         """Errors and warnings of the console since the last call."""
         return [f"{entry['level']}: {entry['message']}" for entry in self.driver.get_log("browser")

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `tangency contact --view`, in headless Chromium: it draws, turns under a mouse and a finger, and fits a telephone.
 
@@ -81,6 +81,7 @@ def main():
                 browser.picture(folder / f"pair-{row}-{width}.png")
                 wide = browser.run("return document.documentElement.scrollWidth")
                 require(wide <= width, f"the page of row {row} is {wide} pixels wide at {width}")
+                require(browser.cut_by(".wide") == 0, f"the table of gaps of row {row} is cut at {width} pixels")
             hands(browser)
             drawn, answers = methods(browser)
             answered += answers

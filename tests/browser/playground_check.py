@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The playground in headless Chromium: its answers are those of the command, and a hand finds its way.
 
@@ -193,6 +193,7 @@ def looks(browser, page, pictures):
         pair_now(browser)
         wide = browser.run("return document.documentElement.scrollWidth")
         require(wide <= width, f"at {width} pixels the page is {wide} wide")
+        require(browser.cut_by(".wide") == 0, f"at {width} pixels the table of gaps is cut")
         browser.picture(pictures / f"playground-{width}.png")
     browser.drag("canvas", browser.run("const b = tangency.state.pair.a; return drawing.projection.place([b.x, b.y, b.z]).slice(0, 2)"),
                  (-30, 20), kind="touch")

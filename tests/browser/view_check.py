@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sample in a report's page, in headless Chromium: what is drawn is what the frame says, and it keeps up with a hand.
 
@@ -116,6 +116,15 @@ return given[0].map(([fx, fy]) => {
   return { start: v.middle.map((p, k) => p + aside[k]), way: timesTransposed(m, [0, 0, 1]), hit: v.bodyAt(box.left + x, box.top + box.height - y),
            at, white: pixels[at] + pixels[at + 1] + pixels[at + 2] === 765 };
 });"""
+# Pixels at the rim of the picture that something is drawn on.
+AT_THE_RIM = """const v = await sample, gl = v.renderer.gl, [width, height] = v.fullSize;
+v.renderer.draw([width, height], v.scene, true);
+const pixels = new Uint8Array(4 * width * height);
+gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+return Array.from({ length: width * height }, (_, k) => k).filter((k) => {
+  const [x, y] = [k % width, Math.floor(k / width)], is_rim = x === 0 || y === 0 || x === width - 1 || y === height - 1;
+  return is_rim && pixels[4 * k] + pixels[4 * k + 1] + pixels[4 * k + 2] < 765;
+}).length;"""
 # The bodies of given[0], of each whether its mark changes the picture at the places given[1].
 MARKS = """const v = await sample, gl = v.renderer.gl, size = v.fullSize, scene = v.scene;
 scene.show.edges = false;
@@ -222,6 +231,7 @@ def looks(browser, page, pictures):
         browser.run("const v = await sample; v.section.scrollIntoView(); v.drawNow(false)")
         wide = browser.run("return document.documentElement.scrollWidth")
         require(wide <= width, f"at {width} pixels the page is {wide} wide")
+        require(browser.run(AT_THE_RIM) == 0, f"at {width} pixels the picture cuts the sample")
         browser.picture(pictures / f"view-{width}.png")
     before = browser.run("return (await sample).turn")
     browser.drag(".sample canvas", (150, 150), (60, 30), kind="touch")

@@ -422,7 +422,8 @@ TEST(MicroCsv, HasARowAtTheIntervalAndAtTheEndsOfStages) {
   const Made& made = spheroids();
   const Columns rows = columns_of(read_file(made.file("out/micro.csv")));
   const Columns history = columns_of(read_file(made.file("out/history.csv")));
-  for (const char* column : {"cycle", "time", "stage", "stage_cycle", "axial_strain", "contacts"})
+  for (const char* column : {"cycle", "time", "stage", "stage_cycle", "axial_strain", "contacts",
+                             "shear_strain_xy", "shear_strain_yz", "shear_strain_zx"})
     EXPECT_EQ(rows.at(column), history.at(column)) << column;
   ASSERT_GT(rows.at("cycle").size(), 10u);
   std::map<std::string, std::string> end_of;  // last cycle of each stage

@@ -277,7 +277,8 @@ TEST(Observe, HistoryHasItsColumnsInOrder) {
       "boundary_work,gravity_work,growth_work,branch_work,sliding_loss,damping_loss,energy_error,"
       "stage_cycle,elongation,eccentricity,packing_density,void_ratio,contact_density,"
       "overlap_fraction,asymmetry,boundary_s_xx,boundary_s_yy,boundary_s_zz,boundary_s_xy,"
-      "boundary_s_yz,boundary_s_zx,viscous_loss,p,q,mechanical_coordination,");
+      "boundary_s_yz,boundary_s_zx,viscous_loss,p,q,mechanical_coordination,"
+      "shear_strain_xy,shear_strain_yz,shear_strain_zx,");
 }
 
 }  // namespace

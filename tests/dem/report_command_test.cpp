@@ -34,6 +34,7 @@ struct MadeRow {
   double strain, angle;
   int contacts = 1;
   const char* stress = "1";
+  double shear = 0.0;  // of zx
 };
 std::string history_of(const std::vector<MadeRow>& rows) {
   std::string text;
@@ -53,6 +54,9 @@ std::string history_of(const std::vector<MadeRow>& rows) {
                                  : field.name == "friction_angle_deg" ? std::to_string(row.angle)
                                  : field.name == "contacts"           ? std::to_string(row.contacts)
                                  : field.name == "mean_stress"        ? row.stress
+                                 : field.name == "s_zx"               ? "30"
+                                 : field.name == "s_zz"               ? "100"
+                                 : field.name == "shear_strain_zx"    ? std::to_string(row.shear)
                                                                       : "0";
       line += (line.empty() ? "" : ",") + number;
     }
@@ -178,6 +182,7 @@ TEST(ReportCommand, OfAShearTestHasItsChartsAndTheSummary) {
         "Inertial fraction", "Energy account", "peak_friction_angle_deg", "A complete run."})
     EXPECT_NE(page.find(word), page.npos) << word;
   EXPECT_EQ(page.find("stresses: compress"), page.npos) << "a stage that keeps its shape";
+  EXPECT_EQ(page.find("shear strain"), page.npos) << "its cell stays a box";
   EXPECT_EQ(page.find("http"), page.find("http://www.w3.org/2000/svg")) << "needs no network";
   EXPECT_EQ(page.find("nan"), page.npos);
   // The energy error of the sheared end is that of the last row over the work done.
@@ -239,6 +244,43 @@ TEST(ReportCommand, PartsStrainsWhereAStageBeginsThemAnew) {
     EXPECT_EQ(height(at), height(0)) << axial;
   const auto stress = paths_of(chart_of(page, "Stress and friction angle"));
   EXPECT_EQ(count_of(stress.front(), "M"), 1u) << "what goes on is one line";
+}
+
+/// The text of the axis below a chart.
+std::string across(const std::string& chart) {
+  const std::size_t end = chart.find("</text>", chart.find("y=\"290"));
+  const std::size_t begin = chart.rfind('>', end) + 1;
+  return chart.substr(begin, end - begin);
+}
+
+// Its axial strain is rounding, which once was the axis of its charts.
+TEST(ReportCommand, DrawsASimpleShearOverItsShearStrain) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/micro.csv",
+               "cycle,stage,stage_cycle,axial_strain,A_r,A_n,A_t,shear_strain_zx\n"
+               "0,place,0,0,0.1,0.1,0.1,0\n150,slide,30,0,0.2,0.3,0.1,0.2\n"
+               "400,slide,280,0,0.3,0.4,0.1,0.4\n");
+  const std::string page = page_of(folder, {{"place", 0, 0, 0.0, 0.0},
+                                            {"press", 120, 120, 0.1, 7.25, 1, "1", 0.0005},
+                                            {"slide", 150, 30, 1e-18, 31.0, 1, "1", 0.2},
+                                            {"slide", 400, 280, -1e-18, 28.5, 1, "1", 0.4}});
+  for (const char* title : {"Principal stresses: ", "Shear and normal stress: ",
+                            "Volumetric strain: ", "Coordination number: ", "Fabric: "}) {
+    const std::string chart = chart_of(page, title + std::string("slide"));
+    EXPECT_EQ(across(chart), "shear strain zx") << title;
+    for (const char* tick : {">0.2<", ">0.4<"}) EXPECT_NE(chart.find(tick), chart.npos) << title;
+  }
+  const std::string stresses = chart_of(page, "Shear and normal stress: slide");
+  for (const char* name : {">s_zx<", ">s_zz<", ">s_zx / s_zz (right)<"})
+    EXPECT_NE(stresses.find(name), stresses.npos) << name;
+  EXPECT_EQ(across(chart_of(page, "Principal stresses: press")), "axial strain");
+  EXPECT_EQ(page.find("Shear and normal stress: press"), page.npos);
+  EXPECT_EQ(count_of(chart_of(page, "Strains, from the start"), "<path"), 6u) << "with its legend";
+  const auto lines = lines_of(run_tool({"report", folder.path("out")}).out);
+  const std::size_t at = lines[0].find("shear strain (largest component)");
+  ASSERT_NE(at, lines[0].npos) << lines[0];
+  EXPECT_EQ(lines[3].substr(at, 32), std::string(29, ' ') + "0.4") << lines[3];
 }
 
 TEST(ReportCommand, DrawsAFrictionAngleOnlyWhereThereIsAContact) {

@@ -59,6 +59,29 @@ TEST(SimpleShear, HasACellWhoseNewEdgesAreHalfOffAtMostAndOfTheSameLattice) {
   EXPECT_GT(described_anew, 900);
 }
 
+TEST(SimpleShear, HasTheShearStrainOfItsLayersInEveryDescriptionOfItsCell) {
+  Cell cell = Cell::box({2, 3, 4});
+  EXPECT_EQ(cell.shear_strain(), Vec3::Zero());
+  cell.edges.diagonal() << 1, 2, 5;
+  EXPECT_EQ(cell.shear_strain(), Vec3::Zero()) << "of another box";
+  // Layers that lay 3 and 4 high, and lie 2 and 5 high now.
+  Mat3 moved = Vec3(1, 2.0 / 3.0, 5.0 / 4.0).asDiagonal();
+  moved(0, 1) = 1.9 / 3.0;
+  moved(1, 2) = -6.0 / 4.0;
+  moved(0, 2) = 3.5 / 4.0;
+  cell.edges = moved * cell.reference_edges;
+  const Vec3 strain(1.9 / 2.0, -6.0 / 5.0, 3.5 / 5.0);
+  EXPECT_TRUE(cell.shear_strain().isApprox(strain, 1e-14)) << cell.shear_strain();
+  const Reset reset = cell.reset();
+  ASSERT_FALSE(reset.is_none());
+  for (Mat3* edges : {&cell.edges, &cell.reference_edges}) *edges = reset.edges(*edges);
+  EXPECT_TRUE(cell.shear_strain().isApprox(strain, 1e-14)) << cell.shear_strain();
+  // Without a turn each of two lines leans by half.
+  cell = Cell::box({2, 3, 4});
+  cell.edges = (Mat3() << 1, 0.1, 0, 0.1, 1, 0, 0, 0, 1).finished() * cell.reference_edges;
+  EXPECT_TRUE(cell.shear_strain().isApprox(Vec3(0.2, 0, 0), 1e-14)) << cell.shear_strain();
+}
+
 std::string sheared(const std::string& rates, std::int64_t cycles) {
   return "schema = 1\n[cell]\n[particles.grain]\ncount = 40\nmean_radius = 10.0\n"
          "elongation = 1.3\n[contact]\nnormal_stiffness = 1.5e10\nfriction_coefficient = 0.4\n"
@@ -100,6 +123,7 @@ TEST(SimpleShear, GoesOnThroughEveryNewDescriptionOfItsCell) {
     EXPECT_NEAR(after.stress.mean(), before.stress.mean(), 0.02 * before.stress.mean());
     EXPECT_LE(std::abs(after.contacts - before.contacts), 2);
     EXPECT_NEAR(after.volumetric_strain, before.volumetric_strain, 1e-3);
+    EXPECT_NEAR(after.shear_strain[0], before.shear_strain[0], 1e-3);
     if (resumed) continue;
     resumed = true;
     Simulation again(simulation.scene(), load_state(saved));
@@ -111,6 +135,8 @@ TEST(SimpleShear, GoesOnThroughEveryNewDescriptionOfItsCell) {
   const Observation seen = simulation.observe();
   EXPECT_GT(seen.stress.tensor(0, 1), 0.1 * seen.stress.mean()) << "of the rate's sign";
   EXPECT_LT(std::abs(seen.energy_error), 0.02 * seen.account.boundary);
+  EXPECT_NEAR(seen.shear_strain[0], 3.0, 0.7) << "> 0 as the stress, by some edges of the cell";
+  EXPECT_NEAR(seen.shear_strain[1], 0.0, 1e-9);
 }
 
 TEST(SimpleShear, IsTheSameInAnotherDescriptionAndContactsKeepTheirBits) {

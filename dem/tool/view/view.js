@@ -7,8 +7,6 @@ const QUICK = 100;
 const COARSEST = 0.1;
 /** Milliseconds without a move after which the full picture is drawn. */
 const REST = 180;
-/** Pixels of a drag that is still a click. */
-const STILL = 4;
 
 const make = (tag, properties = {}, ...inside) => {
   const element = Object.assign(document.createElement(tag), properties);
@@ -16,7 +14,9 @@ const make = (tag, properties = {}, ...inside) => {
   return element;
 };
 /** A number to read; the frame has more digits. */
-const shown = (x) => (Number.isInteger(x) ? String(x) : Number(x).toPrecision(6));
+const shown = (x) => (Number.isInteger(x) && Math.abs(x) < 1e6 ? String(x) : Number(x).toPrecision(6));
+/** What arrays of a frame are in, of the units that a scene may name; what is not here is a number alone. */
+const MEASURED_IN = { Points: ["length"], semi_axes: ["length"], velocity: ["length", "time"] };
 
 class SampleView {
   /** @param section where it is drawn @param frames [{cycle, time, particles, chains}], the files as base64 */
@@ -25,12 +25,14 @@ class SampleView {
     this.turn = normalised([0.86, 0.42, 0.25, 0.13]);
     this.makeControls();
     this.renderer = new Renderer(this.canvas);
-    this.pointers = new Map();
     this.listen();
   }
 
   /** A number with its unit, where the scene has one for it. @param of  "time", "force" and so on */
   named(x, of) { return [shown(x), this.section.dataset[of]].filter(Boolean).join(" "); }
+
+  /** The unit of an array of the frame, or of one of its columns: "mm/s"; "" where there is none. */
+  unitOf(title) { return (MEASURED_IN[title.split(" ")[0]] ?? []).map((of) => this.section.dataset[of]).filter(Boolean).join("/"); }
 
   makeControls() {
     const { section } = this, range = (properties) => make("input", { type: "range", ...properties });
@@ -95,7 +97,7 @@ class SampleView {
     const lines = await frame.lines();
     this.withChains.disabled = lines === null;
     this.withChains.parentElement.title = lines === null ? "This frame has no contacts: contact_frames = true in [output] writes them" : "";
-    this.widest.textContent = lines === null ? "no contacts in this frame" : `widest: ${this.named(lines.largest, "force")}, thickness by its root`;
+    this.widest.textContent = lines === null ? "no contacts in this frame" : `strongest: ${this.named(lines.largest, "force")}; the width goes with the root of the force`;
     this.renderer.setChains(lines?.numbers ?? []);
     await this.showValues();
   }
@@ -110,6 +112,7 @@ class SampleView {
     const values = await this.frame.column(this.colour.value);
     this.range = [values.reduce((p, q) => Math.min(p, q), Infinity), values.reduce((p, q) => Math.max(p, q), -Infinity)];
     [this.least.textContent, this.most.textContent] = this.range.map(shown);
+    this.most.append(" ", this.unitOf(this.colour.value));
   }
 
   async shades() {
@@ -118,11 +121,12 @@ class SampleView {
   }
 
   fit() {
-    const { frame } = this, cell = frame.cell;
-    const across = Math.hypot(...[0, 1, 2].map((k) => cell[k] + cell[3 + k] + cell[6 + k]));
+    const { frame } = this, cell = frame.cell, { clientWidth, clientHeight } = this.canvas;
+    const diagonal = (p, q) => Math.hypot(...[0, 1, 2].map((k) => cell[k] + p * cell[3 + k] + q * cell[6 + k]));
+    const across = Math.max(diagonal(1, 1), diagonal(1, -1), diagonal(-1, 1), diagonal(-1, -1));
     const largest = frame.axes.reduce((most, r) => Math.max(most, r), 0);
     this.middle = frame.middle;
-    this.half = 0.52 * across + largest;  // of the picture's height, length
+    this.half = (0.52 * across + largest) * Math.max(1, clientHeight / clientWidth);  // of the picture's height, length
     this.reach = 4 * (across + largest);
   }
 
@@ -178,23 +182,14 @@ class SampleView {
   }
 
   listen() {
-    const { canvas } = this, placed = (event) => [event.clientX, event.clientY];
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, placed(event));
-      this.walked = this.pointers.size === 1 ? 0 : Infinity;
+    const { canvas } = this;
+    listenToHands(canvas, {
+      drag: (dx, dy, event) => (event.shiftKey || event.buttons === 2 ? this.slide(dx, dy) : this.follow(dx, dy)),
+      slide: (dx, dy) => this.slide(dx, dy),
+      nearer: (factor) => this.nearer(factor),
+      click: (event) => this.pick(event),
     });
-    canvas.addEventListener("pointermove", (event) => this.moved(event, placed(event)));
-    canvas.addEventListener("pointerup", (event) => {
-      this.pointers.delete(event.pointerId);
-      if (this.walked < STILL) this.pick(event);
-    });
-    canvas.addEventListener("pointercancel", (event) => this.pointers.delete(event.pointerId));
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.nearer(Math.exp(event.deltaY / 600));
-    }, { passive: false });
     this.colour.addEventListener("change", async () => {
       await this.findRange();
       await this.colourBodies();
@@ -210,32 +205,19 @@ class SampleView {
   }
 
   nearer(factor) {
-    this.half *= Math.min(Math.max(factor, 0.5), 2);
+    this.half /= Math.min(Math.max(factor, 0.5), 2);
     this.redraw(true);
   }
 
-  moved(event, now) {
-    const before = this.pointers.get(event.pointerId);
-    if (!before) return;
-    const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
-    this.walked += Math.hypot(dx, dy);
-    this.pointers.set(event.pointerId, now);
-    if (this.pointers.size === 2) {
-      const [other] = [...this.pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
-      const span = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
-      this.slide(dx / 2, dy / 2);
-      if (span(now) > 0) this.nearer(span(before) / span(now));
-    } else if (event.shiftKey || event.buttons === 2) {
-      this.slide(dx, dy);
-    } else {
-      this.turn = normalised(product(turnAbout([dy, dx, 0], Math.hypot(dx, dy) / 150), this.turn));
-    }
+  follow(dx, dy) {
+    this.turn = normalised(product(handTurn(dx, dy), this.turn));
     this.redraw(true);
   }
 
   slide(dx, dy) {
     const unit = (2 * this.half) / this.canvas.clientHeight, way = timesTransposed(matrixOf(this.turn), [-dx * unit, dy * unit, 0]);
     this.middle = this.middle.map((x, k) => x + way[k]);
+    this.redraw(true);
   }
 
   /** The body at a place of the window, in pixels of the page. */
@@ -258,8 +240,9 @@ class SampleView {
     const rows = [["id", [this.picked]]];
     for (const [section, { name, components }] of [["Points", { name: "Points", components: 3 }], ...this.frame.particles.of("PointData").map((array) => ["PointData", array])]) {
       if (name === "axes") continue;
-      const numbers = await this.frame.particles.numbers(section, name);
-      rows.push([name === "Points" ? "centre" : name === "orientation" ? "orientation x y z w" : name, numbers.subarray(components * this.picked, components * (this.picked + 1))]);
+      const numbers = await this.frame.particles.numbers(section, name), unit = this.unitOf(name);
+      const title = name === "Points" ? "centre" : name === "orientation" ? "orientation x y z w" : name;
+      rows.push([unit ? `${title} (${unit})` : title, numbers.subarray(components * this.picked, components * (this.picked + 1))]);
     }
     this.values.replaceChildren(...rows.map(([name, numbers]) => make("tr", {}, make("td", { textContent: name }), make("td", { textContent: Array.from(numbers, shown).join(", ") }))));
   }

@@ -4,9 +4,6 @@
 const STEPS = 96;  // points of a curve; chosen: no corner is seen at 1,000 pixels
 const COLOURS = { a: "38,104,170", b: "196,92,24" };
 
-/** A turn of the screen's frame that follows the hand: a radian for 150 pixels. */
-const handTurn = (dx, dy) => turnAbout([dy, dx, 0], Math.hypot(dx, dy) / 150);
-
 /** Where one looks from: a turn of space into the frame of the screen (x right, y up, z towards the eye). */
 class Camera {
   constructor() { Object.assign(this, { turn: normalised([0.82, 0.42, 0.34, 0.1]), centre: [0, 0, 0], scale: 1 }); }

@@ -19,15 +19,7 @@ const short = (x) => (x === null ? "" : String(Number(x.toPrecision(7))));
 const error = (x) => (x === null ? "" : x === 0 ? "0" : x.toExponential(1));
 
 /** One answer and one picture, however often the pair has changed since the last. */
-let waiting = false;
-function changed() {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(() => {
-    waiting = false;
-    show();
-  });
-}
+const changed = oncePerPicture(show);
 
 function show() {
   try {
@@ -113,15 +105,8 @@ function makeNumbers() {
   }
 }
 
-// What fingers and mice do. One pointer: what the mode says to the body under it, the ends of the axes squash,
-// beside the bodies it turns the view. Two pointers: the view grows and shrinks.
-const pointers = new Map();
+// A drag does what the mode says to the body under it; at the ends of the axes it squashes, beside the bodies it turns the view.
 let held = null;
-
-const placeOf = (event) => {
-  const box = element("scene").getBoundingClientRect();
-  return [event.clientX - box.left, event.clientY - box.top];
-};
 
 function grasp([x, y]) {
   const near = drawing.tips(state.pair[state.selected]).filter(({ place }) => Math.hypot(place[0] - x, place[1] - y) < 14);
@@ -156,36 +141,12 @@ const ACTIONS = {
   },
 };
 
-const zoom = (factor) => drawing.camera.zoom(factor);
-
-function moved(event) {
-  const before = pointers.get(event.pointerId);
-  if (!before) return;
-  const now = placeOf(event);
-  if (pointers.size === 1) ACTIONS[held.what](now[0] - before[0], now[1] - before[1]);
-  if (pointers.size === 2) {
-    const [other] = [...pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
-    const span = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
-    if (span(before) > 0) zoom(span(now) / span(before));
-  }
-  pointers.set(event.pointerId, now);
-  changed();
-}
-
 function listen() {
-  const scene = element("scene");
-  scene.addEventListener("pointerdown", (event) => {
-    scene.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, placeOf(event));
-    if (pointers.size === 1) held = grasp(placeOf(event));
-    changed();
+  listenToHands(element("scene"), {
+    grasp: (place) => ((held = grasp(place)), changed()),
+    drag: (dx, dy) => (ACTIONS[held.what](dx, dy), changed()),
+    nearer: (factor) => (drawing.camera.zoom(factor), changed()),
   });
-  scene.addEventListener("pointermove", moved);
-  for (const end of ["pointerup", "pointercancel"]) scene.addEventListener(end, (event) => pointers.delete(event.pointerId));
-  scene.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoom(Math.exp(-event.deltaY / 600)), changed();
-  }, { passive: false });
   for (const button of document.querySelectorAll("[data-mode]"))
     button.addEventListener("click", () => pressed("mode", (state.mode = button.dataset.mode)));
   for (const button of document.querySelectorAll("[data-language]"))

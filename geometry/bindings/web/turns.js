@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns of space: a quaternion [w, x, y, z], and its matrix by rows. The playground and the view of a report use them.
+// Turns of space: a quaternion [w, x, y, z], and its matrix by rows. Every page that draws has them.
 
 function normalised(q) {
   const size = Math.hypot(...q);
