@@ -100,9 +100,11 @@ constexpr double kNarrow = 0x1p-40;        // chosen
 // Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more, and a few
 // dozen to where a body is seen along its flat face or across its thin edge.
 constexpr int kMoves = 60;
-// Chosen, of one move: from a normal beside a face or an edge f climbs all but straight, and
-// Newton's step is millions of times too long.
-constexpr int kHalvings = 40;
+constexpr int kHalvings = 8;  // chosen, of one move
+// The same where the move still promises more than kWorthMore of the size: from a normal beside a
+// face or an edge f climbs all but straight, and Newton's step is millions of times too long.
+constexpr int kMoreHalvings = 40;
+constexpr double kWorthMore = 0x1p-58;
 
 /// f to first and second order at a normal.
 struct Local {
@@ -171,10 +173,13 @@ Vec3 step(const Local& at, bool anywhere) {
 Local ascend(const Pair& pair, const Vec3& normal, double error) {
   Local at = evaluate(pair, normal);
   int halvings = 0;
-  for (int move = 0; move < kMoves && halvings <= kHalvings; ++move) {
+  for (int move = 0; move < kMoves && halvings <= kMoreHalvings; ++move) {
     Vec3 delta = step(at, pair.sought == Sought::clearance);
-    for (halvings = 0; halvings <= kHalvings; ++halvings, delta *= 0.5) {
-      if (!(delta.norm() > 0x1p-54)) return at;
+    const double slope = std::hypot(at.gradient.rest[0], at.gradient.rest[1]);
+    for (halvings = 0; halvings <= kMoreHalvings; ++halvings, delta *= 0.5) {
+      const double turn = delta.norm();
+      if (!(turn > 0x1p-54)) return at;
+      if (halvings > kHalvings && slope * turn <= kWorthMore * pair.size) return at;
       const Local next = evaluate(pair, (at.normal + delta).normalized());
       if (!((next.f - at.f).high > error)) continue;
       at = next;
