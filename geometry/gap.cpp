@@ -9,6 +9,7 @@
 
 #include <tangency/geometry/bodies/surface_projection.hpp>
 #include <tangency/geometry/gap/error_bounds.hpp>
+#include <tangency/geometry/gap/point_bound.hpp>
 #include <tangency/geometry/gap/proof.hpp>
 #include <tangency/geometry/gap/search.hpp>
 #include <tangency/geometry/gap/sign.hpp>
@@ -110,6 +111,14 @@ std::optional<Solved> search(const Pair& pair, const FactoredPair& factored, con
 
 bool has_sphere(const Pair& pair) { return pair.a.is_sphere() || pair.b.is_sphere(); }
 
+/// In double-double at the maximum that an ascent found.
+GapProof prove_precisely(const Pair& pair, const Vec3& normal) {
+  GapProof proof = detail::prove_gap_in_double_double(pair, normal);
+  if (proof.global && proof.high - proof.low > kOrdinaryError * pair.size)
+    detail::bound_by_points(pair, kOrdinaryError * pair.size, proof);
+  return proof;
+}
+
 /// Does the value of a branch come so near to an upper bound of all that it is the global one?
 bool reaches(const Pair& pair, const GapProof& proof, double high) {
   return high - proof.low <= kOrdinaryError * pair.size;
@@ -136,7 +145,7 @@ Solved solve_hard(const Pair& pair) {
   const Vec3 start = concentric ? factored.axis(0) : factored.perram_wertheim_normal();
   const Stationary found = factored.climb(start);
   const Vec3 normal = found.normal.allFinite() ? found.normal : start;
-  const GapProof proof = detail::prove_gap_in_double_double(pair, normal);
+  const GapProof proof = prove_precisely(pair, normal);
   const double enough = kOrdinaryError * pair.size;
   if (proof.global && proof.high - proof.low <= enough) return {proof, GapTier::factored};
   // Deep, or so flat a maximum that the curvature at it bounds little.
@@ -200,7 +209,7 @@ Solved follow(const Pair& pair, const Vec3& start) {
   }
   const Stationary found = FactoredPair(pair.a, pair.b, pair.d).climb(start);
   if (!found.accepted) return solve(pair);
-  GapProof proof = detail::prove_gap_in_double_double(pair, found.normal);
+  GapProof proof = prove_precisely(pair, found.normal);
   if (!proof.global && has_sphere(pair)) {
     const double high = solve_with_sphere(pair).proof.high;
     proof.global = reaches(pair, proof, high);

@@ -111,6 +111,8 @@ void PairTangency::init_style() {
   require_host();
   require_one_law();
   reach_ = AtomBodies::reach_by_type(lmp);
+  // LAMMPS copies atoms for their images before the first list: a skin of many boxes fills memory.
+  require_room(longest_cutoff());
   neighbor->request(this, instance_me);
   make_history();
 }
@@ -135,15 +137,26 @@ double PairTangency::init_one(int i, int j) {
   return reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)];
 }
 
-void PairTangency::require_room() {
+/// Of the pairs of types that are of this style.
+double PairTangency::longest_cutoff() const {
+  double longest = 0.0;
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j)
+      if (setflag[i][j] != 0)
+        longest = std::max(
+            longest, reach_[static_cast<std::size_t>(i)] + reach_[static_cast<std::size_t>(j)]);
+  return longest;
+}
+
+void PairTangency::require_room(double cutoff) {
   const Vec3 thickness = BoxMotion::thickness(*domain);
-  const double least = 2.0 * neighbor->cutneighmax;
   for (int k = 0; k < 3; ++k)
-    if (domain->periodicity[k] != 0 && !(thickness[k] > least))
-      error->all(FLERR, "Pair style tangency: the box is " + std::to_string(thickness[k]) +
-                            " thick along its periodic direction " + "xyz"[k] +
-                            ": more than twice cutoff and skin, " + std::to_string(least) +
-                            ", is needed, lest a pair meet twice");
+    if (domain->periodicity[k] != 0 && !(thickness[k] > 2.0 * (cutoff + neighbor->skin)))
+      error->all(FLERR,
+                 "Pair style tangency: the box is {:.6g} thick along its periodic direction {}: "
+                 "more than twice cutoff, {:.6g}, and skin, {:.6g}, is needed, lest a pair meet "
+                 "twice",
+                 thickness[k], "xyz"[k], cutoff, neighbor -> skin);
 }
 
 void PairTangency::write_restart_settings(FILE* file) {

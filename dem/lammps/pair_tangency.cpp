@@ -112,7 +112,7 @@ PairTangency::Step PairTangency::step() {
 void PairTangency::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   const bool listed_anew = neighbor->ago == 0;
-  if (listed_anew) require_room();
+  if (listed_anew) require_room(neighbor->cutneighmax - neighbor->skin);
   if (is_timed_) lap_began_ = MPI_Wtime();
   bodies_.refresh(listed_anew);
   lap(kBodies);

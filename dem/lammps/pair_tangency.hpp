@@ -100,7 +100,8 @@ class PairTangency : public LAMMPS_NS::Pair, public ContactSource {
   void make_history();
   void require_host();
   void require_one_law();
-  void require_room();
+  double longest_cutoff() const;
+  void require_room(double cutoff);
   Step step();
   void collect(const Step& step);
   void finish(PairBlock& block, const Step& step, double weight);

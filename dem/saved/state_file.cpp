@@ -6,13 +6,13 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <tangency/dem/saved/little_endian.hpp>
 #include <tangency/dem/saved/state_stream.hpp>
 #include <tangency/dem/whole_file.hpp>
 
@@ -113,11 +113,18 @@ void pass(Archive& archive, W& wall) {
     if (held.stress > 0.0) wall.held = held;
 }
 
+/// The first `count` items.
+template <Row T>
+void pass_rows(StateWriter& archive, const std::vector<T>& items, std::size_t count) {
+  using Part = typename PartsOf<T>::Part;
+  archive.block(reinterpret_cast<const Part*>(items.data()), count * (sizeof(T) / sizeof(Part)));
+}
+
 template <class T>
 void pass(StateWriter& archive, const std::vector<T>& items) {
   archive(std::uint64_t{items.size()});
   if constexpr (Row<T>)
-    archive.block(items.data(), items.size() * sizeof(T));
+    pass_rows(archive, items, items.size());
   else
     for (const T& item : items) pass(archive, item);
 }
@@ -229,11 +236,10 @@ void pass_reference(Archive& archive, R& reference) {
 
 /// Each column without what it is filled up with.
 void pass_contacts(StateWriter& archive, const Contacts& contacts) {
-  const auto pass_column = [&](const auto& column) {
-    archive.block(column.data(), contacts.size() * sizeof(column[0]));
-  };
-  for (const auto column : ContactColumns::kVectors) pass_column(contacts.columns().*column);
-  for (const auto column : ContactColumns::kNumbers) pass_column(contacts.columns().*column);
+  for (const auto column : ContactColumns::kVectors)
+    pass_rows(archive, contacts.columns().*column, contacts.size());
+  for (const auto column : ContactColumns::kNumbers)
+    pass_rows(archive, contacts.columns().*column, contacts.size());
 }
 
 void write(StateWriter& archive, const State& state) {
@@ -348,17 +354,18 @@ std::optional<std::uint32_t> version_in(StateReader& file) {
   const std::size_t size = file.head(head.data(), head.size());
   if (size < head.size() || !std::string_view(head.data(), size).starts_with(kMagic))
     return std::nullopt;
-  std::uint32_t version = 0;
-  std::memcpy(&version, head.data() + kMagic.size(), sizeof version);
-  return version;
+  std::array<char, sizeof kRampVersion> version;
+  std::copy_n(head.data() + kMagic.size(), version.size(), version.begin());
+  return of_little_endian_bytes<std::uint32_t>(version);
 }
 
 bool is_readable(std::uint32_t version) {
   return version == kPlainVersion || version == kLatestVersion || version == kRampVersion;
 }
 
-std::string_view view_of(const auto& number) {
-  return {reinterpret_cast<const char*>(&number), sizeof number};
+void write(WholeFile& out, Number auto number) {
+  const auto bytes = little_endian_bytes(number);
+  out.write(std::string_view(bytes.data(), bytes.size()));
 }
 
 }  // namespace
@@ -376,11 +383,10 @@ std::string state_hash(const State& state) {
 void save_state(const State& state, const std::filesystem::path& file) {
   WholeFile out(file);
   out.write(kMagic);
-  out.write(view_of(version_of(state)));
+  write(out, version_of(state));
   StateWriter archive(&out);
   write(archive, state);
-  const std::uint64_t hash = archive.finish();
-  out.write(view_of(hash));
+  write(out, archive.finish());
   out.publish();
 }
 

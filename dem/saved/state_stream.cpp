@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <limits>
@@ -39,7 +40,7 @@ void StateWriter::small(const void* bytes, std::size_t size) {
   waiting_.insert(waiting_.end(), first, first + size);
 }
 
-void StateWriter::block(const void* bytes, std::size_t size) {
+void StateWriter::raw(const void* bytes, std::size_t size) {
   if (size <= kSlice / 2) return small(bytes, size);
   send();
   const char* at = static_cast<const char*>(bytes);
@@ -144,9 +145,9 @@ StateReader::Ending StateReader::finish() {
     taken_ = end_ - kHash;
   }
   hash_what_was_taken();
-  std::uint64_t wanted = 0;
-  std::memcpy(&wanted, buffer_.data() + taken_, kHash);
-  return {wanted == hash_.value(), is_at_once};
+  std::array<char, kHash> bytes;
+  std::copy_n(buffer_.data() + taken_, kHash, bytes.begin());
+  return {of_little_endian_bytes<std::uint64_t>(bytes) == hash_.value(), is_at_once};
 }
 
 }  // namespace tangency::inline v0::dem

@@ -6,25 +6,18 @@
 #pragma once
 
 #include <array>
-#include <bit>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <type_traits>
 #include <vector>
 
+#include <tangency/dem/saved/little_endian.hpp>
 #include <tangency/dem/saved/stream_hash.hpp>
 #include <tangency/dem/whole_file.hpp>
 #include <tangency/geometry/tables/descriptor.hpp>
 
 namespace tangency::inline v0::dem {
-
-static_assert(std::endian::native == std::endian::little, "state files are little-endian");
-
-template <class T>
-concept Number = std::is_arithmetic_v<T>;
 
 /// Bytes that are no state.
 struct Damaged {
@@ -40,13 +33,21 @@ class StateWriter {
   /// @throws WriteError  as all that writes
   template <Number T>
   void operator()(const T& value) {
-    small(&value, sizeof value);
+    const auto bytes = little_endian_bytes(value);
+    small(bytes.data(), bytes.size());
   }
-  void block(const void* bytes, std::size_t size);
+  template <Number T>
+  void block(const T* numbers, std::size_t count) {
+    if constexpr (kIsLittleEndian)
+      raw(numbers, count * sizeof(T));
+    else
+      for (std::size_t k = 0; k < count; ++k) (*this)(numbers[k]);
+  }
   /// The hash of all that was passed, and sends it all on its way.
   std::uint64_t finish();
 
  private:
+  void raw(const void* bytes, std::size_t size);
   void small(const void* bytes, std::size_t size);
   void send();
   void slice(const char* bytes, std::size_t size);
@@ -69,14 +70,17 @@ class StateReader {
   template <Number T>
   void operator()(T& value) {
     raw(&value, sizeof value);
+    from_little_endian(&value, 1);
     if constexpr (std::is_floating_point_v<T>) require_finite(&value, 1);
   }
   void block(double* numbers, std::size_t count) {
     raw(numbers, count * sizeof(double));
+    from_little_endian(numbers, count);
     require_finite(numbers, count);
   }
   void block(std::int32_t* numbers, std::size_t count) {
     raw(numbers, count * sizeof(std::int32_t));
+    from_little_endian(numbers, count);
   }
   /// No more bytes than these are left; of a pipe that is not known.
   std::uint64_t most_left() const { return most_left_; }

@@ -48,6 +48,11 @@ constexpr std::string_view kStageKinds = "place compress grow relax unload shear
 constexpr std::string_view kMovingKinds = "compress grow relax unload shear servo";
 constexpr std::string_view kIsotropicKinds = "compress grow relax unload";
 constexpr std::string_view kRampedKinds = "compress relax unload shear servo";
+/// Advice of `check` that a stage may not want, and, in the second line, a scene alone.
+constexpr std::string_view kAdviceOfStages =
+    "inertial_number servo_inertial_number overlap time_step";
+constexpr std::string_view kAdviceOfScenes =
+    "inertial_number servo_inertial_number overlap time_step impact largest_overlap gravity";
 /// Those that have to hold one; relax may also leave the cell as it is.
 constexpr std::string_view kPressedKinds = "compress grow unload";
 
@@ -58,6 +63,10 @@ constexpr std::array kKeys{
         "say otherwise; lists of tables are joined, theirs first. A file that is included again, "
         "by "
         "another way too, counts once, where it is first"},
+    Key{"", "intended", words, "-", "(nothing)", kNoRange, kAdviceOfScenes, "",
+        "What tangency-dem check advises against and this scene means: a flow has an "
+        "inertial_number, a published sample may be soft (overlap). Neither check nor the run "
+        "speaks of it. It changes no number"},
 
     Key{"units", "length", text, "-", "", kNoRange, "um mm m km", "",
         "What the scene's lengths are in. This table names units for pages and summary.json, and "
@@ -158,6 +167,8 @@ constexpr std::array kKeys{
     Key{"stage", "kind", text, "-", "", kNoRange, kStageKinds, kStageKinds, "What the stage does"},
     Key{"stage", "name", text, "-", "(its kind)", kNoRange, "", kStageKinds,
         "Name in the column stage of history.csv"},
+    Key{"stage", "intended", words, "-", "(the scene's)", kNoRange, kAdviceOfStages, kMovingKinds,
+        "The same of this stage alone, beside the scene's"},
     Key{"stage", "save", boolean, "-", "false", kNoRange, "", kStageKinds,
         "Keep the state at the stage's end: states/NAME.state, NAME the stage's"},
     Key{"stage", "save_strains", reals, "-", "(none)", above_to(0.0, 3.0), "", "shear",
@@ -393,6 +404,7 @@ SchemaLine schema_line(const Key& key) {
       key.type == path      ? std::string("a file's name")
       : key.type == paths   ? std::string("a file's name, a list of them")
       : key.type == boolean ? std::string("true, false")
+      : key.type == words   ? "a list of " + choices_text(key.choices)
       : key.type == text ? (key.choices.empty() ? "letters, digits, _" : choices_text(key.choices))
                          : range_text(key.range);
   std::string meaning(key.meaning);
@@ -443,6 +455,8 @@ std::string_view type_text(KeyType type) {
       return "text";
     case paths:
       return "text, or texts";
+    case words:
+      return "texts";
   }
   return "";
 }
@@ -473,6 +487,8 @@ std::string allowed_values(const Key& key) {
       return "the name of a file";
     case paths:
       return "the name of a file, or a list of them";
+    case words:
+      return "a list of one or more of " + choices_text(key.choices);
     case text:
       break;
   }

@@ -15,8 +15,9 @@
 
 namespace tangency::inline v0::dem {
 
-/// `reals` is a list of one number or more, `paths` the name of a file or a list of them.
-enum class KeyType { integer, real, real3, real4, reals, boolean, text, path, paths };
+/// `reals` is a list of one number or more, `words` one of one choice or more, `paths` the name of
+/// a file or a list of them.
+enum class KeyType { integer, real, real3, real4, reals, boolean, text, words, path, paths };
 
 /// The tables of a scene.
 inline constexpr std::string_view kSceneSections =
@@ -47,7 +48,7 @@ struct Key {
   /// parentheses, what holds without one.
   std::string_view fallback;
   Range range;               ///< of its value, where it is a number
-  std::string_view choices;  ///< of a text, separated by blanks; "" for any name
+  std::string_view choices;  ///< of a text or words, separated by blanks; "" for any name
   std::string_view kinds;    ///< of a stage's key: the kinds that have it, separated by blanks
   std::string_view meaning;  ///< one sentence
 

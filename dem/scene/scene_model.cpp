@@ -64,6 +64,13 @@ double Scene::held_stress(const Stage& stage) const {
   return most;
 }
 
+bool Scene::intends(const Stage& stage, const std::string& about) const {
+  const auto has = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), about) != list.end();
+  };
+  return has(intended) || has(stage.intended);
+}
+
 Placement Scene::placement() const {
   const Place& place = stages.front().place.value();
   return {cell_size,

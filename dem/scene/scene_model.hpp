@@ -88,6 +88,8 @@ struct Stage {
   std::optional<Growth> growth;  ///< set besides drive
   /// which states are written
   KeptStates kept{};
+  /// what is advised against and meant here, by the names of `tangency-dem check`
+  std::vector<std::string> intended{};
 };
 
 /// How often a run writes, in cycles.
@@ -122,6 +124,7 @@ struct Scene {
   std::vector<Stage> stages;                 ///< the first, and no other, places
   OutputIntervals output;                    ///< how often results are written
   std::optional<Units> units = {};           ///< what numbers are called, where the scene says so
+  std::vector<std::string> intended = {};    ///< in all stages, as Stage::intended
 
   /// Spheres have the directed axis of what they grow into.
   std::vector<Batch> batches() const;
@@ -141,6 +144,8 @@ struct Scene {
   double inertial_time(double stress) const;
   /// The largest stress that a stage holds, at its walls too; 0 where it holds none.
   double held_stress(const Stage& stage) const;
+  /// Is what `check` calls so meant, in that stage or everywhere?
+  bool intends(const Stage& stage, const std::string& about) const;
   /// What the first stage places.
   Placement placement() const;
   /// The shape of a type in stage number `stage` after so many increments of it; in a stage that

@@ -28,7 +28,7 @@ class Reader {
       : root_(root), source_(source), shapes_(shapes) {}
 
   Scene read() {
-    const Section top(source_, root_, "", "");
+    scene_.intended = Section(source_, root_, "", "").words("intended");
     read_units();
     read_cell();
     scene_.planes = read_walls(root_, source_, scene_);
@@ -171,7 +171,8 @@ class Reader {
     const std::string name = section.text("name", kind);
     refuse_shear_namesake(section, name, kind == "shear");
     const KeptStates kept = read_kept(section, name, kind == "shear");
-    Stage& added = scene_.stages.emplace_back(Stage{name, {}, {}, {}, kept});
+    Stage& added =
+        scene_.stages.emplace_back(Stage{name, {}, {}, {}, kept, section.words("intended")});
     if (kind == "place") {
       added.place = read_place(section, scene_, !shapes_.empty());
       read_bodies(root_, source_, section, scene_);

@@ -77,6 +77,13 @@ bool fits(const Key& key, const toml::node& node) {
       return is_path(node) ||
              (list && !list->empty() && std::all_of(list->begin(), list->end(), is_path));
     }
+    case KeyType::words: {
+      const auto* list = node.as_array();
+      const auto is_choice = [&](const toml::node& one) {
+        return one.is_string() && is_among(one.ref<std::string>(), key.choices);
+      };
+      return list && !list->empty() && std::all_of(list->begin(), list->end(), is_choice);
+    }
     case KeyType::text: {
       if (!node.is_string()) return false;
       const std::string& text = node.ref<std::string>();
@@ -187,6 +194,13 @@ std::vector<double> Section::reals(std::string_view name) const {
   if (const toml::node* node = find(name))
     for (const toml::node& one : *node->as_array()) numbers.push_back(real_of(one));
   return numbers;
+}
+
+std::vector<std::string> Section::words(std::string_view name) const {
+  std::vector<std::string> found;
+  if (const toml::node* node = find(name))
+    for (const toml::node& one : *node->as_array()) found.push_back(one.ref<std::string>());
+  return found;
 }
 
 std::string Section::text(std::string_view name, std::string_view otherwise) const {

@@ -84,6 +84,7 @@ class Section {
   bool boolean(std::string_view name) const;
   /// None where the section does not have the key.
   std::vector<double> reals(std::string_view name) const;
+  std::vector<std::string> words(std::string_view name) const;
   std::string text(std::string_view name, std::string_view otherwise) const;
   std::string text(std::string_view name) const { return text(name, fallback(name)); }
   std::optional<Vec3> optional_real3(std::string_view name) const;

@@ -61,17 +61,23 @@ def last_words(text):
     return lines[-1] if lines else "no message"
 
 
+def text_of_numbers(body, stages, output):
+    """The text by which a run is known: without what is intended, which changes no number."""
+    return scene_text(dict(body, intended=()), stages, output)
+
+
 class Job:
     """A run with its place on the disk."""
 
     def __init__(self, run, programme, out, tool_version):
         self.run = run
         self.folder = os.path.join(out, "runs", run.name)
-        self.scene = scene_text(run.body, programme.stages_of(run.name), run.output)
+        stages = programme.stages_of(run.name)
+        self.scene = scene_text(run.body, stages, run.output)
         told = [tool_version]
         for one in programme.ancestors(run.name):
-            told += [scene_text(one.body, one.stages, one.output)]
-        told += [self.scene, *run.tables]
+            told += [text_of_numbers(one.body, one.stages, one.output)]
+        told += [text_of_numbers(run.body, stages, run.output), *run.tables]
         self.key = hashlib.sha256("\0".join(told).encode()).hexdigest()
         self.resumes = run.after and os.path.join(out, "runs", run.after, "final.state")
         self.status = "complete" if self._holds("done") else "waiting"

@@ -2,8 +2,8 @@
 """Text of a scene of tangency-dem (TOML) from plain values.
 
 A body is what all stages share: {"cell": {...}, "motion": {...}, "particles": {NAME: {...}},
-"contact": {...}}. A stage is its keys. The order of the keys is that in which they were given, so
-that one body and one list of stages have one text.
+"contact": {...}} and, if so wanted, "intended": [...]. A stage is its keys. The order of the keys is
+that in which they were given, so that one body and one list of stages have one text.
 """
 
 
@@ -24,7 +24,10 @@ def table_text(header, keys):
 
 def scene_text(body, stages, output):
     """@param output  keys of [output]"""
-    parts = ["schema = 1\n\n"]
+    parts = ["schema = 1\n"]
+    if body.get("intended"):
+        parts.append(f"intended = {value_text(body['intended'])}\n")
+    parts.append("\n")
     for section in ("cell", "motion"):
         if body.get(section):
             parts.append(table_text(f"[{section}]", body[section]))

@@ -24,6 +24,10 @@ AXIAL_RATE, SERVO_RATE, GROWTH_RATE = 0.005, 0.02, 0.05
 # proportion are as slow.
 PLANE_RATES = math.sqrt(4.0 / 3.0 * RADIUS)
 
+# What `tangency-dem check` advises against: the published stiffness is low for DENSE, and the rates
+# above reach an inertial number of 1.15e-3 at 30e6, which is as slow as it has to be.
+INTENDED = ("overlap", "inertial_number")
+
 # How samples are released from DENSE is not published. What it is here: friction, measured to leave
 # the published contacts at 10e6 (docs/simulator.md), and the largest ratio of unbalanced to contact
 # force at which a pressure is taken to be reached.
@@ -56,6 +60,7 @@ def body(count, *, elongation=1.0, flatness=1.0, plane=False, contacts=None, kin
         "motion": {"contacts": contacts} if contacts else {},
         "particles": {kind: particles},
         "contact": {"normal_stiffness": STIFFNESS, "friction_coefficient": FRICTION},
+        "intended": INTENDED,
     }
 
 

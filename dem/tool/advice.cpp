@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <tangency/dem/tool/safe_text.hpp>
@@ -15,6 +17,11 @@ namespace {
 /// half of its error in a cycle throws it about. Measured on plane-shear at 0.1: held at 100 the
 /// mean was 455 at a gain of 0.5, 99 at 0.05 and 34 at 0.005, and it swung by 224, 27 and 19.
 constexpr double kFlow = 0.005, kGainOfFlow = 0.05;
+
+/// Of the gain times what springs and dampers answer to a strain, over what springs do: above the
+/// first the servo rings, the second is advised. Measured on a sheared sample of a sieve curve from
+/// D to 2.5 D (docs/choosing.md): it holds at 1.15 and less, and rings at 1.4 and more.
+constexpr double kRings = 1.25, kQuiet = 0.5;
 
 std::string joined(const std::vector<std::string>& parts, const std::string& between) {
   std::string text;
@@ -52,6 +59,12 @@ double times_to_fill(const Simulation& simulation, double edge) {
   double volume = 0.0;
   for (const Vec3& axes : particles.semi_axes) volume += volume_of(axes, particles.dimensions);
   return std::pow(edge, particles.dimensions) / volume;
+}
+
+double largest_target(const Drive& stage) {
+  double largest = 0.0;
+  for (const Target& target : stage.loading.targets) largest = std::max(largest, target.wanted);
+  return largest;
 }
 
 /// Where the stage would have ended before: "" where nothing of it can.
@@ -150,13 +163,35 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
          whole_up(static_cast<double>(stage.duration.value_or(0)) + std::max(more, 1.0));
 }
 
+std::optional<double> gain_of_flow(const Scene& scene, const Drive& stage) {
+  const double stress = largest_target(stage);
+  if (stress == 0.0) return std::nullopt;
+  const Mat3& given = stage.loading.strain_rate;
+  const Mat3 across = given - Mat3(given.diagonal().asDiagonal());
+  const bool flows = across.cwiseAbs().maxCoeff() * scene.inertial_time(stress) > kFlow;
+  return flows ? std::optional(kGainOfFlow) : std::nullopt;
+}
+
+std::optional<double> gain_of_dampers(const Simulation& simulation, const Drive& stage) {
+  // Without a rate of damping contacts have no dampers meanwhile.
+  const Servo& servo = stage.loading.servo;
+  if (stage.loading.targets.empty() || !stage.damping || servo.published_gain > 0.0)
+    return std::nullopt;
+  double ratio = 0.0;
+  for (const ContactLaw& law : simulation.scene().laws.law)
+    ratio = std::max(ratio, law.damping_ratio);
+  const std::vector<double>& mass = simulation.state().particles.mass;
+  const auto [least, most] = std::minmax_element(mass.begin(), mass.end());
+  const double answer = 1.0 + 2.0 * ratio * std::sqrt(*most / *least) / stage.time_step_factor;
+  if (ratio == 0.0 || servo.gain * answer <= kRings) return std::nullopt;
+  return std::stod(tables::rounded_text(kQuiet / answer, 1));
+}
+
 std::string advice_on_servo(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const Drive& stage = *simulation.stage().drive;
   const Servo& servo = stage.loading.servo;
-  double largest = 0.0;
-  for (const Target& target : stage.loading.targets) largest = std::max(largest, target.wanted);
-  const double fast = scene.servo_strain_rate(largest);
+  const double fast = scene.servo_strain_rate(largest_target(stage));
   const auto changed = [](const char* key, double from, double to) {
     return std::string(to > from ? "raise " : "lower ") + key + " from " +
            tables::rounded_text(from, 3) + " to " + tables::rounded_text(to, 3);
@@ -164,12 +199,11 @@ std::string advice_on_servo(const Simulation& simulation) {
   if (servo.max_strain_rate < 0.5 * fast)
     return changed("max_strain_rate", servo.max_strain_rate, fast);
   if (servo.published_gain > 0.0) return "leave published_gain out, whose servo rings";
-  const Mat3& given = stage.loading.strain_rate;
-  const Mat3 across = given - Mat3(given.diagonal().asDiagonal());
-  const double rate = across.cwiseAbs().maxCoeff();
-  const bool flows = largest > 0.0 && rate * scene.inertial_time(largest) > kFlow;
-  const double gain = flows ? kGainOfFlow : Servo().gain;
-  if (servo.gain < 0.5 * gain || (flows && servo.gain > 2.0 * gain))
+  if (const auto quiet = gain_of_dampers(simulation, stage))
+    return changed("servo_gain", servo.gain, *quiet);
+  const std::optional<double> of_flow = gain_of_flow(scene, stage);
+  const double gain = of_flow.value_or(Servo().gain);
+  if (servo.gain < 0.5 * gain || (of_flow && servo.gain > 2.0 * gain))
     return changed("servo_gain", servo.gain, gain);
   const auto keys = texts_of(slower_strains(stage, 0.5, scene.dimensions));
   if (!keys.empty()) return "lower " + joined(keys, " and ");

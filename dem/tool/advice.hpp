@@ -5,6 +5,7 @@
 /// rounded to two digits to the safe side.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace tangency::inline v0::dem {
 
 /// The largest mean overlap that is sound, in mean radii. Particles stand for rigid ones. Chosen;
 /// the published parameters are softer: at 100e6 the dense sample has 0.107 and the end of its
-/// shear 0.155, of which scenes with them warn (docs/simulator.md).
+/// shear 0.155, which scenes with them call intended (docs/simulator.md).
 inline constexpr double kSoundOverlap = 0.1;
 
 /// A key of a scene, and its value, as TOML writes it, now and as advised.
@@ -36,6 +37,16 @@ std::string advice_on_motion(const Simulation& simulation, const Observation& se
 /// first that is too small for its stress; where none is, half of the rates that strain the stage,
 /// or twice its duration.
 std::string advice_on_servo(const Simulation& simulation);
+
+/// The servo_gain of a simple shear that is so fast that it is a flow; none where it is slower, or
+/// holds no stress.
+std::optional<double> gain_of_flow(const Scene& scene, const Drive& stage);
+
+/// The servo_gain with which dampers at contacts (restitution) do not make the servo ring, where
+/// the stage's gain is so large that they do; else none. In a step a damper answers a strain by 2
+/// zeta sqrt(m_max / m_min) / time_step_factor times what the spring does, and the servo knows of
+/// the spring alone.
+std::optional<double> gain_of_dampers(const Simulation& simulation, const Drive& stage);
 
 /// "lower time_step_factor to 0.2", a share of what it is.
 std::string advice_on_step(const Simulation& simulation, double share);

@@ -40,6 +40,11 @@ constexpr double kBeyondLargestOverlap = 2.0;
 /// Share of the machine's memory that a run may take. Chosen: the rest is of others.
 constexpr double kShareOfMemory = 0.8;
 
+/// In mean radii: with less than the first a stage whose cycles are too many has contacts that are
+/// stiffer than its stresses can tell, and the second is advised. Measured: below 0.01 nothing but
+/// the number of cycles changes (docs/choosing.md).
+constexpr double kStiffOverlap = 1e-3, kSoftEnough = 5e-3;
+
 /// What a stage needs at least is not what it needs.
 constexpr double kSpareCycles = 1.2;
 
@@ -65,6 +70,7 @@ class Checker {
       check_stress(stage);
       check_cell(stage);
       check_rates(stage);
+      check_gain(stage);
       check_step(stage);
     }
     return std::move(seen_);
@@ -73,9 +79,11 @@ class Checker {
  private:
   const Stage& stage_of(const StageForecast& seen) const { return scene_.stages[seen.stage]; }
 
-  void add(const std::string& stage, const std::string& about, const std::string& reason,
+  /// @param stage  null for the whole scene
+  void add(const Stage* stage, const std::string& about, const std::string& reason,
            std::vector<Change> changes) {
-    seen_.advice.push_back({stage, about, reason, std::move(changes)});
+    if (scene_.intends(stage ? *stage : scene_.stages.front(), about)) return;
+    seen_.advice.push_back({stage ? stage->name : "", about, reason, std::move(changes)});
   }
 
   /// Of what holds for the whole scene, once.
@@ -98,7 +106,7 @@ class Checker {
     const auto down = [](double x) {
       return tables::rounded_text(std::round(two_digits(x, std::floor)), 17);
     };
-    add("", "memory",
+    add(nullptr, "memory",
         "some " + short_text(1e-9 * seen_.memory) + " GB, and this machine has " +
             short_text(1e-9 * memory_of_machine()),
         counts_times(most / seen_.memory, down));
@@ -116,7 +124,8 @@ class Checker {
     const auto text = [](const Vec3& v) {
       return "[ " + short_text(v[0]) + ", " + short_text(v[1]) + ", " + short_text(v[2]) + " ]";
     };
-    add("", "gravity", "gravity along " + axes + " acts where cell.walls has no wall to bear it",
+    add(nullptr, "gravity",
+        "gravity along " + axes + " acts where cell.walls has no wall to bear it",
         {{"motion.gravity", text(scene_.gravity), text(borne)}});
   }
 
@@ -134,10 +143,10 @@ class Checker {
       if (overlap > kSoundOverlap) {
         const bool hertz = law_of(type).hertz.has_value();
         const double power = hertz ? 2.5 : 2.0;
-        add("", "impact", reason + ", more than " + short_text(kSoundOverlap),
+        add(nullptr, "impact", reason + ", more than " + short_text(kSoundOverlap),
             {stiffer(type, std::pow(overlap / kAdvisedOverlap, power))});
       } else {
-        check_largest_overlap("", type, overlap, reason);
+        check_largest_overlap(nullptr, type, overlap, reason);
       }
     }
   }
@@ -172,7 +181,7 @@ class Checker {
     return one * std::pow(law.normal_stiffness / at_one.stiffness, 2.0);
   }
 
-  void check_largest_overlap(const std::string& stage, std::size_t type, double overlap,
+  void check_largest_overlap(const Stage* stage, std::size_t type, double overlap,
                              const std::string& reason) {
     const ContactLaw& law = law_of(type);
     if (!law.hertz || has("largest_overlap")) return;
@@ -184,12 +193,14 @@ class Checker {
   }
 
   void check_stress(const StageForecast& seen) {
+    const Stage& stage = stage_of(seen);
     if (!seen.overlap) return;
     const std::string reason = "under a stress of " + short_text(seen.pressed->stress) +
                                " the mean overlap will be some " + short_text(*seen.overlap) +
                                " of the mean radius";
     if (*seen.overlap <= kSoundOverlap)
-      return check_largest_overlap(stage_of(seen).name, seen.softest, *seen.overlap, reason);
+      return check_largest_overlap(&stage, seen.softest, *seen.overlap, reason);
+    if (scene_.intends(stage, "overlap")) return;
     const Change change =
         stiffer(seen.softest, stiffer_by(scene_, seen.softest, *seen.pressed, kAdvisedOverlap));
     const auto is_it = [&](const Advice& one) {
@@ -197,19 +208,16 @@ class Checker {
     };
     const auto earlier = std::find_if(seen_.advice.begin(), seen_.advice.end(), is_it);
     if (earlier == seen_.advice.end())
-      return add(stage_of(seen).name, "overlap",
-                 reason + ", more than " + short_text(kSoundOverlap), {change});
+      return add(&stage, "overlap", reason + ", more than " + short_text(kSoundOverlap), {change});
     if (std::stod(change.to) > std::stod(earlier->changes.front().to))
-      *earlier = {stage_of(seen).name,
-                  "overlap",
-                  reason + ", more than " + short_text(kSoundOverlap),
-                  {change}};
+      *earlier = {
+          stage.name, "overlap", reason + ", more than " + short_text(kSoundOverlap), {change}};
   }
 
   void check_cell(const StageForecast& seen) {
     if (!seen.cell_over_least || *seen.cell_over_least >= 1.0 || has("cell")) return;
     const double times = std::pow(1.1 / *seen.cell_over_least, scene_.dimensions);
-    add(stage_of(seen).name, "cell",
+    add(&stage_of(seen), "cell",
         "at its end the cell will have some " + short_text(*seen.cell_over_least) +
             " of the period that its particles need, and the run will end",
         counts_times(times, whole_up));
@@ -220,41 +228,81 @@ class Checker {
     const Stage& stage = stage_of(seen);
     const Drive& drive = *stage.drive;
     double longer = 1.0;
-    if (seen.inertial_number && *seen.inertial_number > kQuasiStatic) {
+    const auto above = [&](const std::optional<double>& number, double sound, const char* about) {
+      return number && *number > sound && !scene_.intends(stage, about);
+    };
+    if (above(seen.inertial_number, kQuasiStatic, "inertial_number")) {
       const double share = kQuasiStatic / *seen.inertial_number;
       std::vector<Change> changes = at(seen, slower_strains(drive, share, scene_.dimensions));
       longer = 1.1 / share;
       if (drive.duration)
         changes.push_back({path_of(scene_, seen.stage, "duration"), std::to_string(*drive.duration),
                            whole_up(static_cast<double>(*drive.duration) / share)});
-      add(stage.name, "inertial_number",
+      add(&stage, "inertial_number",
           "an inertial number of " + short_text(*seen.inertial_number) + " is above " +
               short_text(kQuasiStatic) + ": stresses depend on the rate",
           std::move(changes));
     } else if (drive.stress_tolerance && !drive.max_unbalanced_ratio && !stage.growth &&
-               seen.servo_inertial_number && *seen.servo_inertial_number > kFastCompression) {
+               above(seen.servo_inertial_number, kFastCompression, "servo_inertial_number")) {
       const double share = kFastCompression / *seen.servo_inertial_number;
       const double rate = drive.loading.servo.max_strain_rate;
       longer = 1.1 / share;
-      add(stage.name, "servo_inertial_number",
+      add(&stage, "servo_inertial_number",
           "its servo may strain at an inertial number of " +
               short_text(*seen.servo_inertial_number) + ", above " + short_text(kFastCompression) +
               ": the stress at its end is that of impacts",
           {{path_of(scene_, seen.stage, "max_strain_rate"), tables::to_text(rate),
             rounded_down(share * rate)}});
     }
-    const double needed = seen.least.cycles * longer;
-    if (needed <= static_cast<double>(drive.max_cycles)) return;
-    add(stage.name, "cycles",
-        "it needs at least " + tables::formatted("%.0f", needed) + " cycles for its " +
-            seen.least.key + (longer > 1.0 ? " at the slower rate" : "") + ", more than max_cycles",
-        {{path_of(scene_, seen.stage, "max_cycles"), std::to_string(drive.max_cycles),
-          whole_up(kSpareCycles * needed)}});
+    check_cycles(seen, longer);
+  }
+
+  /// @param longer  so many times as long as it is, by advice on its rate
+  void check_cycles(const StageForecast& seen, double longer) {
+    const Stage& stage = stage_of(seen);
+    const std::int64_t most = stage.drive->max_cycles;
+    double needed = seen.least.cycles * longer;
+    if (needed <= static_cast<double>(most)) return;
+    std::string reason = "it needs at least " + tables::formatted("%.0f", needed) +
+                         " cycles for its " + seen.least.key +
+                         (longer > 1.0 ? " at the slower rate" : "") + ", more than max_cycles";
+    std::vector<Change> changes;
+    if (seen.overlap && *seen.overlap < kStiffOverlap && scene_.particle_types.size() == 1) {
+      const double softer = stiffer_by(scene_, 0, *seen.pressed, kSoftEnough);
+      reason +=
+          "; its contacts are stiffer than they have to be, which takes most of them: a mean "
+          "overlap of " +
+          short_text(*seen.overlap) + " of the mean radius";
+      changes.push_back(stiffer(0, softer));
+      needed *= std::sqrt(softer);  // as the inverse of the step
+    }
+    if (kSpareCycles * needed > static_cast<double>(most))
+      changes.push_back({path_of(scene_, seen.stage, "max_cycles"), std::to_string(most),
+                         whole_up(kSpareCycles * needed)});
+    add(&stage, "cycles", reason, std::move(changes));
   }
 
   std::vector<Change> at(const StageForecast& seen, std::vector<Change> changes) const {
     for (Change& one : changes) one.key = path_of(scene_, seen.stage, one.key);
     return changes;
+  }
+
+  /// Of dampers, and of a flow that is meant: of one that is not a slower rate is advised.
+  void check_gain(const StageForecast& seen) {
+    const Stage& stage = stage_of(seen);
+    const Servo& servo = stage.drive->loading.servo;
+    const auto advise = [&](double gain, const std::string& reason) {
+      add(&stage, "servo_gain", reason,
+          {{path_of(scene_, seen.stage, "servo_gain"), tables::to_text(servo.gain),
+            tables::to_text(gain)}});
+    };
+    if (const auto quiet = gain_of_dampers(simulation_, *stage.drive))
+      return advise(*quiet,
+                    "its servo would ring against the dampers of its contacts "
+                    "(restitution), and not hold its stress");
+    const auto gain = gain_of_flow(scene_, *stage.drive);
+    if (!gain || servo.gain <= 2.0 * *gain || !scene_.intends(stage, "inertial_number")) return;
+    advise(*gain, "its servo would throw a flow about, and hold no stress");
   }
 
   void check_step(const StageForecast& seen) {
@@ -263,7 +311,7 @@ class Checker {
     const bool dissipates = std::any_of(laws.begin(), laws.end(),
                                         [](const ContactLaw& law) { return law.dissipates(); });
     if (!dissipates || drive.damping != 0.0 || drive.time_step_factor <= kStepOfImpacts) return;
-    add(stage_of(seen).name, "time_step",
+    add(&stage_of(seen), "time_step",
         "an impact lasts " + short_text(seen.steps_a_contact) +
             " time steps, too few for its restitution",
         {{path_of(scene_, seen.stage, "time_step_factor"), short_text(drive.time_step_factor),

@@ -27,7 +27,7 @@ Places the particles, runs nothing, and tells of each stage:
   overlap          mean overlap over mean radius under that stress, of equal spheres packed at random
   cell / least     least period of the cell at the stage's end over the least that its particles need
 Advice names keys by their path, as --set takes them, and values with which it is gone:
-  cycles                 more than max_cycles
+  cycles                 more than max_cycles; a softer contact where the overlap is below 0.001
   inertial_number        above 0.001: stresses depend on the rate
   servo_inertial_number  above 0.1 in a stage that ends at its stress, in balance or not
   overlap, impact        more than 0.1 of the mean radius under the stress, or where bodies meet at
@@ -37,6 +37,10 @@ Advice names keys by their path, as --set takes them, and values with which it i
   cell                   the run would end for a cell that is too thin
   gravity                along an axis without walls
   memory                 more than 0.8 of this machine's
+  servo_gain             of a stage whose contacts have a restitution: so large that the servo rings;
+                         of a simple shear above 0.005 that is meant: more than 0.1
+What is meant as it is, a scene or a stage names in a list: intended = ["inertial_number"]. Then
+neither check nor a run speaks of it; cycles, cell, memory and servo_gain cannot be meant.
 Walls that go 0.1 of the smallest semi-axis in a time step are refused, by check and by run. With
 --json: scene, particles, memory_bytes, stages (each with stage, time_step, steps_a_contact,
 cycles_at_least, cycles_key, max_cycles, stress, inertial_number, servo_inertial_number, overlap,

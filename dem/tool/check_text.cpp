@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <tangency/dem/scene/scene_keys.hpp>
 #include <tangency/dem/tool/check.hpp>
 #include <tangency/geometry/tables/number_text.hpp>
 
@@ -60,6 +61,20 @@ Json json_of(const StageForecast& seen, const Scene& scene) {
           {"cell_over_least", json_of(seen.cell_over_least)}};
 }
 
+/// Those of the advice that a scene may call intended, each once, as TOML writes them.
+std::string may_be_intended(const std::vector<Advice>& advice) {
+  const auto keys = scene_keys();
+  const Key& key = *std::find_if(keys.begin(), keys.end(),
+                                 [](const Key& one) { return one.name == "intended"; });
+  std::string names;
+  for (const Advice& one : advice) {
+    const std::string name = '"' + one.about + '"';
+    if (is_among(one.about, key.choices) && names.find(name) == names.npos)
+      names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string text_of(const SceneCheck& check, const Simulation& simulation) {
@@ -80,6 +95,9 @@ std::string text_of(const SceneCheck& check, const Simulation& simulation) {
   text += std::to_string(scene.particle_count()) + " particles, some " +
           tables::rounded_text(1e-6 * check.memory, 2) + " MB\n";
   for (const Advice& one : check.advice) text += "advice: " + one.text() + '\n';
+  if (const std::string meant = may_be_intended(check.advice); !meant.empty())
+    text += "if it is meant so, write in the stage or at the head of the scene: intended = [" +
+            meant + "]\n";
   const std::size_t count = check.advice.size();
   return text + (count == 0 ? "nothing to change\n" : std::to_string(count) + " to change\n");
 }

@@ -33,7 +33,7 @@ std::vector<Number> vectors(const Packing& packing, F&& value) {
 }
 
 /// What points and lines have in common.
-void add_names(VtkPolyData& file, Of of, const Packing& packing) {
+void add_names(VtkPolyData& file, Of of, const Packing& packing, const Units& units) {
   const PackingContacts& all = packing.contacts;
   file.add(of, "a", 1,
            numbers<std::int32_t>(packing, [&](std::size_t k) { return all.bodies[k][0]; }));
@@ -42,7 +42,8 @@ void add_names(VtkPolyData& file, Of of, const Packing& packing) {
   file.add(of, "sliding", 1,
            numbers<std::int32_t>(packing, [&](std::size_t k) { return all.sliding[k]; }));
   file.add(of, "normal_force", 1,
-           numbers<float>(packing, [&](std::size_t k) { return all.normal_force[k]; }));
+           numbers<float>(packing, [&](std::size_t k) { return all.normal_force[k]; }),
+           units.force);
 }
 
 const Vec3& centre_of_a(const Packing& packing, std::size_t contact) {
@@ -51,43 +52,55 @@ const Vec3& centre_of_a(const Packing& packing, std::size_t contact) {
 
 }  // namespace
 
-std::string contacts_vtp(const State& state, const Packing& packing) {
+std::string unit_of_velocity(const Units& units) {
+  return units.length.empty() ? "" : units.length + "/" + units.time;
+}
+
+std::string contacts_vtp(const State& state, const Packing& packing, const Units& units) {
   const PackingContacts& all = packing.contacts;
   const std::vector<Vec3> velocity = contact_velocities(packing, state.cell);
   VtkPolyData file(VtkPolyData::Cells::points, all.size());
-  file.places(vectors<double>(packing, [&](std::size_t k) {
-    return Vec3(all.point[k] - state.cell.translation(state.cell.image_of(all.point[k])));
-  }));
-  add_names(file, Of::points, packing);
-  const auto add = [&](const char* name, auto&& value) {
-    file.add(Of::points, name, 3, vectors<float>(packing, value));
+  file.places(vectors<double>(packing,
+                              [&](std::size_t k) {
+                                return Vec3(all.point[k] - state.cell.translation(
+                                                               state.cell.image_of(all.point[k])));
+                              }),
+              units.length);
+  add_names(file, Of::points, packing, units);
+  const auto add = [&](const char* name, const std::string& unit, auto&& value) {
+    file.add(Of::points, name, 3, vectors<float>(packing, value), unit);
   };
-  add("normal", [&](std::size_t k) { return all.normal[k]; });
-  add("force", [&](std::size_t k) { return all.force[k]; });
-  add("shear_force", [&](std::size_t k) { return shear_force(all, k); });
-  add("velocity", [&](std::size_t k) { return velocity[k]; });
-  file.add(Of::points, "gap", 1,
-           numbers<float>(packing, [&](std::size_t k) { return all.gap[k]; }));
+  add("normal", "", [&](std::size_t k) { return all.normal[k]; });
+  add("force", units.force, [&](std::size_t k) { return all.force[k]; });
+  add("shear_force", units.force, [&](std::size_t k) { return shear_force(all, k); });
+  add("velocity", unit_of_velocity(units), [&](std::size_t k) { return velocity[k]; });
+  file.add(Of::points, "gap", 1, numbers<float>(packing, [&](std::size_t k) { return all.gap[k]; }),
+           units.length);
   file.add(Of::points, "curvature", 2,
-           vectors<float>(packing, [&](std::size_t k) { return relative_curvatures(packing, k); }));
+           vectors<float>(packing, [&](std::size_t k) { return relative_curvatures(packing, k); }),
+           units.length.empty() ? "" : "1/" + units.length);
   return file.text();
 }
 
-std::string chains_vtp(const State& state, const Packing& packing) {
+std::string chains_vtp(const State& state, const Packing& packing, const Units& units) {
   const PackingContacts& all = packing.contacts;
   VtkPolyData file(VtkPolyData::Cells::lines, 2 * all.size());
-  file.places(vectors<double>(packing, [&](std::size_t k) {
-    const Vec3& centre = centre_of_a(packing, k);
-    const Vec3 start = centre - state.cell.translation(state.cell.image_of(centre));
-    const Vec3 end = start + all.branch[k];
-    return std::array{start[0], start[1], start[2], end[0], end[1], end[2]};
-  }));
+  file.places(vectors<double>(
+                  packing,
+                  [&](std::size_t k) {
+                    const Vec3& centre = centre_of_a(packing, k);
+                    const Vec3 start = centre - state.cell.translation(state.cell.image_of(centre));
+                    const Vec3 end = start + all.branch[k];
+                    return std::array{start[0], start[1], start[2], end[0], end[1], end[2]};
+                  }),
+              units.length);
   file.add(Of::points, "normal_force", 1,
            numbers<float>(
-               packing, [&](std::size_t k) { return all.normal_force[k]; }, 2));
-  add_names(file, Of::cells, packing);
+               packing, [&](std::size_t k) { return all.normal_force[k]; }, 2),
+           units.force);
+  add_names(file, Of::cells, packing, units);
   const auto add = [&](const char* name, auto&& value) {
-    file.add(Of::cells, name, 1, numbers<float>(packing, value));
+    file.add(Of::cells, name, 1, numbers<float>(packing, value), units.force);
   };
   add("force_size", [&](std::size_t k) { return all.force[k].norm(); });
   add("shear_size", [&](std::size_t k) { return shear_force(all, k).norm(); });

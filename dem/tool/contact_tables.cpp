@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -62,10 +63,13 @@ CsvText with_header(const std::array<std::string_view, N>& columns) {
 }  // namespace
 
 ContactLaws laws_of(const Simulation& simulation) {
-  const auto& drive = simulation.stage().drive;
-  return simulation.finished() && drive && drive->friction_coefficient
-             ? with_friction(simulation.laws(), *drive->friction_coefficient)
-             : simulation.laws();
+  const Scene& scene = simulation.scene();
+  const State& state = simulation.state();
+  const bool begins = !simulation.finished() && state.stage_cycle == 0 && state.stage > 1;
+  if (!begins && !simulation.finished()) return simulation.laws();
+  const Stage& was = begins ? scene.stages[state.stage - 1] : simulation.stage();
+  const auto friction = was.drive ? was.drive->friction_coefficient : std::nullopt;
+  return friction ? with_friction(scene.laws, *friction) : scene.laws;
 }
 
 std::string contact_table(const State& state, const ContactLaws& laws) {

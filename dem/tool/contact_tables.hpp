@@ -13,7 +13,8 @@
 
 namespace tangency::inline v0::dem {
 
-/// With the friction of the stage that the simulation is in; of a run that is over the last one's.
+/// With the friction that the contacts have: that to which the stage has come, on a ramp too; where
+/// it has not moved yet that of the stage before, and of a run that is over that of the last one.
 ContactLaws laws_of(const Simulation& simulation);
 
 /// A row a touching contact between particles, a, b, ix, iy, iz, x, y, z, nx, ny, nz, gap, bx, by,

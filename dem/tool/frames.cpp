@@ -44,7 +44,7 @@ Eigen::Matrix<float, 9, 1> axes_tensor(const Particles& particles, std::size_t i
   return tensor.reshaped().cast<float>();
 }
 
-std::string particles_vtp(const State& state) {
+std::string particles_vtp(const State& state, const Units& units) {
   const Particles& p = state.particles;
   const std::vector<std::int32_t>& contacts = state.contacts.resultants().contacts;
   const std::vector<std::uint32_t> in_order = p.index_of_id();
@@ -63,19 +63,22 @@ std::string particles_vtp(const State& state) {
     return all;
   };
   const Eigen::Matrix<double, 9, 1> edges = state.cell.edges.reshaped();
-  file.add(Of::whole, "cell", 9, std::span<const double>(edges.data(), 9));
+  file.add(Of::whole, "cell", 9, std::span<const double>(edges.data(), 9), units.length);
   std::vector<double> walls;
   for (const PlaneWall& wall : state.cell.planes)
     walls.insert(walls.end(), {wall.normal[0], wall.normal[1], wall.normal[2], wall.offset});
   const std::array<std::int32_t, 1> plane{2};
   if (state.cell.dimensions == 2) file.add(Of::whole, "dimensions", 1, plane);
   if (!walls.empty()) file.add(Of::whole, "walls", 4, walls);
-  file.places(numbers(0.0, [&](std::size_t i) { return wrapped(state, i); }));
-  file.add(Of::points, "axes", 9, numbers(0.0F, [&](std::size_t i) { return axes_tensor(p, i); }));
+  file.places(numbers(0.0, [&](std::size_t i) { return wrapped(state, i); }), units.length);
+  file.add(Of::points, "axes", 9, numbers(0.0F, [&](std::size_t i) { return axes_tensor(p, i); }),
+           units.length);
   file.add(Of::points, "orientation", 4,
            numbers(0.0, [&](std::size_t i) { return p.orientation[i].coeffs(); }));
-  file.add(Of::points, "semi_axes", 3, numbers(0.0, [&](std::size_t i) { return p.semi_axes[i]; }));
-  file.add(Of::points, "velocity", 3, numbers(0.0, [&](std::size_t i) { return p.velocity[i]; }));
+  file.add(Of::points, "semi_axes", 3, numbers(0.0, [&](std::size_t i) { return p.semi_axes[i]; }),
+           units.length);
+  file.add(Of::points, "velocity", 3, numbers(0.0, [&](std::size_t i) { return p.velocity[i]; }),
+           unit_of_velocity(units));
   file.add(Of::points, "type", 1, integers(p.type));
   file.add(Of::points, "contacts", 1, integers(contacts));
   return file.text();
@@ -192,15 +195,16 @@ void Frames::add_to(Kind& kind, const State& state, const std::string& file) {
 
 void Frames::add(const Simulation& simulation) {
   const State& state = simulation.state();
+  const Units units = simulation.scene().units.value_or(Units());
   auto& [particles, contacts, chains] = kinds_;
   if (adds_contacts_ && !has(chains, state.cycle)) {
     const Packing packing = packing_of(state, laws_of(simulation));
     write_whole(bonds_of(state.cycle), bonds_dump(state, packing));
-    if (!has(contacts, state.cycle)) add_to(contacts, state, contacts_vtp(state, packing));
-    add_to(chains, state, chains_vtp(state, packing));
+    if (!has(contacts, state.cycle)) add_to(contacts, state, contacts_vtp(state, packing, units));
+    add_to(chains, state, chains_vtp(state, packing, units));
   }
   if (!adds_) return;
-  if (!has(particles, state.cycle)) add_to(particles, state, particles_vtp(state));
+  if (!has(particles, state.cycle)) add_to(particles, state, particles_vtp(state, units));
   if (xyz_cycle_ == state.cycle) return;
   write_all(xyz_.get(), xyz_of(simulation), directory_ / "frames.xyz.part");
   xyz_cycle_ = state.cycle;

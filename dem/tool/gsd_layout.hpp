@@ -3,14 +3,13 @@
 /// The layout of GSD files: what stands at which byte. Internal to gsd_write.cpp and gsd_read.cpp.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-namespace tangency::inline v0::dem::gsd {
+#include <tangency/dem/saved/little_endian.hpp>
 
-static_assert(std::endian::native == std::endian::little, "GSD files are little-endian");
+namespace tangency::inline v0::dem::gsd {
 
 inline constexpr std::uint64_t kMagic = 0x65DF65DF65DF65DF;
 /// 0xaaaabbbb is version aaaa.bbbb: the file layer's 2.0, the schema's 1.4.
@@ -35,6 +34,20 @@ struct IndexEntry {
   std::uint8_t type, flags;
 };
 static_assert(sizeof(IndexEntry) == 32);
+
+/// From what stands in a file, or the same way back into it.
+inline void turn(Header& header) {
+  for (auto* x : {&header.magic, &header.index_location, &header.index_entries,
+                  &header.names_location, &header.names_units})
+    from_little_endian(x, 1);
+  for (auto* x : {&header.schema_version, &header.version}) from_little_endian(x, 1);
+}
+inline void turn(IndexEntry& entry) {
+  for (auto* x : {&entry.frame, &entry.rows}) from_little_endian(x, 1);
+  from_little_endian(&entry.location, 1);
+  from_little_endian(&entry.columns, 1);
+  from_little_endian(&entry.id, 1);
+}
 
 template <class Number>
 constexpr std::uint8_t type_of() {

@@ -67,6 +67,7 @@ class GsdReader {
     std::vector<Number> numbers(entry->rows * entry->columns);
     copy(static_cast<std::uint64_t>(entry->location), numbers.data(),
          numbers.size() * sizeof(Number));
+    from_little_endian(numbers.data(), numbers.size());
     if constexpr (std::is_floating_point_v<Number>)
       for (std::size_t k = 0; k < numbers.size(); ++k)
         if (!std::isfinite(numbers[k]))
@@ -102,6 +103,7 @@ class GsdReader {
   T at(std::uint64_t location) const {
     T value;
     copy(location, &value, sizeof value);
+    turn(value);
     return value;
   }
   const IndexEntry* find(const std::string& name) const {
@@ -246,10 +248,10 @@ void add_motion(const GsdReader& in, std::size_t count, Sample& sample) {
 }  // namespace
 
 bool is_gsd(std::string_view bytes) {
-  std::uint64_t magic = 0;
-  if (bytes.size() < sizeof magic) return false;
-  std::memcpy(&magic, bytes.data(), sizeof magic);
-  return magic == kMagic;
+  std::array<char, sizeof kMagic> magic;
+  if (bytes.size() < magic.size()) return false;
+  std::copy_n(bytes.begin(), magic.size(), magic.begin());
+  return of_little_endian_bytes<std::uint64_t>(magic) == kMagic;
 }
 
 Sample read_gsd(const std::string& file, std::string_view bytes, std::optional<int> frame) {

@@ -32,7 +32,10 @@ class Chunks {
     entry.type = type_of<Number>();
     index_.push_back(entry);
     names_ += std::string(name) + '\0';
-    data_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    for (const Number value : values) {
+      const auto bytes = little_endian_bytes(value);
+      data_.append(bytes.data(), bytes.size());
+    }
   }
   template <class Number>
   void add(const char* name, std::uint32_t columns, const std::vector<Number>& values) {
@@ -67,6 +70,8 @@ class Chunks {
     header.index_location = header.names_location + names_.size();
     header.index_entries = index_.size() + 1;  // a last one of zeros
     index_.push_back({});
+    turn(header);
+    for (IndexEntry& entry : index_) turn(entry);
     std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
     bytes += data_ + names_;
     bytes.append(reinterpret_cast<const char*>(index_.data()), index_.size() * sizeof(IndexEntry));

@@ -278,9 +278,6 @@ micromechanics::Classes classes_of(const std::string& partition, int count, bool
   return {kind, count};
 }
 
-constexpr const char* kFrictionOfStage =
-    "friction_coefficient of the state's stage [the scene's contacts']";
-
 /// Of a text that is no number the option itself says so.
 std::string refused_friction(const std::string& text) {
   char* end = nullptr;
@@ -289,6 +286,19 @@ std::string refused_friction(const std::string& text) {
   return is_number && std::isfinite(friction) && friction >= 0.0
              ? ""
              : text + ": a finite number from 0";
+}
+
+void add_friction(tables::Command& command, StateFriction& friction) {
+  const tables::Option scene =
+      command
+          .option("--scene", friction.scene,
+                  "Scene of the run, whose stages tell the friction [that of its contacts]")
+          .type_name("FILE")
+          .not_empty();
+  command.option("--friction", friction.given, "Or the friction_coefficient itself")
+      .type_name("MU")
+      .check(refused_friction)
+      .excludes(scene);
 }
 
 void add_micro(tables::Program& program) {
@@ -307,9 +317,7 @@ void add_micro(tables::Program& program) {
   const tables::Option count =
       command.option("--classes", words->count, "N of the partition [4; polar 18]")
           .between(1, micromechanics::Classes::kMost);
-  command.option("--friction", words->options.friction, kFrictionOfStage)
-      .type_name("MU")
-      .check(refused_friction);
+  add_friction(command, words->options.friction);
   command
       .option("--since", words->options.since,
               "An older state of the same run: strain since then, too")
@@ -332,7 +340,8 @@ void add_micro(tables::Program& program) {
 
 /// A command that writes a table of a state.
 tables::Command& add_table(tables::Program& program, const char* name, const char* what,
-                           const char* help, std::function<std::string(const State&)> table) {
+                           const char* help,
+                           std::function<std::string(const State&, const std::string&)> table) {
   struct Words {
     std::string state, out;
   };
@@ -344,7 +353,7 @@ tables::Command& add_table(tables::Program& program, const char* name, const cha
       .not_empty();
   command.footer(help);
   command.runs([words, table = std::move(table)] {
-    const std::string text = table(load_state(words->state));
+    const std::string text = table(load_state(words->state), words->state);
     tables::OutputFile out(words->out.empty() ? "-" : words->out);
     out.write(text);
     out.commit();
@@ -354,16 +363,14 @@ tables::Command& add_table(tables::Program& program, const char* name, const cha
 }
 
 void add_tables(tables::Program& program) {
-  const auto friction = std::make_shared<std::optional<double>>();
-  add_table(program, "contacts", "Table of a state's contacts", kContactsHelp,
-            [friction](const State& state) {
-              return contact_table(state,
-                                   *friction ? with_friction(state.laws, **friction) : state.laws);
-            })
-      .option("--friction", *friction, kFrictionOfStage)
-      .type_name("MU")
-      .check(refused_friction);
-  add_table(program, "particles", "Table of a state's particles", kParticlesHelp, particle_table);
+  const auto friction = std::make_shared<StateFriction>();
+  add_friction(add_table(program, "contacts", "Table of a state's contacts", kContactsHelp,
+                         [friction](const State& state, const std::string& file) {
+                           return contact_table(state, laws_of(state, file, *friction));
+                         }),
+               *friction);
+  add_table(program, "particles", "Table of a state's particles", kParticlesHelp,
+            [](const State& state, const std::string&) { return particle_table(state); });
 }
 
 void add_schema(tables::Program& program) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/tool/contact_tables.hpp>
 #include <tangency/dem/tool/histogram.hpp>
 #include <tangency/dem/tool/micro_json.hpp>
 #include <tangency/dem/tool/micro_summary.hpp>
@@ -43,7 +44,7 @@ void warn_of_shear_above_limit(const MicroOptions& options, const State& state) 
   if (above > 0)
     std::cerr << "tangency-dem: " << options.state << ": " << above
               << " contacts bear more shear than their friction lets them; what slides is known "
-                 "with --friction, the friction_coefficient of the state's stage"
+                 "with --scene, the scene of the run, or with --friction"
               << std::endl;
 }
 
@@ -54,13 +55,23 @@ micromechanics::Classes::Kind partition_named(const std::string& name) {
   return name == "polar" ? Kind::polar : Kind::near_uniform;
 }
 
+ContactLaws laws_of(const State& state, const std::string& file, const StateFriction& friction) {
+  if (friction.given) return with_friction(state.laws, *friction.given);
+  if (friction.scene.empty()) return state.laws;
+  RunOptions options;
+  options.scene = friction.scene;
+  options.resume = file;
+  options.quiet = true;
+  return laws_of(simulation_of(options, scene_file_of(options)));
+}
+
 int micro(const MicroOptions& options) {
   if (!options.json.empty() && options.json == options.histogram)
     throw tables::UsageError(options.json == "-" ? "--json and --histogram: one of them may be -"
                                                  : "--json and --histogram: two files, not " +
                                                        options.json + " for both");
   State state = load_state(options.state);
-  if (options.friction) state.laws = with_friction(std::move(state.laws), *options.friction);
+  state.laws = laws_of(state, options.state, options.friction);
   warn_of_shear_above_limit(options, state);
   const Packing packing = packing_of(state);
   if (!options.histogram.empty() && packing.dimensions == 2)

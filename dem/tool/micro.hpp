@@ -7,15 +7,28 @@
 #include <string>
 
 #include <tangency/dem/micromechanics/averages.hpp>
+#include <tangency/dem/state.hpp>
 
 namespace tangency::inline v0::dem {
+
+/// Where the friction of a state's contacts stands, which a state itself does not know: as given,
+/// or in the scene that the run was of. Neither: that of the scene's contacts, as of a stage
+/// without a friction of its own.
+struct StateFriction {
+  std::optional<double> given;
+  std::string scene;  ///< a file; empty: none
+};
+
+/// The laws of a state's contacts with that friction.
+/// @param file  the state's
+/// @throws SceneError, StateError  where the scene is refused, or is not the state's
+ContactLaws laws_of(const State& state, const std::string& file, const StateFriction& friction);
 
 struct MicroOptions {
   std::string state;
   std::string since;  ///< an older state of the same run; empty: none
   micromechanics::Classes classes;
-  /// That of the stage which the state is of; nothing: those of the scene's contacts.
-  std::optional<double> friction;
+  StateFriction friction;
   std::string json, histogram;  ///< files; empty: none
 };
 

@@ -267,7 +267,10 @@ class Run {
     const Observation seen = simulation_.observe();
     const std::string ended = "stage " + simulation_.stage().name + " ended with ";
     const double fraction = seen.balance.inertial_fraction;
-    if (fraction > kSoundInertialFraction) {
+    const auto is_meant = [&](const char* about) {
+      return simulation_.scene().intends(simulation_.stage(), about);
+    };
+    if (fraction > kSoundInertialFraction && !is_meant("inertial_number")) {
       const std::string advice = advice_on_motion(simulation_, seen, kSoundInertialFraction);
       if (!advice.empty())
         warn(ended + "inertial fraction " + short_text(fraction) + ", above " +
@@ -288,7 +291,7 @@ class Run {
            ": the step makes or loses energy; " +
            advice_on_step(simulation_, std::min(0.5, std::sqrt(kSoundEnergyError / error))));
     const double overlap = seen.mean_overlap / mean_radius(simulation_.scene());
-    if (overlap > kSoundOverlap || seen.porosity < 0.0)
+    if ((overlap > kSoundOverlap && !is_meant("overlap")) || seen.porosity < 0.0)
       warn(ended + "mean overlap " + short_text(overlap) + " of the mean radius and porosity " +
            short_text(seen.porosity) + "; sound are at most " + short_text(kSoundOverlap) +
            " and at least 0: the particles are too soft for what they bear; " +

@@ -17,9 +17,10 @@ a, b and the image; contacts with walls are left out. Without a contact: the hea
   ax ay az    arm, m: point of contact less centre of a
   fn          normal force, N; a push is positive
   fx fy fz    the whole force of a on b, N
-  sliding     1 where the shear force is at the Coulomb limit, else 0: at that of --friction, else
-              of the scene's [contact], since a state does not know a friction_coefficient of its
-              stage; in the contacts/CYCLE.csv of a run at that of the stage
+  sliding     1 where the shear force is at the Coulomb limit, else 0. A state does not know a
+              friction_coefficient of its stage: --scene, the scene of the run, tells it, on a ramp
+              what it has come to; without it is that of [contact]. The contacts/CYCLE.csv of a
+              run have that of the stage
   sx sy sz    shear force of a on b, N: the whole force less fn times the normal
   vx vy vz    velocity of b relative to a at the contact, m/s, spins and the strain of the cell in
               it, half a step ago

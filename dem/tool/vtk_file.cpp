@@ -17,9 +17,11 @@
 namespace tangency::inline v0::dem {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the arrays are little-endian");
-
 using tables::to_text;
+
+/// Of the machine, and of the arrays that it writes; a reader turns them where its own is another.
+constexpr const char* kByteOrder =
+    std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
 /// Bytes. Chosen: some 40 of a million particles' positions, which threads share; a smaller one
 /// would compress worse.
@@ -85,33 +87,37 @@ std::string VtkPolyData::append(std::string_view bytes) {
 
 template <class Number>
 std::string VtkPolyData::array(const std::string& name, int components,
-                               std::span<const Number> values, bool is_field) {
+                               std::span<const Number> values, const std::string& unit,
+                               bool is_field) {
   const std::size_t items = values.size() / static_cast<std::size_t>(components);
   const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   return std::string("<DataArray type=\"") + vtk_type<Number>() + "\" Name=\"" + name +
          "\" NumberOfComponents=\"" + to_text(components) +
          (is_field ? "\" NumberOfTuples=\"" + to_text(items) : std::string()) +
-         "\" format=\"appended\" offset=\"" + append(bytes) + "\"/>\n";
+         "\" format=\"appended\" offset=\"" + append(bytes) +
+         (unit.empty() ? "\"/>\n"
+                       : "\">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">" +
+                             unit + "</InformationKey>\n</DataArray>\n");
 }
 
-void VtkPolyData::places(std::span<const double> values) {
+void VtkPolyData::places(std::span<const double> values, const std::string& unit) {
   assert(values.size() == 3 * points_);
-  places_ = array("Points", 3, values);
+  places_ = array("Points", 3, values, unit);
 }
 
 void VtkPolyData::add(Of of, const std::string& name, int components,
-                      std::span<const double> values) {
-  data_[static_cast<std::size_t>(of)] += array(name, components, values, of == Of::whole);
+                      std::span<const double> values, const std::string& unit) {
+  data_[static_cast<std::size_t>(of)] += array(name, components, values, unit, of == Of::whole);
 }
 
-void VtkPolyData::add(Of of, const std::string& name, int components,
-                      std::span<const float> values) {
-  data_[static_cast<std::size_t>(of)] += array(name, components, values, of == Of::whole);
+void VtkPolyData::add(Of of, const std::string& name, int components, std::span<const float> values,
+                      const std::string& unit) {
+  data_[static_cast<std::size_t>(of)] += array(name, components, values, unit, of == Of::whole);
 }
 
 void VtkPolyData::add(Of of, const std::string& name, int components,
                       std::span<const std::int32_t> values) {
-  data_[static_cast<std::size_t>(of)] += array(name, components, values, of == Of::whole);
+  data_[static_cast<std::size_t>(of)] += array(name, components, values, "", of == Of::whole);
 }
 
 std::string VtkPolyData::text() const {
@@ -123,8 +129,9 @@ std::string VtkPolyData::text() const {
   };
   const std::string tensors = tensors_.empty() ? "" : " Tensors=\"" + tensors_ + "\"";
   return "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
+         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" +
+         std::string(kByteOrder) +
+         "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
          element("FieldData", "", whole) + "<Piece NumberOfPoints=\"" + to_text(points_) +
          "\" NumberOf" + (lines ? "Lines" : "Verts") + "=\"" +
          to_text(lines ? points_ / 2 : points_) + "\">\n" + element("PointData", tensors, points) +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Files of VTK's XML format PolyData, .vtp, as ParaView reads them: the arrays follow the XML text
-/// as raw bytes, little-endian, each in blocks compressed by zlib.
+/// as raw bytes in the order of the machine, which the file names, each in blocks compressed by
+/// zlib.
 ///
 /// (1) A file's bytes depend on what was added alone, not on the number of threads.
 #pragma once
@@ -30,10 +31,13 @@ class VtkPolyData {
   VtkPolyData(Cells cells, std::size_t points, std::string tensors = "");
 
   /// x, y, z of each point.
-  void places(std::span<const double> values);
+  /// @param unit  what the array's key UNITS_LABEL says, as VTK reads it; "": no key
+  void places(std::span<const double> values, const std::string& unit = "");
   /// @param values  `components` numbers an item
-  void add(Of of, const std::string& name, int components, std::span<const double> values);
-  void add(Of of, const std::string& name, int components, std::span<const float> values);
+  void add(Of of, const std::string& name, int components, std::span<const double> values,
+           const std::string& unit = "");
+  void add(Of of, const std::string& name, int components, std::span<const float> values,
+           const std::string& unit = "");
   void add(Of of, const std::string& name, int components, std::span<const std::int32_t> values);
 
   /// The whole file.
@@ -42,7 +46,7 @@ class VtkPolyData {
  private:
   template <class Number>
   std::string array(const std::string& name, int components, std::span<const Number> values,
-                    bool is_field = false);
+                    const std::string& unit = "", bool is_field = false);
   std::string append(std::string_view bytes);
 
   Cells cells_;

@@ -121,7 +121,7 @@ class Writer:
             if line.startswith("```"):
                 end_block()
                 fenced = not fenced
-                kind = {"cpp": "{.cpp}", "python": "{.py}", "c": "{.c}"}.get(line[3:].strip(), "")
+                kind = {"cpp": "{.cpp}", "python": "{.py}", "c": "{.c}"}.get(line[3:].strip().split(" ")[0], "")
                 lines.append("```" + kind)
             elif fenced:
                 lines.append(line)

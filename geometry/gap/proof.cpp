@@ -97,9 +97,12 @@ constexpr double kValueError = 0x1p-92;    // (V2) of the derivation, of the siz
 constexpr double kRestError = 0x1p-92;     // (R2), of size and largest radii of curvature
 constexpr double kTangentError = 0x1p-49;  // (R2), of the rest
 constexpr double kNarrow = 0x1p-40;        // chosen
-// Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more.
-constexpr int kMoves = 20;
-constexpr int kHalvings = 8;  // chosen, of one move
+// Chosen: one or two moves are common, ten where the curvatures differ by 1e8 and more, and a few
+// dozen to where a body is seen along its flat face or across its thin edge.
+constexpr int kMoves = 60;
+// Chosen, of one move: from a normal beside a face or an edge f climbs all but straight, and
+// Newton's step is millions of times too long.
+constexpr int kHalvings = 40;
 
 /// f to first and second order at a normal.
 struct Local {

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Usage: long.sh BUILD
-# What of the bindings needs large packages: the types of the Python package, a true data frame, the page of
-# Octave, and a wheel that builds its library itself.
+# What of the bindings needs large packages: the types of the Python package, a true data frame, pictures, the
+# page of Octave, and a wheel that builds its library itself.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$(cd "$1" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-cmake --build "$build" --target tangency_python tangency_tool
+cmake --build "$build" --target tangency_python tangency_tool tangency_dem_tool
 
 (cd "$root/geometry/bindings/python" && mypy --strict --cache-dir "$scratch/mypy" tangency)
 # A misuse that types have to show.
@@ -19,6 +19,10 @@ fi
 
 PYTHONDONTWRITEBYTECODE=1 TANGENCY_C_LIBRARY="$build/python/libtangency_c.so" \
   PYTHONPATH="$root/geometry/bindings/python" /usr/bin/python3 "$root/tests/bindings/pandas_check.py"
+# Of the page of one's own grains what draws, too.
+TANGENCY_DEM="$build/dem/tool/tangency-dem" PYTHONDONTWRITEBYTECODE=1 TANGENCY_C_LIBRARY="$build/python/libtangency_c.so" \
+  PYTHONPATH="$root/geometry/bindings/python" /usr/bin/python3 "$root/tests/bindings/page.py" \
+  "$root/docs/guide/own-grains.md" python,matplotlib "$scratch/own-grains" /usr/bin/python3
 # Octave without its graphical packages complains at its end, on standard error, of nothing that is used here.
 PATH="$build/geometry/tool:$PATH" /usr/bin/python3 "$root/tests/bindings/page.py" "$root/docs/octave.md" octave \
   "$scratch/octave" bash -c 'octave-cli --norc {source} 2> /dev/null'

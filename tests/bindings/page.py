@@ -3,8 +3,9 @@
 """Runs the code blocks of a page, and compares what they print.
 
 Usage: page.py PAGE KIND SCRATCH COMMAND ...
-Every block of kind KIND is followed by a block of kind text, which is what it prints. python: the blocks of
-a page are parts of one program, run by COMMAND. Other kinds: each block is a program; COMMAND compiles it
+Every block of kind KIND is followed by a block of kind text, which is what it prints; without one it prints
+nothing. python: the blocks of a page are parts of one program, run by COMMAND; python,matplotlib: those that
+draw, too. Other kinds: each block is a program; COMMAND compiles it
 where it names {program}, or runs it, and {source} is its file. Ends with 1 where an output differs, or where
 there is no block.
 """
@@ -26,7 +27,7 @@ def blocks(page, kind):
     every = blocks_of(page.parent, page.name)
     found = []
     for block, after in zip(every, [*every[1:], None]):
-        if block.kind == kind:
+        if block.kind in kind.split(","):
             found.append((block.text, after.text if after and after.kind == "text" else "", block.line - 1))
     return found
 
@@ -39,7 +40,7 @@ def output(arguments, folder):
 
 def outputs(kind, code, folder, command):
     """What each block prints."""
-    if kind == "python":
+    if kind.startswith("python"):
         source = folder / "page.py"
         source.write_text(f'\nprint("{SEPARATOR}")\n'.join(code), encoding="utf-8")
         return output([*command, str(source)], folder).split(SEPARATOR + "\n")

@@ -123,6 +123,14 @@ std::vector<std::string> wrong_values(const Key& key) {
       wrong.push_back(value);
     return wrong;
   }
+  if (key.type == KeyType::words) {
+    for (const char* value : {"\"\"", "7", "nan", "[]", "[7]", "[\"\"]", "[\"nonsense\"]"})
+      wrong.push_back(value);
+    const std::string good(key.choices.substr(0, key.choices.find(' ')));
+    wrong.push_back('"' + good + '"');
+    wrong.push_back("[\"" + good + "\", \"nonsense\"]");
+    return wrong;
+  }
   const bool is_text = key.type == KeyType::text || key.type == KeyType::path;
   if (is_text) {
     for (const char* value : {"\"\"", "7", "1.5", "nan", "[]", "[\"none\"]"})

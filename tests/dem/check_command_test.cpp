@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../tool/process.hpp"
@@ -74,14 +77,26 @@ TEST(Check, AdvisesKeysAndValuesWithWhichTheAdviceIsGone) {
   const std::string hertz =
       with(small_scene(), "normal_stiffness = 1.5e10", "law = \"hertz\"\nyoung_modulus = 6e9");
   const std::string servo = "[[stage]]\nkind = \"servo\"\nduration = 1000\n";
+  const std::string flow =
+      "simple_shear_rate = [0.5, 0.0, 0.0]\nstress_yy = 10e6\nmax_strain_rate = 5.0\n"
+      "intended = [\"inertial_number\"]\n";
   const std::vector<Case> cases{
       {"cycles", sheared("axial_strain_rate = 1e-5\naxial_strain = 0.1\n"),
        "stage.shear.max_cycles"},
+      {"cycles",
+       with(sheared("inertial_number = 1e-3\naxial_strain = 0.1\nmean_stress = 10e6\n"),
+            "normal_stiffness = 1.5e10", "law = \"hertz\"\nyoung_modulus = 1e14"),
+       "contact.young_modulus"},
       {"inertial_number",
        sheared("axial_strain_rate = 0.5\naxial_strain = 0.1\nmean_stress = 10e6\n"),
        "stage.shear.axial_strain_rate"},
       {"inertial_number", small_scene() + servo + "simple_shear_rate = [0.5, 0.0, 0.0]\n",
        "stage.servo.simple_shear_rate"},
+      {"servo_gain", small_scene() + servo + flow, "stage.servo.servo_gain"},
+      {"servo_gain",
+       with(sheared("inertial_number = 1e-3\naxial_strain = 0.02\nlateral_stress = 10e6\n"),
+            "[contact]\n", "[contact]\nrestitution = 0.3\n"),
+       "stage.shear.servo_gain"},
       {"servo_inertial_number",
        with(small_scene(), "max_strain_rate = 0.05", "max_strain_rate = 5"),
        "stage.compress.max_strain_rate"},
@@ -151,11 +166,78 @@ TEST(Check, TellsTheOverlapThatARunThenHasWithinHalfOfIt) {
   EXPECT_LT(told, was * 1.5) << was;
 }
 
-TEST(Check, OfTheScenesOfTheLaboratoryStartsThemAndHasNothingToChange) {
-  for (const char* name : {"isotropic-packing", "triaxial-drained", "triaxial-undrained",
-                           "oedometer", "simple-shear"}) {
-    const Finished seen = run_tool({"check", std::string(TANGENCY_SCENES) + "/" + name + ".toml"});
-    EXPECT_EQ(seen.status, 0) << name << seen.out << seen.err;
+TEST(Check, OfEveryCommittedSceneHasNothingToChange) {
+  std::size_t scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TANGENCY_SCENES)) {
+    const Finished seen = run_tool({"check", entry.path().string()});
+    EXPECT_EQ(seen.status, 0) << entry.path() << seen.out << seen.err;
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 16u);
+}
+
+/// The scene with a line more in each stage that moves.
+std::string in_stages(std::string scene, const std::string& line) {
+  for (const char* kind : {"compress", "relax", "shear"}) {
+    const std::string head = std::string("kind = \"") + kind + "\"\n";
+    if (const std::size_t at = scene.find(head); at != scene.npos)
+      scene.insert(at + head.size(), line + "\n");
+  }
+  return scene;
+}
+
+/// A scene of which nothing but that is advised.
+struct Meant {
+  const char* about;
+  std::string scene;
+};
+
+// Scene::intends(): at the head for all stages, or in the stage alone.
+TEST(Check, DoesNotAdviseAgainstWhatIsIntended) {
+  const std::string fast = "axial_strain_rate = 0.5\naxial_strain = 0.1\nmean_stress = 10e6\n";
+  const std::vector<Meant> cases{
+      {"inertial_number", sheared(fast)},
+      {"servo_inertial_number",
+       with(small_scene(), "max_strain_rate = 0.05", "max_strain_rate = 5")},
+      {"overlap", with(small_scene(), "1.5e10", "1e9")}};
+  for (const auto& [about, scene] : cases) {
+    const std::string intended = std::string("intended = [\"") + about + "\"]";
+    const Finished before = checked(scene);
+    EXPECT_EQ(before.status, 1) << about << before.out;
+    EXPECT_NE(
+        before.out.find("if it is meant so, write in the stage or at the head of the scene: " +
+                        intended + "\n1 to change\n"),
+        before.out.npos)
+        << before.out;
+    const Finished at_head = checked(with(scene, "schema = 1\n", "schema = 1\n" + intended + "\n"));
+    EXPECT_EQ(at_head.status, 0) << about << at_head.out << at_head.err;
+    const Finished in_stage = checked(in_stages(scene, intended));
+    EXPECT_EQ(in_stage.status, 0) << about << in_stage.out << in_stage.err;
+  }
+  // In other stages, or of something else, it does not count.
+  EXPECT_EQ(checked(in_stages(small_scene(), "intended = [\"inertial_number\"]") +
+                    sheared(fast).substr(small_scene().size()))
+                .status,
+            1);
+  EXPECT_EQ(checked(sheared(fast + "intended = [\"overlap\"]\n")).status, 1);
+}
+
+TEST(Check, ARunDoesNotWarnOfWhatIsIntended) {
+  const TemporaryFolder folder;
+  const std::string fast =
+      sheared("name = \"flow\"\naxial_strain_rate = 0.5\naxial_strain = 0.05\n");
+  const auto warnings = [&](const std::string& name, const std::string& scene) {
+    return run_tool({"run", folder.write(name + ".toml", scene), "--out", folder.path(name),
+                     "--threads", "1"})
+        .err;
+  };
+  for (const auto& [name, more] : {std::pair<std::string, std::string>{"slow", ""},
+                                   {"flow", "intended = [\"inertial_number\"]\n"}}) {
+    const std::string said = warnings(name, fast + more);
+    EXPECT_EQ(said.find("check: stage flow: an inertial number") == said.npos, !more.empty())
+        << said;
+    EXPECT_EQ(said.find("stage flow ended with inertial fraction") == said.npos, !more.empty())
+        << said;
   }
 }
 

@@ -326,6 +326,48 @@ TEST_F(Tables, OfARunTellWhichSlideByTheFrictionOfTheStage) {
   EXPECT_EQ(read_file(table_of_run), of_run);
 }
 
+// dem/tool/contact_tables.hpp, laws_of(): on a ramp, at a stage's end, at its start and after the
+// run.
+TEST_F(Tables, OfAStateAreThoseOfTheRunByTheFrictionThatItsSceneTells) {
+  run(with(
+      with(sheared_scene("friction_coefficient = 0.1\nramp_strain = 0.06\nsave = true\n"
+                         "save_strains = [0.03]\n"),
+           "kind = \"relax\"\n", "kind = \"relax\"\nsave = true\nfriction_coefficient = 0.3\n"),
+      "contact_interval = 100000", "contact_interval = 1"));
+  const std::string scene = folder_.path("scene.toml");
+  for (const char* name :
+       {"states/relax.state", "states/shear-0.03.state", "states/shear.state", "final.state"}) {
+    const std::string state = out_ + "/" + name;
+    const std::string cycle = std::to_string(dem::load_state(state).cycle);
+    const std::string of_run = read_file(out_ + "/contacts/" + cycle + ".csv");
+    EXPECT_EQ(run_tool({"contacts", state, "--scene", scene}).out, of_run) << name;
+    EXPECT_NE(run_tool({"contacts", state}).out, of_run) << name;
+    EXPECT_EQ(run_tool({"micro", state, "--scene", scene}).err, "") << name;
+  }
+  // Half of the ramp is done, from 0.3 to 0.1.
+  const std::string half = out_ + "/states/shear-0.03.state";
+  const auto rows = numbers_of(run_tool({"contacts", half, "--scene", scene}).out, kContactHeader);
+  double friction = 0.0;
+  for (const auto& row : rows)
+    if (row[22] == 1.0) friction = std::max(friction, vector_at(row, 23).norm() / row[18]);
+  EXPECT_NEAR(friction, 0.2, 1e-3);  // a cycle strains by 1e-4
+  EXPECT_GT(sliding_and_not(rows, friction).first, 0);
+}
+
+TEST_F(Tables, RefuseASceneThatIsNotTheStates) {
+  run(sheared_scene());
+  const std::string other =
+      folder_.write("other.toml", with(sheared_scene(), "count = 27", "count = 28"));
+  const Finished refused = run_tool({"contacts", file_, "--scene", other});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(
+      refused.err.find("final.state: a state with particles.grain.count = 27; the scene has 28"),
+      refused.err.npos)
+      << refused.err;
+  EXPECT_EQ(run_tool({"contacts", file_, "--scene", other, "--friction", "0.5"}).status, 2);
+  EXPECT_EQ(run_tool({"micro", file_, "--scene", folder_.path("none.toml")}).status, 2);
+}
+
 TEST_F(Tables, LeaveOutContactsWithWalls) {
   run(with(small_scene(), "[cell]\n", "[cell]\nwalls = \"xyz\"\n"));
   std::size_t inner = 0, walls = 0;

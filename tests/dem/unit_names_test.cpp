@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +71,44 @@ TEST(UnitNames, OfForceAndEnergyFollowFromLengthAndStress) {
   EXPECT_FALSE(dem::units_of("inch", "Pa", "s"));
   EXPECT_FALSE(dem::units_of("m", "psi", "s"));
   EXPECT_FALSE(dem::units_of("m", "Pa", "h"));
+}
+
+/// "NAME unit" of each array of a .vtp file that has a key UNITS_LABEL.
+std::set<std::string> labelled(const std::string& file) {
+  const std::string key = "<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">";
+  std::set<std::string> found;
+  for (std::size_t at = file.find(key); at != file.npos; at = file.find(key, at + 1)) {
+    const std::size_t name = file.rfind("Name=\"", at) + 6, unit = at + key.size();
+    found.insert(file.substr(name, file.find('"', name) - name) + " " +
+                 file.substr(unit, file.find('<', unit) - unit));
+  }
+  return found;
+}
+
+TEST(UnitNames, OfTheSceneStandAtTheArraysOfFrames) {
+  const TemporaryFolder folder;
+  const auto frame = [&](const std::string& scene, const std::string& ending) {
+    const std::string out = folder.path("out");
+    const Finished run = run_tool(
+        {"run",
+         folder.write("scene.toml", with(scene, "[output]\n", "[output]\ncontact_frames = true\n")),
+         "--out", out, "--quiet", "--replace"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const nlohmann::json summary = nlohmann::json::parse(read_file(out + "/summary.json"));
+    return labelled(
+        read_file(out + "/frames/" + std::to_string(summary.at("cycle").get<int>()) + ending));
+  };
+  using Labels = std::set<std::string>;
+  const std::string named = in_millimetres();
+  EXPECT_EQ(frame(named, ".vtp"),
+            (Labels{"Points mm", "axes mm", "cell mm", "semi_axes mm", "velocity mm/s"}));
+  EXPECT_EQ(frame(named, ".contacts.vtp"),
+            (Labels{"Points mm", "normal_force mN", "force mN", "shear_force mN", "velocity mm/s",
+                    "gap mm", "curvature 1/mm"}));
+  EXPECT_EQ(frame(named, ".chains.vtp"),
+            (Labels{"Points mm", "normal_force mN", "force_size mN", "shear_size mN"}));
+  for (const char* ending : {".vtp", ".contacts.vtp", ".chains.vtp"})
+    EXPECT_EQ(frame(small_scene(), ending), Labels()) << ending;
 }
 
 TEST(UnitNames, OfTheSceneStandInSummaryTableAndPageAndChangeNoBit) {

@@ -152,7 +152,7 @@ def main():
     parser.add_argument("folder", type=lambda name: Path(name).absolute())
     parser.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(KINDS))
     parser.add_argument("--cases", type=int, default=0)
-    words = parser.parse_args()
+    words = parser.parse_intermixed_args()
     if unknown := set(words.kinds) - set(KINDS):
         parser.error(f"{', '.join(sorted(unknown))}: one of {', '.join(KINDS)}")
     runs = Runs(words.tool, words.library, words.scene, words.folder)

@@ -20,6 +20,16 @@ runs --cases 150 memory memory-ends || failed "runs without memory"
 "$source/tests/faults/interrupted_commands.py" "$kernel" "$simulator" "$library" "$scene" \
   "$folder/commands" --cases 60 || failed "commands"
 
+on_a_small_disk() {
+  unshare --map-root-user --mount "$source/tests/faults/small_disk.py" "$simulator" "$library" "$scene" \
+    "$folder/small" "$@"
+}
+if unshare --map-root-user --mount mount -t tmpfs tmpfs "$folder" 2>/dev/null; then
+  on_a_small_disk --cases 100 || failed "runs on a small disk"
+else
+  echo "small disk: not checked, this system lets nobody mount one"
+fi
+
 for name in growth-1000 unload-1000; do
   "$simulator" run "$source/dem/scenes/$name.toml" --out "$folder/$name" --replace --quiet --verify \
     2>&1 | tail -n 1 || failed "$name --verify"

@@ -19,6 +19,10 @@ namespace tangency::testing::fuzz {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of the calls that take longest, one choice in so many is asked. Chosen by a profile. Measured on
+// 94,221 pairs: 51 us of processor a pair, and 84 with all times and containment of one in 64.
+constexpr std::uint64_t kTimesOneIn = 4, kTraceOneIn = 16, kVolumeOneIn = 16,
+                        kContainmentOneIn = 1024;
 
 class FurtherChecks {
  public:
@@ -34,11 +38,11 @@ class FurtherChecks {
     other_gaps();
     primitives();
     rays();
-    times();
     derivatives();
-    if (choice % 16 == 0) trace();
-    if (choice % 16 == 1) volume();
-    if (choice % 64 == 2) containment();
+    if (choice % kTimesOneIn == 3) times();
+    if (choice % kTraceOneIn == 0) trace();
+    if (choice % kVolumeOneIn == 1) volume();
+    if (choice % kContainmentOneIn == 2) containment();
   }
 
  private:

@@ -40,9 +40,9 @@ void check_pair(const std::string& target, const verify::EllipsoidPair& raw, con
 void check_known(const std::string& target, const verify::EllipsoidPair& raw, const Bodies& bodies,
                  const Enclosure& known);
 
-/// The further calls: other gaps, walls, balls, rays, times, derivatives with curvatures; of one
-/// choice in 16 the trace, of one the common volume, of one in 64 containment, which take as long
-/// as all others together.
+/// The further calls: other gaps, walls, balls, rays, derivatives with curvatures; of one choice in
+/// 4 the time of contact, of one in 16 the trace, of one the common volume, of one in 1024
+/// containment, which would take as long as all others together.
 void check_further(const std::string& target, const verify::EllipsoidPair& raw,
                    const Bodies& bodies, std::uint64_t choice);
 

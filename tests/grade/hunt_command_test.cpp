@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tangency/tests/grade/report.hpp>
@@ -47,6 +48,21 @@ TEST(HuntCommand, WritesWhatItFindsAsACorpusThatTheToolFails) {
   const Report of_kernel =
       grade({"--tool", kKernel, "--corpora", folder.path(""), "--corpus", "hunt"});
   EXPECT_EQ(of_kernel.run.status, 0) << of_kernel.run.out;
+}
+
+// Gaps of 1e-9 are nothing to the first, and it says so; the second says it too, and has other
+// faults.
+TEST(HuntCommand, WhatAToolDoesNotClaimIsNoFault) {
+  const std::vector<std::string> asked{"--from", "classes", "--answers", "300"};
+  std::vector<std::string> honest = asked;
+  honest.insert(honest.end(), {"--not-claimed", "near,touching,extreme"});
+  EXPECT_EQ(hunt(faulty("tolerance"), asked).status, 1);
+  const Finished run = hunt(faulty("tolerance"), honest);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_TRUE(run.out.starts_with("not claimed: ")) << run.out;
+  const Finished other = hunt(faulty("equal-axes"), {"--from", "symmetric", "--answers", "160",
+                                                     "--not-claimed", "near,touching,extreme"});
+  EXPECT_EQ(other.status, 1) << other.out << other.err;
 }
 
 TEST(HuntCommand, GoesOnFromItsStateAsIfThereHadBeenNoBreak) {
@@ -167,6 +183,15 @@ TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
     EXPECT_TRUE(has(from.err, "--from: there is no corpus of pairs " + std::string(name) +
                                   " here; there are: classes deep "))
         << from.err;
+  }
+  for (const auto& [features, said] :
+       {std::pair("tie", "tie is not a feature; these are: touching near nested deep ties extreme"),
+        std::pair("near,ties", "ties is no feature of a hunt"),
+        std::pair("touching,near,nested,deep", "none of 1 answers is left to judge")}) {
+    const Finished none =
+        hunt(kKernel, {"--from", "near", "--answers", "1", "--not-claimed", features});
+    EXPECT_EQ(none.status, 2) << features;
+    EXPECT_TRUE(has(none.err, "--not-claimed: " + std::string(said))) << none.err;
   }
   const TemporaryFolder folder;
   const Finished rubbish = hunt(kKernel, {"--state", folder.write("state.json", "[1]")});

@@ -92,6 +92,37 @@ TEST(Verdict, NumbersAreJudgedToTheirLastDigits) {
             "bound broken");
 }
 
+std::string fault_without(const char* feature, const EllipsoidPair& pair, Relation answered) {
+  Judge judge(Goal::relation, {}, {feature});
+  const Verdict verdict = judge.verdict(pair, Answer{.relation = answered});
+  return verdict.not_claimed ? "not claimed" : verdict.fault;
+}
+
+TEST(Verdict, APairWithAFeatureThatIsNotClaimedHasNoFault) {
+  const EllipsoidPair needles{{{0, 0, 0}, {1, 1, 1001}}, {{3, 0, 0}, {1, 1, 1}}};
+  const EllipsoidPair nested{kBall, {{0, 0, 0}, {0.5, 0.5, 0.5}}};
+  using enum Relation;
+  EXPECT_EQ(fault_without("touching", balls(2), overlap), "not claimed");
+  EXPECT_EQ(fault_without("near", balls(2 + 0x1p-32), overlap), "not claimed");
+  EXPECT_EQ(fault_without("near", balls(2 - 0x1p-32), separate), "not claimed");
+  EXPECT_EQ(fault_without("nested", nested, overlap), "not claimed");
+  EXPECT_EQ(fault_without("deep", balls(1.5), separate), "not claimed");
+  EXPECT_EQ(fault_without("extreme", needles, overlap), "not claimed");
+  EXPECT_EQ(fault_without("extreme", balls(1e7), overlap), "not claimed");
+}
+
+TEST(Verdict, WhatIsNotClaimedChangesNoVerdictOnOtherPairs) {
+  const EllipsoidPair stout{{{0, 0, 0}, {1, 1, 1000}}, {{3, 0, 0}, {1, 1, 1}}};
+  using enum Relation;
+  EXPECT_EQ(fault_without("touching", balls(2 + 0x1p-51), overlap), "overlap where separate");
+  EXPECT_EQ(fault_without("near", balls(2), separate), "separate where external_touch");
+  EXPECT_EQ(fault_without("near", balls(2 + 0x1p-26), overlap), "overlap where separate");
+  EXPECT_EQ(fault_without("nested", balls(1.5), separate), "separate where overlap");
+  EXPECT_EQ(fault_without("deep", balls(1.9), separate), "separate where overlap");
+  EXPECT_EQ(fault_without("extreme", stout, overlap), "overlap where separate");
+  EXPECT_EQ(fault_without("extreme", stout, separate), "");
+}
+
 // A small ball in the middle of a body of semi-axes 3, 2, 1: the gap is -1.5 along z, below minus
 // the least radii of curvature. The answered normal is enough, and no claim is believed.
 TEST(Verdict, DeepAnswersAreJudgedFromTheirNormal) {

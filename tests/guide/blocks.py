@@ -3,10 +3,11 @@
 import re
 from dataclasses import dataclass
 
-FENCE = re.compile(r"^```(\w*)\s*$")
+FENCE = re.compile(r"^```(?:python (?=matplotlib))?(\w*)\s*$")
 # What is checked, and by whom: cpp and console by the gate, sh and cmake by the longer check `guide`; text is
-# the output of the cpp block before it; the others have tests beside the language's own.
-KINDS = {"cpp", "text", "console", "sh", "cmake", "yaml", "c", "python", "fortran", "octave"}
+# the output of the cpp block before it; the others have tests beside the language's own. What draws with
+# Matplotlib, "python matplotlib", is run by the longer check `bindings`.
+KINDS = {"cpp", "text", "console", "sh", "cmake", "yaml", "c", "python", "matplotlib", "fortran", "octave"}
 
 
 @dataclass

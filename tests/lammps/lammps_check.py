@@ -14,6 +14,7 @@ import csv
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 
@@ -101,6 +102,11 @@ REFUSED = (
     ("pair_coeff * * hooke 1.5e10 tangential linear 1.5e10 0.5", "pair_coeff * * ",
      "hooke or hertz/material: missing at the end of the command"),
     ("neighbor 2.0 bin", "neighbor 90.0 bin", "lest a pair meet twice"),
+    # Before LAMMPS copies atoms for as many images of the box as the skin spans, which no memory holds.
+    ("neighbor 2.0 bin", "neighbor 1e9 bin", "skin, 1e+09, is needed, lest a pair meet twice"),
+    # A box that is thick enough at first, and shrinks.
+    ("run 10", "neighbor 70.0 bin\nneigh_modify every 1 delay 0 check no\n"
+     "fix squeeze all deform 1 x scale 0.9 remap x\nrun 10", "skin, 70, is needed, lest a pair meet twice"),
     ("read_data sample.data\npair_style tangency \npair_coeff * *",
      "read_data sample.data extra/atom/types 1\npair_style tangency\npair_coeff 2 2 hooke 1e9\npair_coeff 1 1",
      "pair_coeff 1 2 is missing: laws are not mixed"),
@@ -114,6 +120,7 @@ REFUSED = (
     ("run 10", "variable inf atom 1e300*1e300\nset atom 7 angmom v_inf 0.0 0.0\nrun 10", "atom 7 has a place, a turn or a motion"),
     ("run 10", "variable inf atom 1e300*1e300\nset atom 7 mass v_inf\nrun 10", "atom 7 has a mass that is not > 0 and finite"),
 )
+MEMORY = 4 << 30  # bytes of a program that is to refuse: eight times what one of them takes
 STRAIN = """fix strain all deform 1 x trate -0.01 y trate -0.01 z trate -0.01 remap x
 fix move all nve/asphere
 fix damp all langevin 0.0 0.0 0.5 1 angmom 1.0
@@ -450,6 +457,9 @@ class Check:
         """What is refused is said in one line."""
         whole = (HEAD + PAIR).format(newton="on", style="", law=LINEAR, skin="2.0")
         whole += "fix move all nve/asphere\ntimestep 0.002\nrun 10\n"
+        # A skin that is not refused would take all memory of the machine.
+        before = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, before[1]))
         for here, there, words in REFUSED:
             require(here in whole, f"{here}: not in the script")
             done = self.start("refused", whole.replace(here, there), 1)
@@ -458,6 +468,7 @@ class Check:
             require(done.returncode != 0 and len(lines) == 1 and any(word in lines[0] for word in allowed),
                     f"{there}: status {done.returncode}, {done.stdout[-300:]}{done.stderr[-300:]}")
             print(lines[0])
+        resource.setrlimit(resource.RLIMIT_AS, before)
         self.refuses_a_host_that_flushes(whole)
 
     def refuses_a_host_that_flushes(self, script):

@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import fast_tests
 from mutants import Explained, draws, mutants_of, plain, shares, sources
 from operators import OPERATORS, changes
+from planted import planted_in, read
 from results import Results, share_killed, table
 from tree import Tree
 
@@ -222,6 +223,23 @@ class Children(unittest.TestCase):
             self.assertEqual(self.outcome("mkfifo never; read line < never").by, "stands still")
         finally:
             fast_tests.IDLE, fast_tests.LOOK = idle, look
+
+
+class PlantedMutants(unittest.TestCase):
+    def test_each_stands_once_in_its_file_and_says_what_is_wrong(self):
+        mutants = read(ROOT / "tests/mutants/hunted.md")
+        self.assertGreaterEqual(len(mutants), 6)
+        for mutant in mutants:
+            text = (ROOT / mutant.file).read_text()
+            self.assertNotEqual(mutant.applied_to(text), text)
+            self.assertTrue(mutant.reason)
+
+    def test_lines_that_are_not_there_are_refused(self):
+        mutant, = planted_in("### geometry/a.cpp\n```diff\n-  x = 1;\n+  x = 2;\n```\nWrong.\n")
+        self.assertEqual(mutant.applied_to("{\n  x = 1;\n}\n"), "{\n  x = 2;\n}\n")
+        for text in ("{\n  y = 1;\n}\n", "  x = 1;\n  x = 1;\n"):
+            with self.assertRaisesRegex(ValueError, "geometry/a.cpp: these lines are not there once"):
+                mutant.applied_to(text)
 
 
 if __name__ == "__main__":

@@ -32,9 +32,11 @@ def project_files(root):
 
 
 class Tree:
-    def __init__(self, root, place, threads):
+    def __init__(self, root, place, threads, programs=PROGRAMS, configure=CONFIGURE, build=None):
         self.root, self.place, self.threads = root, place, threads
-        self.source, self.build = place / "source", place / "build"
+        self.programs, self.configure = programs, configure
+        self.source = place / "source"
+        self.build = self.source / build if build else place / "build"
         self.store = place / "clean"  # the build as it was without a mutant
         self.originals = place / "originals"  # of the file that is mutated now
 
@@ -49,8 +51,8 @@ class Tree:
         self.take_out()  # what a run that was ended has left
         self._copy_sources()
         if not (self.build / "build.ninja").exists():
-            self._run(["cmake", "-S", str(self.source), "-B", str(self.build), *CONFIGURE])
-        self._run(["ninja", "-C", str(self.build), f"-j{self.threads}", *PROGRAMS])
+            self._run(["cmake", "-S", str(self.source), "-B", str(self.build), *self.configure])
+        self._run(["ninja", "-C", str(self.build), f"-j{self.threads}", *self.programs])
         self._keep_build()
 
     def put(self, mutant):
@@ -78,7 +80,8 @@ class Tree:
 
     def _copy_sources(self):
         wanted = set(project_files(self.root))
-        have = {p.relative_to(self.source).as_posix() for p in self.source.rglob("*") if p.is_file()}
+        have = {p.relative_to(self.source).as_posix() for p in self.source.rglob("*")
+                if p.is_file() and not p.is_relative_to(self.build)}
         for name in have - wanted:
             (self.source / name).unlink()
         for name in wanted:

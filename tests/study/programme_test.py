@@ -4,9 +4,11 @@
 
 Usage: programme_test.py DEM_STUDY TANGENCY_DEM
 """
+import dataclasses
 import os
 import subprocess
 import sys
+import tempfile
 import tomllib
 import unittest
 
@@ -15,6 +17,7 @@ STUDY, TOOL = (os.path.abspath(word) for word in sys.argv[1:3])
 sys.path.insert(0, STUDY)
 
 import programme  # noqa: E402
+import running  # noqa: E402
 import uses  # noqa: E402
 from scenes import scene_text  # noqa: E402
 
@@ -36,6 +39,29 @@ class ProgrammeTest(unittest.TestCase):
             scene = tomllib.loads(self.scene(run))
             self.assertEqual(scene["stage"], self.plan.stages_of(run.name), run.name)
             self.assertEqual(scene["particles"], run.body["particles"], run.name)
+
+    def test_check_has_nothing_to_change_in_any_scene(self):
+        last = {run.name for run in self.plan.runs.values() if run.seed == 1}
+        last -= {run.after for run in self.plan.runs.values()}  # whose stages the others have too
+        with tempfile.TemporaryDirectory() as folder:
+            scene = os.path.join(folder, "scene.toml")
+            for name in sorted(last):
+                with open(scene, "w", encoding="utf-8") as file:
+                    file.write(self.scene(self.plan.runs[name]))
+                done = subprocess.run([TOOL, "check", scene], capture_output=True, text=True,
+                                      check=False)
+                self.assertEqual(done.returncode, 0, name + done.stdout + done.stderr)
+
+    def test_a_run_is_known_by_what_changes_its_numbers(self):
+        def key(**changes):
+            run = self.plan.runs["spheroid-growth-s1"]
+            self.plan.runs[run.name] = dataclasses.replace(run, body=dict(run.body, **changes))
+            try:
+                return running.Job(self.plan.runs[run.name], self.plan, "nowhere", "0").key
+            finally:
+                self.plan.runs[run.name] = run
+        self.assertEqual(key(intended=["gravity"]), key())
+        self.assertNotEqual(key(contact={"normal_stiffness": 1.0}), key())
 
     def test_every_run_resumes_one_of_the_same_particles(self):
         for run in self.plan.runs.values():

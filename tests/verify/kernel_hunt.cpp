@@ -27,7 +27,7 @@ using namespace tangency::testing;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  unsigned long answers = 1'000'000;
+  unsigned long answers = 1'000'000, kinds = 0;
   std::string only, state;
 };
 
@@ -58,13 +58,15 @@ class KeptSearch {
     }
   }
 
-  /// Whole generations, until there are so many answers at least.
-  void run(verify::Subject& subject, std::size_t answers) {
+  /// Whole generations, until there are so many answers at least, or so many kinds of faults.
+  /// @param kinds  0: however many there are
+  void run(verify::Subject& subject, std::size_t answers, std::size_t kinds) {
     constexpr double kBetween = 10;  // s; chosen: little is lost, and little time
     const std::size_t before = search_.answers();
     const double begin = processor_time();
     Clock::time_point saved = Clock::now();
-    while (search_.answers() < answers && search_.step(subject, answers)) {
+    const auto ends = [&] { return kinds > 0 && search_.faults().size() >= kinds; };
+    while (search_.answers() < answers && !ends() && search_.step(subject, answers)) {
       if (seconds_since(saved) < kBetween) continue;
       save();
       saved = Clock::now();
@@ -100,7 +102,7 @@ bool hunt(std::string_view name, Call call, const Options& options, std::uint64_
   verify::Judge judge(has_bounds ? verify::Goal::certificate : verify::Goal::relation, {});
   KeptSearch kept(judge, options, name, seed);
   KernelSubject subject(call);
-  kept.run(subject, options.answers);
+  kept.run(subject, options.answers, options.kinds);
   const verify::OracleCounts& counts = judge.counts();
   const verify::Search& search = kept.search();
   double worst = 0;
@@ -137,6 +139,7 @@ int main(int argc, char** argv) {
   AgreementProgram program("kernel_hunt", "Hunt for pairs that the kernel answers wrongly");
   Options options;
   program.option("--answers", options.answers, "answers of each call");
+  program.option("--kinds", options.kinds, "kinds of faults after which a call is done; 0: none");
   program.option("--only", options.only, "one call: relation, single, yes-no, lanes, fast, moving");
   program.option("--state", options.state, "folder where the hunts are kept, to go on from");
   return program.run(argc, argv, [&](std::uint64_t seed) { return agree(options, seed); });

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include <tangency/verify/families/adversarial.hpp>
+#include <tangency/verify/families/draw.hpp>
 #include <tangency/verify/oracles/relation.hpp>
 
 namespace tangency::verify {
@@ -246,6 +247,35 @@ TEST(RelationOracle, WitnessesAgreeWithThePencilOnGenericPairs) {
     ASSERT_EQ(swapped(r), exact_relation(b, a)) << row(a, b);
   }
   for (const Relation r : {separate, overlap, a_in_b, b_in_a}) EXPECT_GT(seen[r], 20) << name(r);
+}
+
+// Of small numbers, so that axes are equal and every relation that concentric bodies can have
+// comes.
+TEST(RelationOracle, ConcentricPairsAgreeWithThePencil) {
+  constexpr std::array<std::array<double, 4>, 5> kTurns{
+      {{1, 0, 0, 0}, {1, 0, 0, 1}, {-2, 0, 0, 0}, {1, 1, 0, 0}, {2, 1, 0, -1}}};
+  Draw draw(20261201);
+  const auto body = [&] {
+    RawEllipsoid e{{3, -2, 0.1}, {}, draw.one_of(kTurns)};
+    for (double& v : e.semi_axes) v = draw.integer(2, 4);
+    return e;
+  };
+  std::map<Relation, int> seen;
+  for (int i = 0; i < 3000; ++i) {
+    const RawEllipsoid a = body();
+    RawEllipsoid b = body();
+    if (i % 4 == 0) {
+      const double shorter = std::ldexp(draw.integer(1, 15), -4);
+      for (double& v : b.semi_axes) v *= shorter;
+    }
+    const ExactRelation r = exact_relation(a, b);
+    ++seen[r.relation];
+    ASSERT_EQ(r, exact_relation_by_pencil(a, b)) << row(a, b);
+    ASSERT_EQ(swapped(r), exact_relation(b, a)) << row(a, b);
+  }
+  for (const Relation r : {overlap, internal_touch, a_in_b, b_in_a, equal}) {
+    EXPECT_GT(seen[r], 20) << name(r);
+  }
 }
 
 TEST(AdversarialPairs, DependOnTheSeedAndTheIndexAlone) {

@@ -12,12 +12,6 @@
 namespace tangency::inline v0::verify {
 namespace {
 
-// Chosen: in L, between the tolerances of codes that have one and the rounding of those that have
-// none.
-constexpr double kNear = 1e-9;
-// Chosen: in L, deeper than contacts of stiff bodies are.
-constexpr double kDeep = 0.1;
-
 constexpr std::array kFeatures{
     Feature{"touching", "bodies that only touch, from outside or from inside"},
     Feature{"near", "gaps of either sign, not 0, of at most 1e-9 L"},
@@ -37,12 +31,6 @@ bool touches(const TruthRow& row) {
          row.word == "touching_at_start";
 }
 
-bool is_nested(Relation relation) {
-  using enum Relation;
-  return relation == a_in_b || relation == b_in_a || relation == internal_touch ||
-         relation == equal;
-}
-
 bool has_ties(const TruthTable& truth, const TruthRow& row) {
   return row.every_normal || row.normals > 1 ||
          (row.normals == 1 && truth.maximisers.at(row.first_normal).axis);
@@ -52,14 +40,20 @@ bool has_ties(const TruthTable& truth, const TruthRow& row) {
 
 std::span<const Feature> features() { return kFeatures; }
 
+bool is_nested(Relation relation) {
+  using enum Relation;
+  return relation == a_in_b || relation == b_in_a || relation == internal_touch ||
+         relation == equal;
+}
+
 bool has_feature(std::string_view feature, std::string_view corpus, const TruthTable& truth,
                  const TruthRow& row) {
   const double unit = truth.kind == CorpusKind::floats ? std::ldexp(row.size, 24) : row.size;
   const double gap = row.gap ? row.gap->high / unit : 0;
   if (feature == "touching") return touches(row);
-  if (feature == "near") return gap != 0 && std::abs(gap) <= kNear;
+  if (feature == "near") return gap != 0 && std::abs(gap) <= kNearGap;
   if (feature == "nested") return is_nested(row.relation);
-  if (feature == "deep") return gap < -kDeep;
+  if (feature == "deep") return gap < -kDeepOverlap;
   if (feature == "ties") return has_ties(truth, row);
   assert(feature == "extreme");
   return corpus == "extreme" ||

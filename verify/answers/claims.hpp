@@ -22,6 +22,12 @@
 
 namespace tangency::inline v0::verify {
 
+/// In L: a gap of either sign up to this is near. Chosen: between the tolerances of codes that have
+/// one and the rounding of those that have none.
+inline constexpr double kNearGap = 1e-9;
+/// In L: an overlap beyond this is deep. Chosen: deeper than contacts of stiff bodies are.
+inline constexpr double kDeepOverlap = 0.1;
+
 struct Feature {
   std::string_view name;
   std::string_view what;  ///< one line: which rows have it
@@ -29,6 +35,9 @@ struct Feature {
 
 /// touching, near, nested, deep, ties, extreme.
 std::span<const Feature> features();
+
+/// One body inside the other, or equal to it.
+bool is_nested(Relation relation);
 
 /// `feature` is one of features(); `row` one of `truth`, which is of the corpus of this name.
 bool has_feature(std::string_view feature, std::string_view corpus, const TruthTable& truth,

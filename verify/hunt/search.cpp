@@ -132,8 +132,9 @@ void Search::take(const Candidate& candidate, const Verdict& verdict) {
     FaultCount& count = faults_[verdict.fault];
     if (count.count++ == 0) count.first = answers_;
   }
+  not_claimed_ += verdict.not_claimed;
   // Nothing is known of an open answer, and those near it cost as much and say as little.
-  if (verdict.open) return;
+  if (verdict.open || verdict.not_claimed) return;
   const std::pair kind{verdict.fault, traits(candidate.pair, verdict.near)};
   const auto found = archive_.find(kind);
   // A right answer as bad as the one before takes its place, so that the search moves on.
@@ -172,6 +173,7 @@ std::string Search::saved(const std::string& question) const {
                        {"generation", generation_},
                        {"answers", answers_},
                        {"open", open_},
+                       {"not claimed", not_claimed_},
                        {"faults", nlohmann::json::object()},
                        {"archive", nlohmann::json::array()}};
   for (const auto& [name, fault] : faults_) state["faults"][name] = {fault.count, fault.first};
@@ -189,6 +191,7 @@ std::string Search::resume(const std::string& text, const std::string& question)
     generation_ = state.at("generation").get<std::size_t>();
     answers_ = state.at("answers").get<std::size_t>();
     open_ = state.value("open", std::size_t{0});
+    not_claimed_ = state.value("not claimed", std::size_t{0});
     for (const auto& [name, fault] : state.at("faults").items()) {
       faults_[name] = {fault.at(0).get<std::size_t>(), fault.at(1).get<std::size_t>()};
     }

@@ -57,6 +57,8 @@ class Search {
   const std::map<std::string, FaultCount>& faults() const { return faults_; }
   /// How many answers the oracles did not settle.
   std::size_t open() const { return open_; }
+  /// How many were about pairs that are not claimed: nothing is said of them, and none is a start.
+  std::size_t not_claimed() const { return not_claimed_; }
   Judge& judge() const { return judge_; }
 
   /// As text, with `question` in it: what the hunt was asked.
@@ -86,7 +88,7 @@ class Search {
   Judge& judge_;
   std::vector<Source> sources_;
   std::uint64_t seed_;
-  std::size_t generation_ = 0, answers_ = 0, open_ = 0;
+  std::size_t generation_ = 0, answers_ = 0, open_ = 0, not_claimed_ = 0;
   std::map<const InputFamily<EllipsoidPair>*, Drawn> drawn_;  // of sources_
   Archive archive_;
   std::vector<const Elite*> right_, wrong_;  // of the archive, for draws

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <string_view>
 #include <vector>
 
+#include <tangency/verify/answers/claims.hpp>
 #include <tangency/verify/grade/judge.hpp>
 #include <tangency/verify/hunt/near_tie.hpp>
 
@@ -204,6 +206,21 @@ Nearness nearness(const GapBracket& bracket) {
   return {bracket.normal, gap, bracket.size};
 }
 
+bool has_feature(std::string_view feature, const EllipsoidPair& pair, const Nearness& near,
+                 Relation truth) {
+  const bool touches = truth == Relation::external_touch || truth == Relation::internal_touch;
+  const double gap = near.gap / near.size;
+  if (feature == "touching") return touches;
+  if (feature == "near") return !touches && std::abs(gap) <= kNearGap;
+  if (feature == "nested") return is_nested(truth);
+  if (feature == "deep") return gap < -kDeepOverlap;
+  assert(feature == "extreme");
+  // Chosen: most users keep to one unit of length, and to bodies of some decades in it.
+  constexpr double kLargest = 1e6;
+  const bool is_usual = near.size <= kLargest && near.size >= 1 / kLargest;
+  return !is_usual || (traits(pair, near) & (kLong | kUnequal | kFar)) != 0;
+}
+
 Verdict Judge::verdict(const EllipsoidPair& pair, const std::optional<Answer>& answer) {
   ClaimedGap claimed;
   if (answer && goal_ != Goal::relation) claimed = {answer->gap.value_or(0), answer->normal};
@@ -216,6 +233,13 @@ Verdict Judge::verdict(const EllipsoidPair& pair, const std::optional<Answer>& a
   } else {
     ++counts_.relations;
     verdict.truth = exact_relation(pair.a, pair.b).relation;
+  }
+  const auto is_left_out = [&](const std::string& feature) {
+    return has_feature(feature, pair, verdict.near, verdict.truth);
+  };
+  if (std::ranges::any_of(not_claimed_, is_left_out)) {
+    verdict.not_claimed = true;
+    return verdict;
   }
   // Of a wrong word the worst is the one furthest from a touch; of right ones the nearest to it.
   const double apart = decades(std::abs(verdict.near.gap) / verdict.near.size);

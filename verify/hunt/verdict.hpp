@@ -12,12 +12,17 @@
 ///  (3) A normal is off, or reversed, where it is so from every true one and is also none that the
 ///      rounding of the inputs makes true (near_tie.hpp).
 ///  (4) A cell that cannot be read is a fault of every goal.
+///  (5) A pair with a feature that is not claimed (answers/claims.hpp) has no fault, whatever is
+///      answered; leaving out a feature changes no verdict on other pairs.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <tangency/verify/corpus/truth.hpp>
 #include <tangency/verify/hunt/moves.hpp>
@@ -45,7 +50,8 @@ struct Verdict {
   double error = 0;    ///< of the gap / L, of the normal, or of the gap / gap_error: the goal's
   Nearness near;       ///< of the pair
   Relation truth = Relation::separate;
-  bool open = false;  ///< the oracles do not settle what the goal asks
+  bool open = false;         ///< the oracles do not settle what the goal asks
+  bool not_claimed = false;  ///< (5)
 };
 
 /// Which oracle was asked, how often.
@@ -56,9 +62,19 @@ struct OracleCounts {
   std::size_t open = 0;       ///< of those: not proven global, so that nothing is said of the gap
 };
 
+/// Has a pair the feature, by its true relation and by where its bodies are nearest? `extreme` is
+/// said of the pair itself here: its traits are long, unequal or far, or L is beyond 1e-6 to 1e6.
+/// Of the others a guess of the gap that is too low may leave out a deep pair too many, and never
+/// one too few.
+/// @param feature  of answers/claims.hpp; not `ties`: a hunt takes every true normal as true
+bool has_feature(std::string_view feature, const EllipsoidPair& pair, const Nearness& near,
+                 Relation truth);
+
 class Judge {
  public:
-  Judge(Goal goal, const Limits& limits) : goal_(goal), limits_(limits) {}
+  /// @param not_claimed  features as has_feature() takes them
+  Judge(Goal goal, const Limits& limits, std::vector<std::string> not_claimed = {})
+      : goal_(goal), limits_(limits), not_claimed_(std::move(not_claimed)) {}
 
   Goal goal() const { return goal_; }
   const Limits& limits() const { return limits_; }
@@ -69,6 +85,7 @@ class Judge {
  private:
   Goal goal_;
   Limits limits_;
+  std::vector<std::string> not_claimed_;
   OracleCounts counts_;
 };
 

@@ -239,6 +239,21 @@ class PencilWalk {
   std::vector<CGAL::Gmpq> gaps_;
 };
 
+// ---- concentric bodies
+
+// (9)
+std::optional<ExactRelation> of_concentric(const Forms& forms) {
+  if (std::ranges::any_of(forms.between, [](const mpz_class& v) { return v != 0; })) return {};
+  IntegerMatrix m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      m[i][j] = forms.b.level * forms.a.matrix[i][j] - forms.a.level * forms.b.matrix[i][j];
+    }
+  }
+  const auto decided = verdict(inertia(std::move(m), 3), -1);
+  return decided ? decided : ExactRelation{Relation::overlap};
+}
+
 // ---- verified guesses
 
 // value = mantissa 2^exponent to about 2^-31 of it; the mantissa is not 0.
@@ -349,6 +364,7 @@ IntegerMatrix ellipsoid_matrix(IntegerMatrix matrix) {
 
 ExactRelation exact_relation(const RawEllipsoid& a, const RawEllipsoid& b) {
   Forms forms = forms_of(a, b);
+  if (const auto answer = of_concentric(forms)) return *answer;
   if (const auto answer = verified_guess(a, b, forms)) return *answer;
   return PencilWalk(std::move(forms.a.matrix), std::move(forms.b.matrix)).relation();
 }

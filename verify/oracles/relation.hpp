@@ -26,6 +26,10 @@
 ///      the root where nothing changes has one rising and one falling eigenvalue, which leaves at
 ///      it one negative less and one positive less than beside it: E(f0) is semidefinite there (>=
 ///      0 if it is the later root, <= 0 if the earlier one) and indefinite at the other root.
+///  (9) Of concentric bodies x'S_A x < L_A and x'S_B x < L_B about their centre, A is in the
+///      interior of B if and only if D = L_B S_A - L_A S_B > 0, B in that of A if D < 0, and they
+///      are equal if D = 0; if D is semidefinite the boundaries meet along its kernel, as in (4);
+///      if it is indefinite each is beyond the other somewhere. No member is sought.
 ///
 /// Generic pairs are settled sooner by a witness that is guessed in floating point
 /// (witness_guess.hpp) and verified exactly: a definite member for (1) to (3); for overlap one
@@ -78,8 +82,8 @@ ExactRelation exact_relation(const RawEllipsoid& a, const RawEllipsoid& b);
 /// The interiors meet: the relation is neither separate nor external_touch. Throws as above.
 bool exact_overlaps(const RawEllipsoid& a, const RawEllipsoid& b);
 
-/// The same answer by (6) to (8) alone, without guessed witnesses: slower, and there so that the
-/// two ways can be held against each other.
+/// The same answer by (6) to (8) alone, without (9) and guessed witnesses: slower, and there so
+/// that the two ways can be held against each other.
 ExactRelation exact_relation_by_pencil(const RawEllipsoid& a, const RawEllipsoid& b);
 
 /// The same for two surfaces given by coefficients, either sign of each. Throws

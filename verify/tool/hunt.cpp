@@ -52,6 +52,11 @@ Goals, each with its faults; a wrong relation is a fault of all:
   normal       the normal is off by more than --max-normal-error, or reversed
   certificate  the gap is off by more than the gap_error that the tool claims
 
+With --not-claimed FEATURE,... the pairs that have one of these features are not judged, and none
+is a start of others. Features are those of `grade` (touching, near, nested, deep); extreme is a
+pair with a semi-axis 1000 times another of its body, bodies 1000 times as large as each other,
+centres a million times L from the origin, or L beyond 1e-6 to 1e6.
+
 Of every kind of fault the simplest pairs are kept, and made simpler as long as the fault stays:
 round bodies at the origin, numbers of few digits. They are printed, and appended to
 DIR/hunt.csv and DIR/hunt.truth.csv, which `grade --corpora DIR --corpus hunt` grades by. Rows
@@ -63,14 +68,15 @@ after half of S more; a batch that then runs is ended and does not count. With -
 command later goes on where it was, and finds what it would have found without the break.
 
 Exit status: 0 nothing found; 1 found; 2 refused command line or state, a tool that answers
-nothing or nothing of the goal, no answer within --seconds, or a failed write.
+nothing or nothing of the goal, no answer within --seconds or none that is claimed, or a failed
+write.
 
 Example:
   $ tangency-verify hunt --tool 'tangency contact' --goal certificate --answers 5000
 )";
 
 struct Options {
-  std::string tool, corpora, state, out, goal = "relation";
+  std::string tool, corpora, state, out, not_claimed, goal = "relation";
   std::vector<std::string> from;
   Limits limits;
   std::uint64_t seed = 1;
@@ -132,7 +138,16 @@ std::string question(const Options& options) {
                      std::to_string(options.seed);
   for (const std::string& name : options.from) text += " --from " + name;
   if (!options.corpora.empty()) text += " --corpora '" + options.corpora + "'";
+  if (!options.not_claimed.empty()) text += " --not-claimed " + options.not_claimed;
   return text;
+}
+
+std::vector<std::string> not_claimed(const Options& options) {
+  std::vector<std::string> features = features_in(options.not_claimed);
+  if (std::ranges::find(features, "ties") == features.end()) return features;
+  throw tables::Error({.file = "--not-claimed",
+                       .rule = "ties is no feature of a hunt: of several true normals it takes "
+                               "each as true"});
 }
 
 CorpusSource source(const Options& options) {
@@ -143,7 +158,7 @@ class Hunt {
  public:
   explicit Hunt(const Options& options)
       : options_(options),
-        judge_(goal_named(options.goal), options.limits),
+        judge_(goal_named(options.goal), options.limits, not_claimed(options)),
         search_(judge_, hunt_sources(source(options), options.from), options.seed),
         question_(question(options)) {}
 
@@ -243,7 +258,12 @@ class Hunt {
 
   // A hunt that asked nothing has not passed.
   void require_any() const {
-    if (search_.answers() > 0) return;
+    if (search_.answers() > search_.not_claimed()) return;
+    if (search_.answers() > 0) {
+      throw tables::Error(
+          {.file = "--not-claimed",
+           .rule = "none of " + std::to_string(search_.answers()) + " answers is left to judge"});
+    }
     if (interrupted) {
       throw tables::Error({.file = "--tool", .rule = "interrupted before its first answers"});
     }
@@ -274,6 +294,10 @@ class Hunt {
     for (const auto& [fault, count] : search_.faults()) {
       screen.write("fault " + fault + ": " + std::to_string(count.count) +
                    " answers, the first is answer " + std::to_string(count.first) + '\n');
+    }
+    if (search_.not_claimed() > 0) {
+      screen.write("not claimed: " + std::to_string(search_.not_claimed()) +
+                   " answers, which are not judged\n");
     }
     if (search_.open() > 0) {
       screen.write("open: " + std::to_string(search_.open()) +
@@ -344,6 +368,12 @@ void add_hunt(tables::Program& program) {
       .check(check_positive)
       .shows_default()
       .type_name("X");
+  command
+      .option("--not-claimed", options->not_claimed,
+              "Features that the tool does not promise, with commas between them: pairs that have "
+              "one are not judged")
+      .not_empty()
+      .type_name("FEATURE,...");
   command.option("--seed", options->seed, "Another seed, another hunt")
       .check(check_seed)
       .shows_default()

@@ -107,14 +107,19 @@ CorpusSource source_of(const RowChoice& choice) {
   return fresh(choice);
 }
 
-SetAside set_aside(const RowChoice& choice, const CorpusSource& source) {
-  SetAside aside{words(choice.not_claimed), {}};
-  for (const std::string& word : aside.not_claimed) {
+std::vector<std::string> features_in(const std::string& text) {
+  std::vector<std::string> all = words(text);
+  for (const std::string& word : all) {
     if (std::ranges::find(features(), word, &Feature::name) != features().end()) continue;
     std::string rule = word + " is not a feature; these are:";
     for (const Feature& feature : features()) rule += ' ' + std::string(feature.name);
     refuse("--not-claimed", rule);
   }
+  return all;
+}
+
+SetAside set_aside(const RowChoice& choice, const CorpusSource& source) {
+  SetAside aside{features_in(choice.not_claimed), {}};
   if (!choice.expected.empty()) aside.expected = ExpectedFailures(choice.expected, source);
   return aside;
 }

@@ -45,6 +45,10 @@ struct SetAside {
   ExpectedFailures expected;
 };
 
+/// The features in a value of --not-claimed.
+/// @throws tables::Error  a word that is none
+std::vector<std::string> features_in(const std::string& text);
+
 /// @throws tables::Error  a word that is no feature; what ExpectedFailures refuses
 SetAside set_aside(const RowChoice& choice, const CorpusSource& source);
 

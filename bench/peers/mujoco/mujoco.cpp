@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -63,6 +64,9 @@ struct Body {
 
   explicit Body(const RawEllipsoid& e) : semi_axes(e.semi_axes), centre(e.centre), rotation{} {
     std::array<double, 4> q = e.orientation;
+    // MuJoCo takes what is shorter than 1e-15 as no rotation; of a unit one it is never asked that.
+    const double most = std::max(std::abs(std::ranges::min(q)), std::abs(std::ranges::max(q)));
+    for (double& component : q) component /= most;
     mju_normalize4(q.data());
     mju_quat2Mat(rotation.data(), q.data());
   }

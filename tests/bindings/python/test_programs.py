@@ -46,6 +46,10 @@ class Runs(unittest.TestCase):
             self.assertEqual(run.history["cycle"][-1], run.summary["cycle"])
             contacts, particles = dem.contacts(run.final_state), dem.particles(run.final_state)
             self.assertEqual(len(contacts), run.summary["contacts"])
+            # Without friction a contact slides whatever it bears; the scene's stage has none of its own.
+            np.testing.assert_array_equal(dem.contacts(run.final_state, scene=scene), contacts)
+            with self.assertRaisesRegex(dem.ProgramError, "no-scene.toml"):
+                dem.contacts(run.final_state, scene=Path(folder) / "no-scene.toml")
             frames = list(run.frames())
             self.assertGreater(len(frames), 1)
             self.assertEqual(frames[-1].columns["pos"].shape, (20, 3))
@@ -60,6 +64,44 @@ class Runs(unittest.TestCase):
             scene.write_text(SCENE.replace("flatness", "flatnes"))
             with self.assertRaisesRegex(dem.ProgramError, r"scene.toml:6.*flatnes"):
                 dem.run(scene, Path(folder) / "other")
+
+    def test_an_earlier_run_is_read_and_only_taken_away_where_that_is_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, out = Path(folder) / "scene.toml", Path(folder) / "out"
+            scene.write_text(SCENE)
+            self.assertEqual(dem.run(scene, out).summary["particles"], 20)
+            again = dem.Run(str(out))
+            self.assertEqual((again.summary["particles"], again.messages), (20, ""))
+            with self.assertRaisesRegex(dem.ProgramError, "--replace takes them away"):
+                dem.run(scene, out)
+            settings = {"particles.candy.count": np.int64(12), "motion.rotation": "none"}
+            dem.run(scene, out, replace=True, settings=settings)
+            self.assertEqual(again.summary["particles"], 12)
+            self.assertEqual(len(again.summary["set"]), 2)
+            with self.assertRaisesRegex(dem.ProgramError, "friction.*no such key"):
+                dem.run(scene, out, replace=True, settings={"stage.compress.friction": 0.5})
+
+    def test_a_sweep_is_one_table_of_its_runs_and_one_of_their_histories(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, out = Path(folder) / "scene.toml", Path(folder) / "out"
+            scene.write_text(SCENE + '[sweep]\n"stage.compress.mean_stress" = [50.0, 60.0]\n"stage.place.seed" = [1, 2]\n')
+            dem.run(scene, out)
+            sweep = dem.Sweep(str(out))
+            self.assertEqual([list(row) for row in sweep.table[["stage.compress.mean_stress", "stage.place.seed"]].tolist()],
+                             [[50, 1], [50, 2], [60, 1], [60, 2]])
+            rows = sweep.history
+            self.assertEqual(rows.dtype.names[:4],
+                             ("folder", "stage.compress.mean_stress", "stage.place.seed", "cycle"))
+            self.assertEqual(len(rows), sum(len(run.history) for run in sweep.runs))
+            for run, of_table in zip(sweep.runs, sweep.table):
+                own = rows[rows["folder"] == run.folder.name]
+                np.testing.assert_array_equal(own["mean_stress"], run.history["mean_stress"])
+                self.assertEqual(set(own["stage.place.seed"]), {of_table["stage.place.seed"]})
+                self.assertEqual(own["mean_stress"][-1], of_table["mean_stress"])
+            for run in sweep.runs:
+                (run.folder / "history.csv").unlink()
+            with self.assertRaisesRegex(ValueError, "no run has a history.csv yet"):
+                sweep.history
 
     def test_a_table_is_refused_by_its_row(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -12,7 +12,7 @@ import csv
 import json
 import os
 import shlex
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from tangency import _programs
 from tangency._programs import ProgramError
 
-__all__ = ["Frame", "ProgramError", "Run", "contacts", "frames", "history", "particles", "read_table", "run"]
+__all__ = ["Frame", "ProgramError", "Run", "Sweep", "contacts", "frames", "history", "particles", "read_table",
+           "run"]
 
 PathLike = str | os.PathLike[str]
 
@@ -123,20 +124,24 @@ def _frame(words: dict[str, str], rows: list[list[str]]) -> Frame:
     return Frame(columns, cell, words)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Run:
-    """A run that has ended.
+    """A run: one that `run` has started, or ``Run("out")`` of an earlier day.
 
     Attributes
     ----------
     folder : Path
         What it wrote.
     messages : str
-        What it said meanwhile.
+        What it said meanwhile, where `run` has started it.
     """
 
     folder: Path
     messages: str
+
+    def __init__(self, folder: PathLike, messages: str = "") -> None:
+        object.__setattr__(self, "folder", Path(folder))
+        object.__setattr__(self, "messages", messages)
 
     @property
     def history(self) -> NDArray[Any]:
@@ -156,9 +161,61 @@ class Run:
         return frames(self.folder)
 
 
-def run(scene: PathLike, out: PathLike, *, threads: int = 1, resume: PathLike | None = None,
-        program: str | None = None) -> Run:
-    """Runs a scene, as ``tangency-dem run`` does.
+@dataclass(frozen=True, init=False)
+class Sweep:
+    """The runs of a scene with ``[sweep]``: ``Sweep("out")``.
+
+    Attributes
+    ----------
+    folder : Path
+        What they wrote.
+    """
+
+    folder: Path
+
+    def __init__(self, folder: PathLike) -> None:
+        object.__setattr__(self, "folder", Path(folder))
+
+    @property
+    def table(self) -> NDArray[Any]:
+        """``sweep.csv``, a row a run: `folder`, `status`, what is varied, and the numbers of its ``summary.json``."""
+        return read_table(self.folder / "sweep.csv")
+
+    @property
+    def runs(self) -> list[Run]:
+        """Those of the table, in its order."""
+        return [Run(self.folder / str(name)) for name in self.table["folder"]]
+
+    @property
+    def history(self) -> NDArray[Any]:
+        """The histories of all runs that have one, one below the other.
+
+        Before the columns of ``history.csv`` stand `folder` and what is varied, as in `table`.
+
+        Raises
+        ------
+        ValueError
+            No run has one yet.
+        """
+        table = self.table
+        own = ["folder", *(name for name in table.dtype.names or () if "." in name)]  # keys by their path
+        parts = []
+        for row, one in zip(table, self.runs):
+            if not (one.folder / "history.csv").exists():
+                continue
+            part = one.history
+            whole = np.empty(len(part), [(name, table.dtype[name]) for name in own] + part.dtype.descr)
+            for name in whole.dtype.names or ():
+                whole[name] = row[name] if name in own else part[name]
+            parts.append(whole)
+        if not parts:
+            raise ValueError(f"{self.folder}: no run has a history.csv yet")
+        return np.concatenate(parts)
+
+
+def run(scene: PathLike, out: PathLike, *, settings: Mapping[str, Any] | None = None, threads: int = 1,
+        resume: PathLike | None = None, replace: bool = False, program: str | None = None) -> Run:
+    """Runs a scene, as ``tangency-dem run`` does. `Sweep` reads what one with ``[sweep]`` leaves.
 
     Parameters
     ----------
@@ -166,10 +223,14 @@ def run(scene: PathLike, out: PathLike, *, threads: int = 1, resume: PathLike | 
         A TOML file; ``tangency-dem schema`` names its keys.
     out : path
         Folder for the results.
+    settings : mapping, optional
+        Keys by their path, and the values that they have in this run: ``{"stage.place.seed": 2}``, as ``--set``.
     threads : int
         They change no bit.
     resume : path, optional
         A state to go on from.
+    replace : bool
+        Whether results that `out` has from an earlier run are taken away, as by ``--replace``.
     program : str, optional
         By default TANGENCY_DEM of the environment, or ``tangency-dem`` on the path.
 
@@ -182,12 +243,32 @@ def run(scene: PathLike, out: PathLike, *, threads: int = 1, resume: PathLike | 
                  "--threads", str(threads), "--quiet"]
     if resume is not None:
         arguments += ["--resume", os.fspath(resume)]
+    if replace:
+        arguments.append("--replace")
+    for key, value in (settings or {}).items():
+        arguments += ["--set", f"{key}={_toml_text(value)}"]
     return Run(Path(out), _programs.run(arguments).stderr)
 
 
-def contacts(state: PathLike, *, program: str | None = None) -> NDArray[Any]:
-    """The contacts of a state, a row each: ``a b ix iy iz x y z nx ny nz gap ...``."""
-    return _of_state("contacts", state, program)
+def _toml_text(value: Any) -> str:
+    """A value of a key as TOML writes it: texts, numbers, truths and lists are those of JSON."""
+    return json.dumps(value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value)
+
+
+def contacts(state: PathLike, *, scene: PathLike | None = None, program: str | None = None) -> NDArray[Any]:
+    """The contacts of a state, a row each: ``a b ix iy iz x y z nx ny nz gap ...``.
+
+    Parameters
+    ----------
+    state : path
+        A ``final.state``, ``checkpoint.state`` or one of ``states/`` of a run.
+    scene : path, optional
+        The scene of the run. It is needed where a stage has a `friction_coefficient` of its own: the column `sliding`
+        then goes by the friction to which the state's stage has come.
+    program : str, optional
+        As of `run`.
+    """
+    return _of_state("contacts", state, program, [] if scene is None else ["--scene", os.fspath(scene)])
 
 
 def particles(state: PathLike, *, program: str | None = None) -> NDArray[Any]:
@@ -195,6 +276,6 @@ def particles(state: PathLike, *, program: str | None = None) -> NDArray[Any]:
     return _of_state("particles", state, program)
 
 
-def _of_state(command: str, state: PathLike, program: str | None) -> NDArray[Any]:
-    done = _programs.run([_programs.found("tangency-dem", program), command, os.fspath(state)])
+def _of_state(command: str, state: PathLike, program: str | None, more: Sequence[str] = ()) -> NDArray[Any]:
+    done = _programs.run([_programs.found("tangency-dem", program), command, os.fspath(state), *more])
     return _table(done.stdout.splitlines(keepends=True), os.fspath(state))
