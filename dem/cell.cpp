@@ -164,10 +164,4 @@ Vec3 Cell::shear_strain() const {
   return {closed(0, 1), closed(1, 2), closed(2, 0)};
 }
 
-double Cell::least_stretch_since(const Mat3& before) const {
-  if (is_box() && before.isDiagonal(0.0))
-    return edges.diagonal().cwiseQuotient(before.diagonal()).minCoeff();
-  return std::sqrt(squared_stretch(before, edges).eigenvalues().minCoeff());
-}
-
 }  // namespace tangency::inline v0::dem

@@ -93,9 +93,6 @@ struct Cell {
   /// axis by more than half of another. The lattice stays. None of a cell whose edges along x and y
   /// are not along x and in the plane of x and y, as a shear_rate makes them.
   Reset reset() const;
-
-  /// The smallest stretch of any line since the edges were `before`: at most 1 where one shrank.
-  double least_stretch_since(const Mat3& before) const;
 };
 
 }  // namespace tangency::inline v0::dem

@@ -8,7 +8,7 @@ from figures import Chapter
 from results import shear_of
 
 # Chosen, of axial strain: over which the curves' rates are taken. Those of the peaks, which
-# summaries have, are of dem/measures/shear_peaks.hpp.
+# summaries have, are of dem/tool/shear_peaks.hpp.
 WINDOW = 0.02
 
 # The text's steady state, axial strain.

@@ -13,7 +13,7 @@ import statistics
 
 # Published strain of the steady state (5.4), and of the end (at least).
 STEADY = 0.205
-# Axial strain over which a value at a strain is averaged, and a peak taken (dem/measures/shear_peaks.hpp).
+# Axial strain over which a value at a strain is averaged, and a peak taken (dem/tool/shear_peaks.hpp).
 WINDOW = 0.01
 # Rules for the points: no rule is published. B: slope of a_s over its window at most this share of
 # its largest. D: |d volumetric / d axial| below this over its window.

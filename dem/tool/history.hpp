@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <tangency/dem/measures/shear_peaks.hpp>
+#include <tangency/dem/tool/shear_peaks.hpp>
 
 namespace tangency::inline v0::dem {
 

@@ -35,25 +35,18 @@ double axial_strain_before(const Simulation& simulation) {
   return axial_strain_of(state) - kMore * std::max(shortening, 0.0);
 }
 
-/// The stress of a row, which has six components.
-Mat3 stress_in(const History& history, std::size_t row) {
-  const auto value = [&](const char* name) { return history.column(name)[row]; };
-  const double xy = value("s_xy"), yz = value("s_yz"), zx = value("s_zx");
-  Mat3 stress;
-  stress << value("s_xx"), xy, zx, xy, value("s_yy"), yz, zx, yz, value("s_zz");
-  return stress;
-}
+double stress_ratio(double deviator, double mean) { return mean > 0.0 ? deviator / mean : 0.0; }
 
 std::vector<ShearPointRow> rows_of(const History& history, const StageRows& stage,
                                    const State& start) {
-  const int dimensions = start.cell.dimensions;
   const auto axial = history.column("axial_strain"), volume = history.column("volumetric_strain"),
-             angle = history.column("friction_angle_deg");
-  const double ratio = stress_ratio_of(stress_of(start.contacts, start.cell).tensor, dimensions);
-  std::vector<ShearPointRow> rows{{0.0, 0.0, 0.0, ratio}};
+             angle = history.column("friction_angle_deg"), p = history.column("p"),
+             q = history.column("q");
+  const Stress stress = stress_of(start.contacts, start.cell);
+  const double deviator = deviator_of(stress.tensor, stress.dimensions);
+  std::vector<ShearPointRow> rows{{0.0, 0.0, 0.0, stress_ratio(deviator, stress.mean())}};
   for (std::size_t row = stage.first; row < stage.end; ++row)
-    rows.push_back({axial[row], volume[row], angle[row],
-                    stress_ratio_of(stress_in(history, row), dimensions)});
+    rows.push_back({axial[row], volume[row], angle[row], stress_ratio(q[row], p[row])});
   return rows;
 }
 

@@ -22,9 +22,9 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/measures/shear_points.hpp>
 #include <tangency/dem/simulation.hpp>
 #include <tangency/dem/tool/history.hpp>
+#include <tangency/dem/tool/shear_points.hpp>
 
 namespace tangency::inline v0::dem {
 

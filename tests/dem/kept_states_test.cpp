@@ -18,9 +18,10 @@
 #include <string>
 #include <vector>
 
-#include <tangency/dem/measures/shear_points.hpp>
+#include <tangency/dem/micromechanics/stress_force_fabric.hpp>
 #include <tangency/dem/observe.hpp>
 #include <tangency/dem/saved/state_file.hpp>
+#include <tangency/dem/tool/shear_points.hpp>
 
 #include "../tool/process.hpp"
 #include "csv_columns.hpp"
@@ -153,7 +154,8 @@ TEST_F(KeptStates, OfPointsAreTheRowsOfTheRulesAndTheSummarySaysWhere) {
   std::vector<std::int64_t> cycles;
   const dem::State start = state("shear-A.state");
   rows.push_back(
-      {0.0, 0.0, 0.0, dem::stress_ratio_of(dem::stress_of(start.contacts, start.cell).tensor)});
+      {0.0, 0.0, 0.0,
+       micromechanics::shear_stress_ratio(dem::stress_of(start.contacts, start.cell).tensor)});
   cycles.push_back(start.cycle);
   for (const auto& row : rows_of(read_file(whole() + "/history.csv"))) {
     if (row.at("stage") != "shear") continue;
@@ -162,7 +164,7 @@ TEST_F(KeptStates, OfPointsAreTheRowsOfTheRulesAndTheSummarySaysWhere) {
     stress << value("s_xx"), value("s_xy"), value("s_zx"), value("s_xy"), value("s_yy"),
         value("s_yz"), value("s_zx"), value("s_yz"), value("s_zz");
     rows.push_back({value("axial_strain"), value("volumetric_strain"), value("friction_angle_deg"),
-                    dem::stress_ratio_of(stress)});
+                    micromechanics::shear_stress_ratio(stress)});
     cycles.push_back(std::stoll(row.at("cycle")));
   }
   const dem::ShearPoints points = *dem::shear_points(rows);

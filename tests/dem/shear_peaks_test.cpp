@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <tangency/dem/measures/shear_peaks.hpp>
+#include <tangency/dem/tool/shear_peaks.hpp>
 
 namespace {
 
@@ -47,7 +47,7 @@ TEST(ShearPeaks, OfFrictionOfRowsFarApartAreThoseOfThreeNeighbours) {
   EXPECT_NEAR(shear_peaks(made)->friction_angle_deg, 31.0, 1e-12);
 }
 
-// dem/measures/shear_peaks.hpp (1)
+// dem/tool/shear_peaks.hpp (1)
 TEST(ShearPeaks, OfALineHaveItsSlope) {
   const auto made = rows(
       0.0005, 300, [](double e) { return 0.7 * e; }, none);
@@ -79,7 +79,7 @@ TEST(ShearPeaks, OfRowsFarApartAreThoseOfThreeNeighbours) {
   EXPECT_NEAR(shear_peaks(made)->dilation_rate, 0.3, 1e-12);
 }
 
-// dem/measures/shear_peaks.hpp (2)
+// dem/tool/shear_peaks.hpp (2)
 TEST(ShearPeaks, AreTakenOverTheFullWidthOrAllThereIs) {
   // Flat, but for the last two of 50 rows, which rise with slope 1: in the last full window, of 11
   // rows, offsets -5 to 5 of which the last two weigh 4 and 5 times 1 and 2, over 110.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/dem/measures/shear_points.hpp>
+#include <tangency/dem/tool/shear_points.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include <tangency/dem/measures/shear_peaks.hpp>
-#include <tangency/dem/measures/strain_windows.hpp>
+#include <tangency/dem/tool/shear_peaks.hpp>
+#include <tangency/dem/tool/strain_windows.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
@@ -63,18 +63,6 @@ std::optional<std::size_t> constant_volume_of(Rows rows, std::size_t peak) {
 }
 
 }  // namespace
-
-double stress_ratio_of(const Mat3& stress, int dimensions) {
-  if (dimensions == 2) {
-    const double mean = stress.topLeftCorner<2, 2>().trace() / 2.0;
-    const double apart = (stress(0, 0) - stress(1, 1)) / 2.0;
-    const double half = std::sqrt(apart * apart + stress(0, 1) * stress(0, 1));
-    return mean > 0.0 ? half / mean : 0.0;
-  }
-  const double mean = stress.trace() / 3.0;
-  const Mat3 deviator = stress - mean * Mat3::Identity();
-  return mean > 0.0 ? std::sqrt(1.5) * deviator.norm() / mean : 0.0;
-}
 
 std::optional<ShearPoints> shear_points(Rows rows) {
   if (rows.size() < 2) return std::nullopt;

@@ -18,21 +18,14 @@
 #include <optional>
 #include <span>
 
-#include <tangency/geometry/vectors.hpp>
-
 namespace tangency::inline v0::dem {
 
 /// What a row of a history says. Strains count from the start of the stage.
 struct ShearPointRow {
   double axial_strain, volumetric_strain;  ///< where the point is
   double friction_angle_deg;               ///< at the point
-  double stress_ratio;                     ///< stress_ratio_of()
+  double stress_ratio;  ///< q / p of observe.hpp [Ouadfel1998, eq. 6.23]; 0 where p is not > 0
 };
-
-/// a_s = sqrt(3/2 s':s') / (tr s / 3) of a stress and its deviator s' [Ouadfel1998, eq. 6.23]; in
-/// the plane (s1 - s2) / (s1 + s2). 0 where the mean stress is not > 0.
-/// (1) It does not depend on axes or units.
-double stress_ratio_of(const Mat3& stress, int dimensions = 3);
 
 /// Widths of axial strain and thresholds. Chosen with the rules: an assembly of a thousand yields
 /// over some 0.01, and its volume wanders by 0.001.

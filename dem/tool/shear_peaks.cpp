@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <tangency/dem/measures/shear_peaks.hpp>
+#include <tangency/dem/tool/shear_peaks.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
-#include <tangency/dem/measures/strain_windows.hpp>
+#include <tangency/dem/tool/strain_windows.hpp>
 
 namespace tangency::inline v0::dem {
 namespace {
