@@ -102,8 +102,8 @@ TEST(Scene, AnUnknownKeyIsNamedWithThoseThatAreAllowed) {
             "elongation, flatness, elongations, flatnesses, sizes, size_spread, size_tails, "
             "sieve_openings, sieve_passing, layer, density");
   EXPECT_EQ(refusal_with("[cell]", "[sell]"),
-            "scene.toml:2: sell: no such key; allowed are schema, include, units, cell, motion, "
-            "particles, wall, body, contact, stage, output, sweep");
+            "scene.toml:2: sell: no such key; allowed are schema, include, intended, units, cell, "
+            "motion, particles, wall, body, contact, stage, output, sweep");
   EXPECT_EQ(refusal_with("kind = \"place\"", "kind = \"place\"\nmean_stress = 1.0"),
             "scene.toml:12: stage[0].mean_stress: no such key in a stage of this kind; allowed are "
             "kind, name, save, arrangement, file, seed, jitter, bounding_fraction, "
