@@ -33,18 +33,18 @@ std::size_t peak_of(Rows rows) {
 
 std::size_t yield_of(Rows rows, std::size_t peak) {
   double steepest = 0.0;
-  std::optional<double> yield;  // mean strain of the window
+  std::size_t yield = peak;
   for_each_window(rows.first(peak + 1), kYieldWindow, [&](Rows window) {
     const auto slope = slope_of(window, &ShearPointRow::stress_ratio);
     if (!slope) return;
     if (slope->rate > steepest) {
       steepest = slope->rate;
-      yield.reset();
-    } else if (!yield && slope->rate <= kYieldShare * steepest) {
-      yield = slope->strain;
+      yield = peak;
+    } else if (yield == peak && slope->rate <= kYieldShare * steepest) {
+      yield = nearest(rows, 0, peak + 1, slope->strain);
     }
   });
-  return yield ? nearest(rows, 0, peak + 1, *yield) : peak;
+  return yield;
 }
 
 /// From the peak on; nothing where the volume goes on changing.
