@@ -12,9 +12,9 @@ namespace tangency::inline v0 {
 namespace {
 
 TraceContact nothing(TraceStatus status) {
-  TraceContact result{};
-  result.status = status;
-  return result;
+  // One by one: of `{}` Eigen's vectors would hold whatever was there.
+  const Vec3 zero = Vec3::Zero();
+  return {status, 0.0, zero, zero, zero, {zero, zero, zero, zero}, TraceCone{}, false, 0};
 }
 
 /// The scheme for a pair known to overlap, in the caller's unit.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// @file
 /// In what the versions of LAMMPS differ, as far as these sources use it: that of 29 Sep 2021,
-/// which Debian 12 has and `tangency-lammps` is linked with, and those of 2022 to 2026, which load
-/// the plugin. What a version has is asked of its own classes: no number of a version is needed.
+/// which Debian 12 has and `tangency-lammps` is linked with, and later ones, which load the plugin;
+/// of these it was compiled for those of 4 Feb 2025 and 4 Jul 2026. What a version has is asked of
+/// its own classes: no number of a version is needed.
 #pragma once
 
 #include <atom_vec_ellipsoid.h>

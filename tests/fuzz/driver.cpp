@@ -16,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <tangency/geometry/tables/command_line.hpp>
@@ -154,15 +155,25 @@ void read_counts(const std::string& path) {
     count(name, number);
 }
 
-/// Beside the file, and renamed, so that what was counted is not lost where this is ended.
+/// Beside the file, and renamed, so that what was counted is not lost where this is ended or where
+/// nothing can be written.
 void write_counts(const std::string& path) {
   if (path.empty()) return;
   const std::string part = path + ".part";
-  {
-    std::ofstream file(part);
-    for (const auto& [name, number] : counts()) file << number << ' ' << name << '\n';
-  }
-  fs::rename(part, path);
+  std::ofstream file(part);
+  for (const auto& [name, number] : counts()) file << number << ' ' << name << '\n';
+  file.close();
+  std::error_code failed;
+  if (file) fs::rename(part, path, failed);
+  if (!file || failed) throw tables::UsageError("--counts: " + path + " cannot be written");
+}
+
+/// Makes the folder of an option. At the start: at the end what was found would be lost.
+void make_folder(const std::string& option, const std::string& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed || !fs::is_directory(folder))
+    throw tables::UsageError(option + ' ' + folder + ": must be a folder, or a place for one");
 }
 
 void print_counts(const Target& target) {
@@ -180,7 +191,10 @@ void fuzz(const Target& target, const Options& options) {
   using Clock = std::chrono::steady_clock;
   counts().clear();
   const std::string file = options.counts.empty() ? "" : options.counts + "/" + target.name;
-  if (!file.empty()) read_counts(file);
+  if (!file.empty()) {
+    read_counts(file);
+    write_counts(file);  // where it cannot be, nothing is run
+  }
   watch(target, options);
   if (!options.input.empty()) {
     run(target, bytes_of(options.input), options.limit);
@@ -224,6 +238,8 @@ int run_all(const Options& options) {
   }
   if (!options.input.empty() && chosen.size() != 1)
     throw tables::UsageError("--input is for one target");
+  make_folder("--findings", options.findings);
+  if (!options.counts.empty()) make_folder("--counts", options.counts);
   current.messages = ::dup(2);
   std::printf("seed %llu\n", static_cast<unsigned long long>(options.seed));
   for (const Target* target : chosen) fuzz(*target, options);
@@ -258,13 +274,16 @@ int main(int argc, char** argv) {
           "--inputs", options.inputs,
           "Inputs to begin with beside the seeds, in a folder a target (default: tests/data/fuzz)")
       .type_name("DIR");
-  program.option("--findings", options.findings, "Where a finding's input goes")
+  program
+      .option("--findings", options.findings,
+              "Where a finding's input goes; made where it is missing")
       .shows_default()
       .type_name("DIR");
   program
-      .option("--counts", options.counts,
-              "A file a target here is read first and written at the end: another run goes on "
-              "with other mutations and adds to its counts")
+      .option(
+          "--counts", options.counts,
+          "A file a target here, in a folder that is made where it is missing, is read first and "
+          "written at the end: another run goes on with other mutations and adds to its counts")
       .type_name("DIR");
   program.runs([&] { return run_all(options); });
   return program.run(argc, argv);

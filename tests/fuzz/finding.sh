@@ -17,9 +17,23 @@ grep -q "^the input is in $folder/planted-finding$" "$folder/said" || fail "the 
   fail "the kept input breaks nothing"
 grep -q '^planted: a fault$' "$folder/said" || fail "the kept input shows something else"
 
-mkdir "$folder/counts"
+# The folder is made.
 for _ in 1 2; do "$fuzz" history --runs 10 --inputs "$folder" --counts "$folder/counts" >"$folder/said"; done
 grep -q ' runs 24$\|runs 24,' "$folder/said" || fail "a second run adds nothing to the counts of the first"
+# Where counts cannot be kept nothing is run, and nothing that was counted is lost.
+cp "$folder/counts/history" "$folder/before"
+mkdir "$folder/counts/history.part"
+refused() { # OPTION DIR WORDS: it is refused with these
+  local status=0
+  "$fuzz" history --runs 10 --inputs "$folder" "$1" "$2" >"$folder/said" 2>&1 || status=$?
+  [ $status -eq 2 ] && grep -qF -- "$3" "$folder/said" && ! grep -q '^history:' "$folder/said" ||
+    fail "$1 $2 is not refused before anything is run: $status"
+}
+refused --counts "$folder/counts" "--counts: $folder/counts/history cannot be written"
+cmp -s "$folder/before" "$folder/counts/history" || fail "the counts of earlier runs are lost"
+rmdir "$folder/counts/history.part"
+refused --counts "$folder/before" "--counts $folder/before: must be a folder"
+refused --findings "$folder/before/within" "--findings $folder/before/within: must be a folder"
 "$fuzz" nothing >"$folder/said" 2>&1 && fail "a target that is none is taken"
 grep -q 'nothing is no target' "$folder/said" || fail "a target that is none is not named"
 

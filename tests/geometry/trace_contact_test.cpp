@@ -66,6 +66,9 @@ TEST(TraceContact, AnswersOnlyPairsWhoseRelationIsOverlap) {
     EXPECT_EQ(answer.status, TraceStatus::not_overlapping) << to_string(expected);
     EXPECT_EQ(answer.gap, 0.0);
     EXPECT_EQ(answer.normal, Vec3::Zero());
+    EXPECT_EQ(answer.arm_a, Vec3::Zero());
+    EXPECT_EQ(answer.arm_b, Vec3::Zero());
+    for (const Vec3& corner : answer.corners) EXPECT_EQ(corner, Vec3::Zero());
   }
   EXPECT_EQ(trace_contact(unit, unit.moved_to({1.5, 0, 0})).status, TraceStatus::ok);
 }

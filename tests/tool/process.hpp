@@ -8,7 +8,9 @@
 
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -124,14 +126,20 @@ Finished run_tool(const std::vector<std::string>& arguments, std::string_view in
                   const Process::Place& place = Process::Place());
 
 /// As on a full disk: no file grows beyond `bytes` while this lives, in tools started here too.
+/// Tools that count what they run (tests/coverage) do not say that they cannot write the counts.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : action_(::signal(SIGXFSZ, SIG_IGN)) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit limit{bytes, before_.rlim_max};
     ::setrlimit(RLIMIT_FSIZE, &limit);
+    if (const char* file = std::getenv(kCounts)) {
+      counts_ = file;
+      ::setenv(kCounts, "/dev/null", 1);
+    }
   }
   ~FileSizeLimit() {
+    if (counts_) ::setenv(kCounts, counts_->c_str(), 1);
     ::setrlimit(RLIMIT_FSIZE, &before_);
     ::signal(SIGXFSZ, action_);
   }
@@ -139,8 +147,10 @@ class FileSizeLimit {
   FileSizeLimit& operator=(const FileSizeLimit&) = delete;
 
  private:
+  static constexpr const char* kCounts = "LLVM_PROFILE_FILE";
   void (*action_)(int);
   rlimit before_{};
+  std::optional<std::string> counts_;
 };
 
 }  // namespace tangency::testing
