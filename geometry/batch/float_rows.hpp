@@ -9,7 +9,8 @@ namespace tangency::inline v0::detail {
 /// least_radius and widest. "Single precision" in docs/derivations/gap-batch.md.
 struct alignas(64) FloatRow {
   double centre[3];
-  float largest;       ///< semi-axis; NaN where the body is not moderate(): no lane then settles
+  float largest;       ///< semi-axis; NaN where the body is not moderate(), or thinner than
+                       ///< kThinnestInLanes: no lane then settles
   float least_radius;  ///< of curvature, rounded down
   float shape[6];      ///< xx yy zz yz zx xy of M, the support function being sqrt(n'Mn)
   float widest;        ///< the largest sum of |M_ij| over a row, rounded up

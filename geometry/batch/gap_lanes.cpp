@@ -159,9 +159,13 @@ HWY_INLINE std::uint64_t solve(LaneBlock& block, std::size_t i) {
   const PackSymmetric3 shape_a = shape(pair.a), shape_b = shape(pair.b);
   const PackStart start = first_normal(block, i, pair, shape_a, shape_b);
   PackVec3 n = start.normal;
+  const auto thick = [](const PackBody& body) HWY_ATTR {
+    return body.least_radius >= all(kThinnestInLanes) * body.largest;
+  };
   // False for NaN, which is how bodies that are not moderate() stay out.
-  PackMask going =
-      (pair.size <= all(kLargestModerate)) & (largest_component(pair.d) >= all(kSmallestModerate));
+  PackMask going = (pair.size <= all(kLargestModerate)) &
+                   (largest_component(pair.d) >= all(kSmallestModerate)) & thick(pair.a) &
+                   thick(pair.b);
   const PackMask in_range = going;
   const PackMask coarse = pair.tolerance >= all(block.coarse) * pair.size;
   // Of a coarse answer the first step is left out.

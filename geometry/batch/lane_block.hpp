@@ -34,6 +34,11 @@ static_assert(sizeof(ShapeRow) == 12 * sizeof(double));
 /// float.
 inline constexpr double kFloatTolerance = 0x1p-20;
 
+/// Of (a_min / a_max)^2: gaps of a body below it are left to the single call. Chosen: far below any
+/// body that is in use, and as flat as a normal in doubles still tells a face from what is beside
+/// it. Of flatter ones a lane could settle, in what is asked for, what the single call does not.
+inline constexpr double kThinnestInLanes = 0x1p-80;
+
 /// In u L: a lane is settled where its gap_error is at most this and the tolerance.
 inline constexpr double kLaneErrorBound = 16.0;
 

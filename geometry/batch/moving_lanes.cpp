@@ -146,10 +146,11 @@ HWY_INLINE void fill_rows(const double* semi_axes, const double* orientations,
   if (to.floats == nullptr) return;
   // Bodies that are not moderate have no M, and else a radius out of the range of float.
   const Pack radius = chosen(moderate, all(kBelowFloat) * least, nothing);
+  const Pack not_thin = chosen(least < all(kThinnestInLanes) * given, no_number, given);
   const Pack float_columns[8] = {centre.x,
                                  centre.y,
                                  centre.z,
-                                 floats_beside(given, radius),
+                                 floats_beside(not_thin, radius),
                                  floats_beside(m.xx, m.yy),
                                  floats_beside(m.zz, m.yz),
                                  floats_beside(m.zx, m.xy),

@@ -104,8 +104,9 @@ HWY_INLINE void fill(const LaneBody& body, ShapeRow& row) {
 HWY_INLINE void fill(const LaneBody& body, const ShapeRow& row, FloatRow& to) {
   // Bodies that are not moderate have no M, and else a radius out of the range of float.
   const double radius = __builtin_isnan(body.largest) ? 0.0 : kBelowFloat * row.least_radius;
+  const bool thin = body.least_radius < kThinnestInLanes * body.largest;
   for (std::size_t k = 0; k < 3; ++k) to.centre[k] = row.centre[k];
-  to.largest = static_cast<float>(body.largest);
+  to.largest = thin ? __builtin_nanf("") : static_cast<float>(body.largest);
   to.least_radius = static_cast<float>(radius);
   to.widest = static_cast<float>(kAboveFloat * row.reach);
   for (std::size_t k = 0; k < 6; ++k) to.shape[k] = static_cast<float>(row.shape[k]);

@@ -15,6 +15,7 @@
 
 #include <tangency/geometry/bounded_gap.hpp>
 #include <tangency/geometry/gap_batch.hpp>
+#include <tangency/geometry/moving_bodies.hpp>
 #include <tangency/geometry/power_of_two.hpp>
 #include <tangency/tests/geometry/batch_pairs.hpp>
 #include <tangency/verify/oracles/gap.hpp>
@@ -181,6 +182,47 @@ TEST(FlatFaces, BatchHasStatusAndSignOfTheSingleCallAtEveryAccuracy) {
             << ", the single call " << single[i].gap << " +- " << single[i].gap_error;
         ASSERT_EQ(gap.gap > 0, single[i].gap > 0) << i;
         ASSERT_LE(std::abs(gap.gap - single[i].gap), gap.gap_error + single[i].gap_error) << i;
+      }
+    }
+  });
+}
+
+// Of a needle of 2e3 and 2e-17 float proves the gap to 4 of 3e7, of one of 44 and 4e-18 double to
+// the length that is asked for; no normal in doubles proves either to rounding.
+TEST(FlatFaces, BodiesThatNoNormalInDoublesTellsHaveTheStatusOfTheSingleCall) {
+  const std::vector<Vec3> centres{
+      {0x1.90b739ae0d80fp+23, 0x1.0799e0cb20f35p+17, -0x1.4c7d476dfa4c3p+24},
+      {0, 0, 0},
+      {0, 0, 0},
+      {-0x1.21f2d7cedbe44p+16, -0x1.062935ece335dp+17, -0x1.ceab64215913ap+17}};
+  const std::vector<Vec3> axes{
+      {0x1.30d18c0449632p+11, 0x1.301ad17825bbbp-56, 0x1.4a07bf3051386p-58},
+      {0x1.f26dc7e656dddp+22, 0x1.6e0506f06da44p+24, 0x1.468e5f2820412p+20},
+      {0x1.139ccbd2da612p+18, 0x1.57559610d7b73p+7, 0x1.c6fb2c7ee85dep+16},
+      {0x1.5fa266a61502dp+5, 0x1.1e5c280b1b91dp-58, 0x1.337cfda067e0ap-59}};
+  const std::vector<Quaternion> turns{
+      {0x1.2399fdd63ecefp-1, -0x1.12edd2f5bf0fcp-2, 0x1.b057e900a02e7p-2, -0x1.4de51d32c8a64p-1},
+      {-0x1.521595fcbd52ap-1, 0x1.b86d80c13a9a4p-2, -0x1.08467d7a58331p-2, 0x1.1e2960750db4bp-1},
+      {-0x1.37aa952943ad2p-1, -0x1.f1504611d2ac7p-7, -0x1.5b95f8af9f2d6p-1, 0x1.a426c41ca1e98p-2},
+      {-0x1.5455afd0adc1p-2, 0x1.90c992b38947bp-2, 0x1.8acdb8c4945bfp-1, -0x1.818948e9374d8p-2}};
+  std::vector<Ellipsoid> bodies, first, second;
+  for (std::size_t i = 0; i < axes.size(); ++i) bodies.emplace_back(centres[i], axes[i], turns[i]);
+  for (const std::size_t i : {0U, 2U}) first.push_back(bodies[i]), second.push_back(bodies[i + 1]);
+  const std::vector<IndexedPair> pairs{{0, 1}, {2, 3}};
+  const BodyArray array(bodies);
+  const MovingBodies moving(axes, {turns, VectorColumn(centres)});
+  at_every_level([&] {
+    for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::within(1e3)}) {
+      Columns indexed(2), moved(2);
+      std::vector<Gap> plain(2);
+      signed_gaps(array, PairList{pairs}, indexed.all(), accuracy);
+      signed_gaps(first, second, plain, accuracy);
+      signed_gaps(moving, PairList{pairs}, moved.all(), accuracy);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const GapStatus single = signed_gap(first[i], second[i]).status;
+        EXPECT_EQ(indexed[i].status, single) << i << ", " << indexed[i].gap_error;
+        EXPECT_EQ(plain[i].status, single) << i << ", " << plain[i].gap_error;
+        EXPECT_EQ(moved[i].status, single) << i << ", " << moved[i].gap_error;
       }
     }
   });

@@ -227,8 +227,8 @@ RC_GTEST_PROP(GapCap, BoundsTheValueInAllOfItself, ()) {
   }
 }
 
-// An ascent from near an axis of a needle can end where the curvatures prove nothing, and the
-// rolling ball has to bound the gap.
+// An ascent to a body that is thinner than normals in doubles tell can end where the curvatures
+// prove nothing, and the rolling ball has to bound the gap.
 TEST(GapProof, OfBodiesApartHoldsFromAPoorNormalToo) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> exponent(-60, 0);

@@ -187,6 +187,7 @@ TEST(HuntCommand, RefusesWhatItCannotHuntFor) {
   for (const auto& [features, said] :
        {std::pair("tie", "tie is not a feature; these are: touching near nested deep ties extreme"),
         std::pair("near,ties", "ties is no feature of a hunt"),
+        std::pair("", "a list of features is empty"),
         std::pair("touching,near,nested,deep", "none of 1 answers is left to judge")}) {
     const Finished none =
         hunt(kKernel, {"--from", "near", "--answers", "1", "--not-claimed", features});

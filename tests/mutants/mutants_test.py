@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators change what they say and nothing else; the draw and the bookkeeping add up."""
+import argparse
+import importlib.machinery
+import importlib.util
 import pathlib
 import sys
 import tempfile
+import types
 import unittest
 
 sys.dont_write_bytecode = True
@@ -240,6 +244,39 @@ class PlantedMutants(unittest.TestCase):
         for text in ("{\n  y = 1;\n}\n", "  x = 1;\n  x = 1;\n"):
             with self.assertRaisesRegex(ValueError, "geometry/a.cpp: these lines are not there once"):
                 mutant.applied_to(text)
+
+
+class Hunted(unittest.TestCase):
+    """What a hunt says of a mutant, by a program that prints and ends as it is told."""
+
+    PRINTED = ("finding 1: bound broken (long), from near, answer 7\n  a  centre 0\n  b  centre 1\n"
+               "  true: separate, gap 0.25; answered: overlaps 1\n")
+
+    def asked(self, last, printed=""):
+        loader = importlib.machinery.SourceFileLoader("hunted", str(ROOT / "tests/mutants/hunted"))
+        hunted = importlib.util.module_from_spec(importlib.util.spec_from_loader("hunted", loader))
+        loader.exec_module(hunted)
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "tests/verify/kernel_hunt")
+            program.parent.mkdir(parents=True)
+            pathlib.Path(folder, "said").write_text(printed)
+            program.write_text(f"#!/bin/sh\ncat '{folder}/said'\n{last}\n")
+            program.chmod(0o755)
+            return hunted.hunt(types.SimpleNamespace(build=pathlib.Path(folder)), "single",
+                               argparse.Namespace(answers=1, seed=1))
+
+    def test_a_finding_is_read_and_a_hunt_without_one_found_nothing(self):
+        self.assertEqual(self.asked("exit 1", self.PRINTED),
+                         ("bound broken", 7, "  a  centre 0\n  b  centre 1\n",
+                          "separate, gap 0.25; answered: overlaps 1"))
+        self.assertIsNone(self.asked("exit 0"))
+
+    def test_a_program_that_crashes_has_found_the_mutant(self):
+        self.assertEqual(self.asked("kill -SEGV $$")[0], "it ended")
+
+    def test_a_hunt_that_is_refused_has_found_nothing(self):
+        with self.assertRaisesRegex(Exception, "kernel_hunt: status 2: no such call"):
+            self.asked("echo no such call >&2; exit 2")
 
 
 if __name__ == "__main__":

@@ -372,7 +372,7 @@ void add_hunt(tables::Program& program) {
       .option("--not-claimed", options->not_claimed,
               "Features that the tool does not promise, with commas between them: pairs that have "
               "one are not judged")
-      .not_empty()
+      .not_empty("list of features")
       .type_name("FEATURE,...");
   command.option("--seed", options->seed, "Another seed, another hunt")
       .check(check_seed)

@@ -79,7 +79,7 @@ void add_row_options(tables::Command& command, RowChoice& choice) {
       .option("--not-claimed", choice.not_claimed,
               "Features that the tool does not promise, with commas between them: their rows are "
               "counted apart, and never as passed")
-      .not_empty()
+      .not_empty("list of features")
       .type_name("FEATURE,...");
   command
       .option("--expected", choice.expected,
