@@ -369,7 +369,7 @@ TEST_F(Tables, KnowTheFrictionOfASceneThatTheRunChangedAndOfAStateFromAPipe) {
     arguments.insert(arguments.end(), set.begin(), set.end());
     const Finished of_file = run_tool(arguments);
     EXPECT_EQ(of_file.status, 0) << of_file.err;
-    if (command == std::string("contacts")) EXPECT_EQ(of_file.out, of_run);
+    EXPECT_EQ(of_file.out == of_run, command == std::string("contacts"));
     arguments[1] = "/dev/stdin";
     const Finished of_pipe = run_tool(arguments, state);
     EXPECT_EQ(of_pipe.out, of_file.out) << command << of_pipe.err;
