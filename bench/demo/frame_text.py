@@ -12,10 +12,10 @@ import zlib
 CODES = {"Float64": "d", "Float32": "f", "Int32": "i"}
 
 
-def array_at(appended, offset):
+def array_at(appended, offset, order):
     """The bytes of an array: counts of 8 bytes, then its blocks."""
-    blocks, size, last = struct.unpack_from("<3Q", appended, offset)
-    lengths = struct.unpack_from(f"<{blocks}Q", appended, offset + 24)
+    blocks, size, last = struct.unpack_from(f"{order}3Q", appended, offset)
+    lengths = struct.unpack_from(f"{order}{blocks}Q", appended, offset + 24)
     place = offset + 24 + 8 * blocks
     parts = []
     for length in lengths:
@@ -26,12 +26,13 @@ def array_at(appended, offset):
 
 with open(sys.argv[1], "rb") as file:
     head, appended = file.read().split(b'<AppendedData encoding="raw">\n_', 1)
+order = ">" if b'byte_order="BigEndian"' in head else "<"
 for tag in re.findall(r"<DataArray [^>]*>", head.decode()):
     name, kind = re.search(r'Name="([^"]*)"', tag)[1], re.search(r'type="([^"]*)"', tag)[1]
     components = re.search(r'NumberOfComponents="(\d+)"', tag)
     width = int(components[1]) if components else 1
-    bytes_of = array_at(appended, int(re.search(r'offset="(\d+)"', tag)[1]))
-    numbers = [number for (number,) in struct.iter_unpack("<" + CODES[kind], bytes_of)]
+    bytes_of = array_at(appended, int(re.search(r'offset="(\d+)"', tag)[1]), order)
+    numbers = [number for (number,) in struct.iter_unpack(order + CODES[kind], bytes_of)]
     print(f'<DataArray Name="{"points" if name == "Points" else name}">')
     for k in range(0, len(numbers), width):
         print(*numbers[k:k + width])

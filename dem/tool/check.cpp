@@ -40,6 +40,9 @@ constexpr double kBeyondLargestOverlap = 2.0;
 /// Share of the machine's memory that a run may take. Chosen: the rest is of others.
 constexpr double kShareOfMemory = 0.8;
 
+/// The largest value that the key largest_overlap takes (dem/scene/scene_keys.cpp).
+constexpr double kMostLargestOverlap = 0.2;
+
 /// In mean radii: with less than the first a stage whose cycles are too many has contacts that are
 /// stiffer than its stresses can tell, and the second is advised. Measured: below 0.01 nothing but
 /// the number of cycles changes (docs/choosing.md).
@@ -140,7 +143,7 @@ class Checker {
       const std::string reason = "bodies that meet at twice the largest speed, " +
                                  short_text(fastest) + ", overlap by " + short_text(overlap) +
                                  " of their mean radius";
-      if (overlap > kSoundOverlap) {
+      if (overlap > kSoundOverlap && !scene_.intends(scene_.stages.front(), "impact")) {
         const bool hertz = law_of(type).hertz.has_value();
         const double power = hertz ? 2.5 : 2.0;
         add(nullptr, "impact", reason + ", more than " + short_text(kSoundOverlap),
@@ -186,10 +189,10 @@ class Checker {
     const ContactLaw& law = law_of(type);
     if (!law.hertz || has("largest_overlap")) return;
     const double least = largest_overlap_of(type);
-    if (overlap <= kBeyondLargestOverlap * least) return;
+    const double advised = std::min(kMostLargestOverlap, overlap);
+    if (overlap <= kBeyondLargestOverlap * least || advised <= 1.01 * least) return;
     add(stage, "largest_overlap", reason + ", and time steps are right up to " + short_text(least),
-        {{table_of_law(type) + ".largest_overlap", short_text(least),
-          rounded_up(std::min(0.2, overlap))}});
+        {{table_of_law(type) + ".largest_overlap", short_text(least), rounded_up(advised)}});
   }
 
   void check_stress(const StageForecast& seen) {
@@ -198,9 +201,8 @@ class Checker {
     const std::string reason = "under a stress of " + short_text(seen.pressed->stress) +
                                " the mean overlap will be some " + short_text(*seen.overlap) +
                                " of the mean radius";
-    if (*seen.overlap <= kSoundOverlap)
+    if (*seen.overlap <= kSoundOverlap || scene_.intends(stage, "overlap"))
       return check_largest_overlap(&stage, seen.softest, *seen.overlap, reason);
-    if (scene_.intends(stage, "overlap")) return;
     const Change change =
         stiffer(seen.softest, stiffer_by(scene_, seen.softest, *seen.pressed, kAdvisedOverlap));
     const auto is_it = [&](const Advice& one) {

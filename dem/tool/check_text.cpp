@@ -61,11 +61,13 @@ Json json_of(const StageForecast& seen, const Scene& scene) {
           {"cell_over_least", json_of(seen.cell_over_least)}};
 }
 
-/// Those of the advice that a scene may call intended, each once, as TOML writes them.
-std::string may_be_intended(const std::vector<Advice>& advice) {
+/// Those of the advice that the key `intended` of that section takes, each once, as TOML writes
+/// them.
+std::string may_be_intended(const std::vector<Advice>& advice, std::string_view section) {
   const auto keys = scene_keys();
-  const Key& key = *std::find_if(keys.begin(), keys.end(),
-                                 [](const Key& one) { return one.name == "intended"; });
+  const Key& key = *std::find_if(keys.begin(), keys.end(), [&](const Key& one) {
+    return one.name == "intended" && one.section == section;
+  });
   std::string names;
   for (const Advice& one : advice) {
     const std::string name = '"' + one.about + '"';
@@ -95,9 +97,10 @@ std::string text_of(const SceneCheck& check, const Simulation& simulation) {
   text += std::to_string(scene.particle_count()) + " particles, some " +
           tables::rounded_text(1e-6 * check.memory, 2) + " MB\n";
   for (const Advice& one : check.advice) text += "advice: " + one.text() + '\n';
-  if (const std::string meant = may_be_intended(check.advice); !meant.empty())
-    text += "if it is meant so, write in the stage or at the head of the scene: intended = [" +
-            meant + "]\n";
+  if (const std::string meant = may_be_intended(check.advice, ""); !meant.empty())
+    text += std::string("if it is meant so, write ") +
+            (may_be_intended(check.advice, "stage") == meant ? "in the stage or " : "") +
+            "at the head of the scene: intended = [" + meant + "]\n";
   const std::size_t count = check.advice.size();
   return text + (count == 0 ? "nothing to change\n" : std::to_string(count) + " to change\n");
 }

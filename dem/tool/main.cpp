@@ -299,6 +299,8 @@ void add_friction(tables::Command& command, StateFriction& friction) {
       .type_name("MU")
       .check(refused_friction)
       .excludes(scene);
+  command.option("--set", friction.settings, "What the run had of that scene otherwise, as run's")
+      .type_name("KEY=VALUE");
 }
 
 void add_micro(tables::Program& program) {

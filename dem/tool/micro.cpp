@@ -57,12 +57,16 @@ micromechanics::Classes::Kind partition_named(const std::string& name) {
 
 ContactLaws laws_of(const State& state, const std::string& file, const StateFriction& friction) {
   if (friction.given) return with_friction(state.laws, *friction.given);
-  if (friction.scene.empty()) return state.laws;
+  if (friction.scene.empty()) {
+    if (friction.settings.empty()) return state.laws;
+    throw tables::UsageError("--set: changes keys of a --scene, which is not given");
+  }
   RunOptions options;
   options.scene = friction.scene;
+  options.settings = friction.settings;
   options.resume = file;
   options.quiet = true;
-  return laws_of(simulation_of(options, scene_file_of(options)));
+  return laws_of(simulation_of(options, scene_file_of(options), state));
 }
 
 int micro(const MicroOptions& options) {

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <tangency/dem/micromechanics/averages.hpp>
 #include <tangency/dem/state.hpp>
@@ -16,12 +17,14 @@ namespace tangency::inline v0::dem {
 /// without a friction of its own.
 struct StateFriction {
   std::optional<double> given;
-  std::string scene;  ///< a file; empty: none
+  std::string scene;                  ///< a file; empty: none
+  std::vector<std::string> settings;  ///< what --set changed of the scene in the run
 };
 
 /// The laws of a state's contacts with that friction.
 /// @param file  the state's
 /// @throws SceneError, StateError  where the scene is refused, or is not the state's
+/// @throws tables::UsageError      settings without a scene
 ContactLaws laws_of(const State& state, const std::string& file, const StateFriction& friction);
 
 struct MicroOptions {

@@ -461,16 +461,21 @@ SceneFile scene_file_of(const RunOptions& options) {
 }
 
 Simulation simulation_of(const RunOptions& options, const SceneFile& file) {
+  if (options.resume) return simulation_of(options, file, load_state(*options.resume));
   Scene scene = file.scene();
   read_bodies(scene, file, options.scene);
   try {
-    if (!options.resume) return placed(scene, options.quiet);
+    return placed(scene, options.quiet);
   } catch (const CellTooThin& error) {
     throw SceneError(options.scene.string() + ": " + error.what());
   } catch (const DoesNotFit& error) {
     throw SceneError(options.scene.string() + ": " + error.what());
   }
-  State state = load_state(*options.resume);
+}
+
+Simulation simulation_of(const RunOptions& options, const SceneFile& file, State state) {
+  Scene scene = file.scene();
+  read_bodies(scene, file, options.scene);
   try {
     return Simulation(scene, std::move(state));
   } catch (const std::invalid_argument& error) {

@@ -32,6 +32,10 @@ SceneFile scene_file_of(const RunOptions& options);
 /// @throws SceneError, StateError
 Simulation simulation_of(const RunOptions& options, const SceneFile& file);
 
+/// Where a run goes on from a state, which options.resume names.
+/// @throws SceneError, StateError
+Simulation simulation_of(const RunOptions& options, const SceneFile& file, State state);
+
 /// Runs a scene, without its [sweep]; messages go to standard error.
 /// @throws SceneError, StateError, OutputError  where the input is refused
 /// @throws WriteError, std::filesystem::filesystem_error  where a result cannot be written

@@ -9,13 +9,16 @@ the page is used: colours, chains, cut, frames, hands, a wall. Last come times w
 the same bodies as meshes of 320 triangles beside. On a machine with other work the time of the graphics' own
 process counts, where that is less. Ends with 1 at the first fault. Packages: .ci/setup browser
 """
+import base64
 import os
 import pathlib
 import random
 import re
 import statistics
+import struct
 import subprocess
 import sys
+import zlib
 
 from browser import Browser
 
@@ -71,6 +74,36 @@ def arrays_of(frame):
     return arrays
 
 
+def big_endian(frame):
+    """The same .vtp file as a machine of the other order of bytes writes it."""
+    head, appended = frame.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+    parts, tail = [], 0
+
+    def turn(tag):
+        nonlocal tail
+        offset, size = int(tag[2]), 8 if b'"Float64"' in tag[1] else 4
+        blocks = int.from_bytes(appended[offset:offset + 8], "little")
+        counts = struct.unpack_from(f"<{3 + blocks}Q", appended, offset)
+        place, packed = offset + 8 * len(counts), []
+        for length in counts[3:]:
+            numbers = zlib.decompress(appended[place:place + length])
+            packed.append(zlib.compress(b"".join(numbers[k:k + size][::-1] for k in range(0, len(numbers), size))))
+            place += length
+        part = struct.pack(f">{len(counts)}Q", *counts[:3], *map(len, packed)) + b"".join(packed)
+        at, tail = tail, tail + len(part)
+        parts.append(part)
+        return tag[1] + b'offset="%d"' % at
+    head = re.sub(rb'(<DataArray [^>]*)offset="(\d+)"', turn, head.replace(b"LittleEndian", b"BigEndian"))
+    return head + b'<AppendedData encoding="raw">\n_' + b"".join(parts) + b"</AppendedData></VTKFile>"
+
+
+def is_read_in_both_orders(browser, out):
+    frame = sorted((out / "frames").glob("*.vtp"), key=lambda file: file.stat().st_size)[-1]
+    both = [base64.b64encode(whole).decode() for whole in (frame.read_bytes(), big_endian(frame))]
+    told = browser.run(ALL_NUMBERS, *both)
+    require(len(told[0]) > 5 and told[0] == told[1], f"{frame.name} of a big-endian machine is read otherwise")
+
+
 def turned(q, v):
     """v in the axes of a body: R' v, R of the quaternion x, y, z, w."""
     x, y, z, w = q
@@ -116,6 +149,16 @@ return given[0].map(([fx, fy]) => {
   return { start: v.middle.map((p, k) => p + aside[k]), way: timesTransposed(m, [0, 0, 1]), hit: v.bodyAt(box.left + x, box.top + box.height - y),
            at, white: pixels[at] + pixels[at + 1] + pixels[at + 2] === 765 };
 });"""
+# The numbers of all arrays of files, which are given as base64.
+ALL_NUMBERS = """return Promise.all(given.map(async (text) => {
+  const file = new VtkFile(text);
+  return Promise.all(file.arrays.map(async ({ of, name }) => [of, name, ...(await file.numbers(of, name))]));
+}));"""
+# What is picked when a pointer that came down elsewhere is lifted over the middle.
+RELEASED = """const { canvas } = await sample, box = canvas.getBoundingClientRect();
+(await sample).picked = -1;
+canvas.dispatchEvent(new PointerEvent("pointerup", { pointerId: 9, clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 }));
+return (await sample).picked;"""
 # Pixels at the rim of the picture that something is drawn on.
 AT_THE_RIM = """const v = await sample, gl = v.renderer.gl, [width, height] = v.fullSize;
 v.renderer.draw([width, height], v.scene, true);
@@ -174,6 +217,7 @@ def marked_alone(browser, certain):
 def picked_is_drawn(browser):
     """The body that is picked is marked, and its values are the frame's."""
     box = browser.run("const b = (await sample).canvas.getBoundingClientRect(); return [b.width, b.height]")
+    require(browser.run(RELEASED) == -1, "a hand that was put down beside the picture picks a body when it is lifted over it")
     browser.drag("canvas", (box[0] / 2, box[1] / 2), (0, 0))
     browser.run("await new Promise(requestAnimationFrame); await new Promise((next) => setTimeout(next, 0))")
     picked = browser.run("return (await sample).picked")
@@ -315,6 +359,7 @@ def main():
             same_as_the_frame(browser, out, cut)
         browser.run("(await sample).cut.value = ''")
         picked_is_drawn(browser)
+        is_read_in_both_orders(browser, out)
         controls(browser, folder)
         looks(browser, page, folder)
         walls(browser, slope)

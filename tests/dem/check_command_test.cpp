@@ -222,6 +222,23 @@ TEST(Check, DoesNotAdviseAgainstWhatIsIntended) {
   EXPECT_EQ(checked(sheared(fast + "intended = [\"overlap\"]\n")).status, 1);
 }
 
+TEST(Check, SaysWhereASceneMayCallItsAdviceIntended) {
+  const Finished seen = checked(small_scene(), {"--set", "motion.gravity=[0.0, 0.0, -9.8]"});
+  const std::string line =
+      "if it is meant so, write at the head of the scene: intended = [\"gravity\"]\n";
+  EXPECT_NE(seen.out.find(line), seen.out.npos) << seen.out;
+}
+
+TEST(Check, AdvisesTheStepOfContactsThatAreSoftOnPurpose) {
+  const std::string soft =
+      with(with(small_scene(), "schema = 1\n", "schema = 1\nintended = [\"overlap\"]\n"),
+           "normal_stiffness = 1.5e10", "law = \"hertz\"\nyoung_modulus = 1e8");
+  const json seen = json::parse(checked(soft, {"--json"}).out);
+  EXPECT_TRUE(advice_about(seen, "overlap").is_null()) << seen;
+  EXPECT_FALSE(advice_about(seen, "largest_overlap").is_null()) << seen;
+  EXPECT_EQ(checked(soft, {"--set", "contact.largest_overlap=0.2"}).status, 0);
+}
+
 TEST(Check, ARunDoesNotWarnOfWhatIsIntended) {
   const TemporaryFolder folder;
   const std::string fast =

@@ -357,6 +357,30 @@ TEST_F(Tables, OfAStateAreThoseOfTheRunByTheFrictionThatItsSceneTells) {
   EXPECT_GT(sliding_and_not(rows, friction).first, 0);
 }
 
+TEST_F(Tables, KnowTheFrictionOfASceneThatTheRunChangedAndOfAStateFromAPipe) {
+  run(sheared_scene("friction_coefficient = 0.2\n"));
+  const std::string table_of_run = out_ + "/contacts/" + std::to_string(state_.cycle) + ".csv";
+  const std::string of_run = read_file(table_of_run), state = read_file(file_);
+  const std::string other = folder_.write("other.toml", sheared_scene());
+  const std::vector<std::string> set{"--scene", other, "--set",
+                                     "stage.shear.friction_coefficient=0.2"};
+  for (const char* command : {"contacts", "micro"}) {
+    std::vector<std::string> arguments{command, file_};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    const Finished of_file = run_tool(arguments);
+    EXPECT_EQ(of_file.status, 0) << of_file.err;
+    EXPECT_EQ(of_file.out == of_run, command == std::string("contacts"));
+    arguments[1] = "/dev/stdin";
+    const Finished of_pipe = run_tool(arguments, state);
+    EXPECT_EQ(of_pipe.out, of_file.out) << command << of_pipe.err;
+    EXPECT_EQ(of_pipe.err, "");
+  }
+  EXPECT_NE(run_tool({"contacts", file_, "--scene", other}).out, of_run);
+  const Finished refused = run_tool({"contacts", file_, "--set", set.back()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--set: changes keys of a --scene"), refused.err.npos) << refused.err;
+}
+
 TEST_F(Tables, RefuseASceneThatIsNotTheStates) {
   run(sheared_scene());
   const std::string other =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files .vtp as dem/tool/vtk_file writes them: XML, then the arrays as raw bytes in blocks compressed by zlib.
 
+const HERE_IS_LITTLE_ENDIAN = new Uint8Array(Uint16Array.of(1).buffer)[0] === 1;
 const NUMBERS = { Float64: Float64Array, Float32: Float32Array, Int32: Int32Array };
 
 async function inflated(bytes) {
@@ -18,6 +19,7 @@ class VtkFile {
     if (end < 0 || this.first === 0) throw new Error("a frame is no .vtp file");
     this.bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
     const xml = new DOMParser().parseFromString(text.slice(0, end) + "</VTKFile>", "text/xml");
+    this.isLittleEndian = xml.documentElement.getAttribute("byte_order") !== "BigEndian";
     this.arrays = [...xml.querySelectorAll("DataArray")].map((element) => ({
       of: element.parentElement.tagName,
       name: element.getAttribute("Name"),
@@ -41,7 +43,7 @@ class VtkFile {
 
   async unpack({ type, offset }) {
     const start = this.first + offset, header = new DataView(this.bytes.buffer);
-    const count = (k) => Number(header.getBigUint64(start + 8 * k, true));
+    const count = (k) => Number(header.getBigUint64(start + 8 * k, this.isLittleEndian));
     const blocks = [];
     let at = start + 8 * (3 + count(0));
     for (let k = 0; k < count(0); ++k) {
@@ -50,6 +52,9 @@ class VtkFile {
     }
     const whole = new Uint8Array(blocks.reduce((sum, block) => sum + block.length, 0));
     blocks.reduce((place, block) => (whole.set(block, place), place + block.length), 0);
+    const size = NUMBERS[type].BYTES_PER_ELEMENT;
+    if (this.isLittleEndian !== HERE_IS_LITTLE_ENDIAN)
+      for (let k = 0; k < whole.length; k += size) whole.subarray(k, k + size).reverse();
     return new NUMBERS[type](whole.buffer);
   }
 }

@@ -44,8 +44,8 @@ function listenToHands(element, on) {
   element.addEventListener("pointerdown", down);
   element.addEventListener("pointermove", moved);
   element.addEventListener("pointerup", (event) => {
-    pointers.delete(event.pointerId);
-    if (walked < STILL) on.click?.(event);
+    const wasHere = pointers.delete(event.pointerId);  // it came down here, not beside
+    if (wasHere && walked < STILL) on.click?.(event);
   });
   element.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
   element.addEventListener("wheel", (event) => {

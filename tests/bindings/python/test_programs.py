@@ -50,6 +50,8 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(dem.contacts(run.final_state, scene=scene), contacts)
             with self.assertRaisesRegex(dem.ProgramError, "no-scene.toml"):
                 dem.contacts(run.final_state, scene=Path(folder) / "no-scene.toml")
+            with self.assertRaisesRegex(dem.ProgramError, "the scene has 12"):
+                dem.contacts(run.final_state, scene=scene, settings={"particles.candy.count": 12})
             frames = list(run.frames())
             self.assertGreater(len(frames), 1)
             self.assertEqual(frames[-1].columns["pos"].shape, (20, 3))
@@ -74,10 +76,11 @@ class Runs(unittest.TestCase):
             self.assertEqual((again.summary["particles"], again.messages), (20, ""))
             with self.assertRaisesRegex(dem.ProgramError, "--replace takes them away"):
                 dem.run(scene, out)
-            settings = {"particles.candy.count": np.int64(12), "motion.rotation": "none"}
+            settings = {"particles.candy.count": np.int64(12), "motion.rotation": "none",
+                        "motion.gravity": [np.int64(0), np.float64(0.0), 0]}
             dem.run(scene, out, replace=True, settings=settings)
             self.assertEqual(again.summary["particles"], 12)
-            self.assertEqual(len(again.summary["set"]), 2)
+            self.assertEqual(len(again.summary["set"]), 3)
             with self.assertRaisesRegex(dem.ProgramError, "friction.*no such key"):
                 dem.run(scene, out, replace=True, settings={"stage.compress.friction": 0.5})
 

@@ -245,17 +245,23 @@ def run(scene: PathLike, out: PathLike, *, settings: Mapping[str, Any] | None = 
         arguments += ["--resume", os.fspath(resume)]
     if replace:
         arguments.append("--replace")
-    for key, value in (settings or {}).items():
-        arguments += ["--set", f"{key}={_toml_text(value)}"]
-    return Run(Path(out), _programs.run(arguments).stderr)
+    return Run(Path(out), _programs.run(arguments + _set(settings)).stderr)
+
+
+def _set(settings: Mapping[str, Any] | None) -> list[str]:
+    return [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={_toml_text(value)}")]
 
 
 def _toml_text(value: Any) -> str:
     """A value of a key as TOML writes it: texts, numbers, truths and lists are those of JSON."""
-    return json.dumps(value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value)
+
+    def plain(one: Any) -> Any:
+        return one.tolist() if isinstance(one, (np.ndarray, np.generic)) else os.fspath(one)
+    return json.dumps(value, default=plain)
 
 
-def contacts(state: PathLike, *, scene: PathLike | None = None, program: str | None = None) -> NDArray[Any]:
+def contacts(state: PathLike, *, scene: PathLike | None = None, settings: Mapping[str, Any] | None = None,
+             program: str | None = None) -> NDArray[Any]:
     """The contacts of a state, a row each: ``a b ix iy iz x y z nx ny nz gap ...``.
 
     Parameters
@@ -265,10 +271,13 @@ def contacts(state: PathLike, *, scene: PathLike | None = None, program: str | N
     scene : path, optional
         The scene of the run. It is needed where a stage has a `friction_coefficient` of its own: the column `sliding`
         then goes by the friction to which the state's stage has come.
+    settings : mapping, optional
+        Those of the run.
     program : str, optional
         As of `run`.
     """
-    return _of_state("contacts", state, program, [] if scene is None else ["--scene", os.fspath(scene)])
+    of_scene = [] if scene is None else ["--scene", os.fspath(scene)]
+    return _of_state("contacts", state, program, of_scene + _set(settings))
 
 
 def particles(state: PathLike, *, program: str | None = None) -> NDArray[Any]:
