@@ -293,10 +293,10 @@ TEST(ContactCommand, AnswerBeyondTheRangeOfADoubleIsNotApplicable) {
 
 // Once a failed assertion, or `inf` in the table: the gap was in range, its error was not.
 TEST(ContactCommand, GapErrorBeyondTheRangeOfADoubleIsNotApplicable) {
-  const std::string a = "1e8,1e17,-1e308,1e308,1e-308,1.7e308,3,1e-308,3.840388782502175e212,1e308";
-  const std::string b =
-      "1e-162,2.987965631325971e143,1.7e308,6.39579217650181e-163,1e308,2.2250738585072014e-308,"
-      "-4.560388495698929e-236,-1.509229637889552e-83,1e100,-3.660365884164792e241";
+  // A disc that no normal in doubles is across, so that its width is left of the error: the gap is
+  // 7e307 and every point within the range, the error 4.7e308.
+  const std::string a = "0,0,-1e308,1.7e308,1e-306,1.7e308,0,1e-71,0,1";
+  const std::string b = "0,0,1.7e308,1,1,1e308,1,1e-159,0,1";
   const Finished run = run_tool({"contact"}, kHeader + a + "," + b + "\n");
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_EQ(run.out, kOutHeader + "0,separate,,,,,,,,,,,,not_applicable,\n");
