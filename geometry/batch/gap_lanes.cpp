@@ -131,14 +131,15 @@ HWY_NOINLINE std::uint64_t follow_deep(LaneBlock& block, std::size_t i, const Pa
     return point_of(pair, n, support(pair.a, n), support(pair.b, n));
   };
   PackAnswer answer{{}, from, {}};
-  PackMask going = asked;
+  PackMask going = asked, enough = none_of_them();
   for (int k = 0;; ++k) {
     answer.at = look(answer.n);
     const PackStep step = newton_step(shape_a, shape_b, pair.size, answer.n, answer.at);
     answer.proof = prove_branch(pair, answer.at, bounds(pair, answer.n, answer.at), step);
-    // Where the normal is asked for too: this is a step or two more than the gap needs.
-    const PackMask enough = block.polish && k < 2 ? none_of_them() : answer.proof.best;
-    going = without(going, enough);
+    // A normal to rounding is a step more than the gap needs.
+    const PackMask needed = answer.proof.best;
+    going = without(going, block.polish ? enough : needed);
+    enough = needed;
     if (none(going) || k == kSteps) break;
     move(step, going, answer.n);
   }

@@ -30,8 +30,9 @@ enum class Shape { needles, discs, triaxial };
 class DeepPairs {
  public:
   /// @param shallowest, deepest  of their overlaps
-  DeepPairs(Shape shape, double aspect, double deepest, std::size_t count, double shallowest = 0.0)
-      : columns(count), random_(kSeed), axes_(2 * count), turns_(2 * count) {
+  DeepPairs(Shape shape, double aspect, double deepest, std::size_t count, double shallowest = 0.0,
+            std::uint64_t seed = kSeed)
+      : columns(count), random_(seed), axes_(2 * count), turns_(2 * count) {
     for (std::size_t i = 0; i < count; ++i) {
       pairs_.push_back({static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1)});
       draw_pair(i, shape, aspect, shallowest, deepest);
@@ -183,23 +184,27 @@ TEST(DeepFollowing, IsNeverAboveTheGlobalGap) {
 }
 
 TEST(DeepFollowing, CertifiedNormalsAreTheSingleCalls) {
-  DeepPairs pairs(Shape::triaxial, 5.0, 0.7, 300);
-  const auto worst = [&](Accuracy accuracy) {
-    follow_gaps(pairs.bodies, pairs.list(), pairs.normals, pairs.columns.all(), accuracy);
-    double off = 0.0;
-    for (std::size_t i = 0; i < pairs.normals.size(); ++i) {
-      const Gap single = pairs.followed(i);
-      if (single.status != GapStatus::local || pairs.columns[i].gap_error == single.gap_error)
-        continue;
-      off = std::max(off, (pairs.columns[i].normal - single.normal).norm());
-    }
-    return off;
-  };
-  pairs.move();
-  const double standard = worst(Accuracy::standard()), certified = worst(Accuracy::certified());
+  double standard = 0.0, certified = 0.0;
+  for (std::uint64_t seed = kSeed; seed < kSeed + 8; ++seed) {
+    DeepPairs pairs(Shape::triaxial, 5.0, 0.7, 300, 0.0, seed);
+    const auto worst = [&](Accuracy accuracy) {
+      follow_gaps(pairs.bodies, pairs.list(), pairs.normals, pairs.columns.all(), accuracy);
+      double off = 0.0;
+      for (std::size_t i = 0; i < pairs.normals.size(); ++i) {
+        const Gap single = pairs.followed(i);
+        if (single.status != GapStatus::local || pairs.columns[i].gap_error == single.gap_error)
+          continue;
+        off = std::max(off, (pairs.columns[i].normal - single.normal).norm());
+      }
+      return off;
+    };
+    pairs.move();
+    standard = std::max(standard, worst(Accuracy::standard()));
+    certified = std::max(certified, worst(Accuracy::certified()));
+  }
   std::printf("normals off by at most %.1e, certified %.1e\n", standard, certified);
   EXPECT_GT(standard, 1e-10);
-  EXPECT_LE(certified, 1e-11);
+  EXPECT_LE(certified, 1e-12);
 }
 
 /// One pair, one previous normal, in every lane.
