@@ -103,8 +103,10 @@ constexpr int kMoves = 60;
 constexpr int kHalvings = 8;  // chosen, of one move
 // The same where the move still promises more than kWorthMore of the size: from a normal beside a
 // face or an edge f climbs all but straight, and Newton's step is millions of times too long.
+// Chosen: 2^40 is far beyond those millions, and below u / 32 of the size no double tells what is
+// won.
 constexpr int kMoreHalvings = 40;
-constexpr double kWorthMore = 0x1p-58;
+constexpr double kWorthMore = kUnitRoundoff / 32;
 
 /// f to first and second order at a normal.
 struct Local {

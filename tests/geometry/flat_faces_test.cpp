@@ -67,6 +67,9 @@ class FlatPairs {
   }
 
  private:
+  // Of the unit ball, a length squared: shorter vectors keep fewer digits of a direction. Chosen.
+  static constexpr double kShortest2 = 1e-3;
+
   double draw(double low, double high) {
     return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
   }
@@ -75,7 +78,7 @@ class FlatPairs {
     Vec3 v;
     do {
       for (double& x : v) x = draw(-1, 1);
-    } while (!(v.squaredNorm() <= 1 && v.squaredNorm() > 1e-3));
+    } while (!(v.squaredNorm() <= 1 && v.squaredNorm() > kShortest2));
     return v.normalized();
   }
   Quaternion turn() {
